@@ -1,0 +1,123 @@
+// The first time within a step at which a polynomial falls below zero, also if it dips and comes
+// back. Bernstein coefficients bound the polynomial, so nothing is sampled and nothing missed.
+#pragma once
+
+#include "overturn/integrate/step.hpp"
+
+#include <limits>
+
+namespace overturn {
+
+/// The smallest Bernstein coefficient: a lower bound of the polynomial.
+template <Number T>
+T lower_bound(const Quintic<T>& c)
+{
+    T least = c[0];
+    for (std::size_t i = 1; i < c.size(); ++i) {
+        least = select<T>(c[i] < least, c[i], least);
+    }
+    return least;
+}
+
+/// The polynomial on [left, right], again with s running from 0 to 1 (de Casteljau, twice).
+template <Number T>
+Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
+{
+    using std::fma;
+    const T one(scalar_t<T>(1));
+    for (std::size_t level = 1; level < c.size(); ++level) {
+        for (std::size_t i = 0; i + level < c.size(); ++i) {
+            c[i] = fma(left, c[i + 1] - c[i], c[i]);
+        }
+    }
+    const T share = (right - left) / (one - left);
+    for (std::size_t level = 1; level < c.size(); ++level) {
+        for (std::size_t i = c.size() - 1; i >= level; --i) {
+            c[i] = fma(share, c[i] - c[i - 1], c[i - 1]);
+        }
+    }
+    return c;
+}
+
+/// The root of a polynomial that falls all along from zero or above to below it, to within `enough`
+/// of itself: Newton's method on de Casteljau's scheme, kept inside the bracket by halving.
+template <Number T>
+T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
+{
+    using std::abs;
+    using std::fma;
+    using S = scalar_t<T>;
+    T low(S(0));
+    T high(S(1));
+    T s = select<T>(c[0] > low, c[0] / (c[0] - c.back()), low);
+    mask_t<T> open = wanted;
+    while (any<T>(open)) {
+        Quintic<T> d = c;
+        for (std::size_t level = 1; level + 1 < d.size(); ++level) {
+            for (std::size_t i = 0; i + level < d.size(); ++i) {
+                d[i] = fma(s, d[i + 1] - d[i], d[i]);
+            }
+        }
+        const T slope = T(S(5)) * (d[1] - d[0]);
+        const T value = fma(s, d[1] - d[0], d[0]);
+        const auto below = value < T(S(0));
+        high = select<T>(open && below, s, high);
+        low = select<T>(open && !below, s, low);
+        const T newton = s - value / slope;
+        const auto inside = newton > low && newton < high;
+        const T next = select<T>(inside, newton, (low + high) * T(S(0.5)));
+        const auto moves =
+            abs(next - s) > enough * high && high > T(std::numeric_limits<S>::epsilon());
+        s = select<T>(open, next, s);
+        open = open && moves;
+    }
+    return s;
+}
+
+/// Per lane of `wanted`: the first s in [0, 1] at which the polynomial falls below -noise; more
+/// than 1 where it never does. A dip of at most `noise` >= 0 is none.
+///
+/// Marches from 0: a piece whose coefficients are all above -noise is passed; a piece that falls
+/// all along and ends below holds the root; any other is halved.
+template <Number T>
+T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wanted)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    const T one(S(1));
+    const T half(S(0.5));
+    const T narrowest(S(0x1p-40)); // a dip narrower than this share of a step is noise
+    T left(S(0));
+    T width = one;
+    mask_t<T> searching = wanted;
+    mask_t<T> found = wanted && !wanted;
+    while (any<T>(searching)) {
+        const T right = left + width;
+        const Quintic<T> piece = restricted(c, left, right);
+        const auto clear = lower_bound(piece) >= -noise;
+        auto falls = piece[0] >= piece[1];
+        for (std::size_t i = 2; i < piece.size(); ++i) {
+            falls = falls && piece[i - 1] >= piece[i];
+        }
+        const auto narrow = width < narrowest;
+        const auto below = piece.back() < -noise;
+        const auto hit = searching && !clear && below && (falls || narrow);
+        const auto pass = searching && !hit && (clear || narrow);
+        found = found || hit;
+        left = select<T>(pass, right, left);
+        width = select<T>(pass, select<T>(width + width < one - left, width + width, one - left),
+                          select<T>(searching && !hit, width * half, width));
+        // Negated so that lanes full of NaN leave as well.
+        searching = searching && !hit && left < one && piece.back() == piece.back();
+    }
+    if (!any<T>(found)) {
+        return one + one;
+    }
+    // Whoever uses the root corrects it to second order, so a third of the digits is enough.
+    using std::cbrt;
+    const T enough(cbrt(std::numeric_limits<S>::epsilon()));
+    const T s = root_of_falling(restricted(c, left, left + width), enough, found);
+    return select<T>(found, fma(width, s, left), one + one);
+}
+
+} // namespace overturn

@@ -1,0 +1,100 @@
+// One Runge-Kutta step of x'' = acceleration(time, x): order 5, with an embedded solution of order
+// 4 and dense output. It knows nothing of rocking.
+#pragma once
+
+#include "overturn/integrate/tableau.hpp"
+#include "overturn/number/number.hpp"
+
+#include <utility>
+
+namespace overturn {
+
+/// Where a step begins, and its acceleration there: the last stage of the step before.
+template <Number T>
+struct Motion {
+    T position;
+    T rate;
+    T acceleration;
+};
+
+/// A polynomial of degree 5 in s on [0, 1], by its Bernstein coefficients: it lies between the
+/// smallest and the largest of them.
+template <Number T>
+using Quintic = std::array<T, 6>;
+
+/// The position over a step of length h: the polynomial that meets position, rate and acceleration
+/// at both ends. Its error, O(h^6), is below that of the step. Dormand and Prince's own dense
+/// output has order 4 and misses the acceleration at the start, so that a block that uplifts
+/// (position, rate and acceleration 0) seems to sink into the ground first; this one costs less.
+template <Number T>
+Quintic<T> dense_output(const Motion<T>& start, const Motion<T>& end, const T& h)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    const T fifth = h * T(value_of<S, Ratio{1, 5}>());
+    const T bend = h * h * T(value_of<S, Ratio{1, 20}>());
+    const T first = fma(fifth, start.rate, start.position);
+    const T last = fma(-fifth, end.rate, end.position);
+    return {start.position,
+            first,
+            fma(bend, start.acceleration, fma(fifth, start.rate, first)),
+            fma(bend, end.acceleration, fma(-fifth, end.rate, last)),
+            last,
+            end.position};
+}
+
+template <Number T>
+struct Step {
+    Motion<T> end;
+    T position_error; ///< local error estimates
+    T rate_error;
+};
+
+/// sum of row[j] x[j] over j < count, leaving out the zeros.
+template <auto row, std::size_t count, Number T>
+T weighted_sum(const std::array<T, DormandPrince::stages>& x)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    T sum = T(value_of<S, row[0]>()) * x[0];
+    const auto add = [&]<std::size_t j>() {
+        if constexpr (!row[j].is_zero()) {
+            sum = fma(T(value_of<S, row[j]>()), x[j], sum);
+        }
+    };
+    [&]<std::size_t... j>(std::index_sequence<j...>)
+    {
+        (add.template operator()<j + 1>(), ...);
+    }
+    (std::make_index_sequence<count - 1>());
+    return sum;
+}
+
+/// A step of length h from `start`. acceleration(c, position) gives x'' at the time c h after the
+/// start, c being a node in the scalar type.
+template <Number T, class Acceleration>
+Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration& acceleration)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    using Table = DormandPrince;
+    std::array<T, Table::stages> rate{start.rate};
+    std::array<T, Table::stages> pull{start.acceleration};
+    T position = start.position;
+    const auto run_stage = [&]<std::size_t i>() {
+        position = fma(h, weighted_sum<Table::stage[i], i>(rate), start.position);
+        rate[i] = fma(h, weighted_sum<Table::stage[i], i>(pull), start.rate);
+        pull[i] = acceleration(value_of<S, Table::node[i]>(), position);
+    };
+    [&]<std::size_t... i>(std::index_sequence<i...>)
+    {
+        (run_stage.template operator()<i + 1>(), ...);
+    }
+    (std::make_index_sequence<Table::stages - 1>());
+
+    return {.end = {position, rate[6], pull[6]},
+            .position_error = h * weighted_sum<Table::error, 7>(rate),
+            .rate_error = h * weighted_sum<Table::error, 7>(pull)};
+}
+
+} // namespace overturn

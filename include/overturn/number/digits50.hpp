@@ -1,0 +1,17 @@
+// Digits50: the reference number, 50 decimal digits. Slow; for tests and tools.
+#pragma once
+
+#include "overturn/number/number.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+namespace overturn {
+
+using Digits50 =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type,
+                                  boost::multiprecision::et_off>;
+
+template <>
+struct number_traits<Digits50> : scalar_number_traits<Digits50> {};
+
+} // namespace overturn

@@ -1,0 +1,98 @@
+// What a number is: the seam through which one text of the physics runs in double, in SIMD lanes
+// and in 50 digits. A new number type specialises number_traits; nothing else is overloaded.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+
+namespace overturn {
+
+template <class T>
+struct number_traits;
+
+/// A lane-free number: any() and all() of its mask are the mask itself.
+template <class T>
+struct scalar_number_traits {
+    using scalar = T;
+    using mask = bool;
+    static constexpr int lanes = 1;
+    static T select(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
+    static bool any(bool mask) { return mask; }
+    static bool all(bool mask) { return mask; }
+    static T load(const T* lanes) { return *lanes; }
+    static void store(T* lanes, const T& number) { *lanes = number; }
+};
+
+template <>
+struct number_traits<double> : scalar_number_traits<double> {
+    /// 2^k for an integer k in [-1022, 1023].
+    static double power_of_two(double k)
+    {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + exponent_shifter) << 52);
+    }
+    /// Adding it leaves k + 1023, a double's biased exponent, in the lowest bits.
+    static constexpr double exponent_shifter = 0x1p+52 + 1023;
+};
+
+/// The type of one lane.
+template <class T>
+using scalar_t = typename number_traits<T>::scalar;
+
+/// What a comparison of two numbers gives: one truth value per lane.
+template <class T>
+using mask_t = typename number_traits<T>::mask;
+
+template <class T>
+inline constexpr int lanes_v = number_traits<T>::lanes;
+
+template <class T>
+concept Number = requires(T a, T b)
+{
+    typename number_traits<T>::scalar;
+    typename number_traits<T>::mask;
+    {a + b};
+    {a * b};
+    {a / b};
+    {-a};
+};
+
+/// The lanes of a number, from and to memory.
+template <Number T>
+T load(const scalar_t<T>* lanes)
+{
+    return number_traits<T>::load(lanes);
+}
+
+template <Number T>
+std::array<scalar_t<T>, lanes_v<T>> lanes_of(const T& number)
+{
+    std::array<scalar_t<T>, lanes_v<T>> lanes;
+    number_traits<T>::store(lanes.data(), number);
+    return lanes;
+}
+
+/// Lane by lane: `yes` where the mask holds, `no` elsewhere.
+template <Number T>
+T select(const mask_t<T>& mask, const T& yes, const T& no)
+{
+    return number_traits<T>::select(mask, yes, no);
+}
+
+/// Whether the mask holds in at least one lane; T cannot be deduced: any<T>(mask).
+template <Number T>
+bool any(const mask_t<T>& mask)
+{
+    return number_traits<T>::any(mask);
+}
+
+/// Whether the mask holds in every lane.
+template <Number T>
+bool all(const mask_t<T>& mask)
+{
+    return number_traits<T>::all(mask);
+}
+
+} // namespace overturn

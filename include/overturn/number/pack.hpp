@@ -1,0 +1,53 @@
+// Pack: a SIMD register of doubles. Its operations are IEEE's, one per lane, so that every lane
+// has the bits that a lone double would have: +, -, *, /, fma, sqrt, comparisons and selection.
+#pragma once
+
+#include "overturn/number/number.hpp"
+
+#include <xsimd/xsimd.hpp>
+
+#ifdef __AVX512F__
+namespace xsimd {
+
+/// xsimd 8.1 rounds twice here: it has no fma for AVX-512 and falls back to x * y + z.
+inline batch<double, avx512dq> fma(const batch<double, avx512dq>& x,
+                                   const batch<double, avx512dq>& y,
+                                   const batch<double, avx512dq>& z)
+{
+    return _mm512_fmadd_pd(x, y, z);
+}
+
+} // namespace xsimd
+#endif
+
+namespace overturn {
+
+/// `Architecture` is one of xsimd's, so that the kernels of two instruction sets in one program
+/// share no function.
+template <class Architecture>
+using Pack = xsimd::batch<double, Architecture>;
+
+template <class Architecture>
+struct number_traits<xsimd::batch<double, Architecture>> {
+    using pack = xsimd::batch<double, Architecture>;
+    using scalar = double;
+    using mask = xsimd::batch_bool<double, Architecture>;
+    using integers = xsimd::batch<std::uint64_t, Architecture>;
+    static constexpr int lanes = int(pack::size);
+    static pack select(const mask& condition, const pack& yes, const pack& no)
+    {
+        return xsimd::select(condition, yes, no);
+    }
+    /// 2^k for an integer k in [-1022, 1023], see number_traits<double>.
+    static pack power_of_two(const pack& k)
+    {
+        const pack shifted = k + pack(number_traits<double>::exponent_shifter);
+        return xsimd::bitwise_cast<pack>(xsimd::bitwise_cast<integers>(shifted) << 52);
+    }
+    static pack load(const double* lanes) { return pack::load_unaligned(lanes); }
+    static void store(double* lanes, const pack& number) { number.store_unaligned(lanes); }
+    static bool any(const mask& condition) { return xsimd::any(condition); }
+    static bool all(const mask& condition) { return xsimd::all(condition); }
+};
+
+} // namespace overturn

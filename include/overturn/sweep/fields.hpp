@@ -1,0 +1,59 @@
+// The fields that a job can ask for: their names, types and what "not computed" looks like.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace overturn {
+
+enum class Field { region, angle, velocity, margin, impacts, status };
+
+/// Names as they stand in job files and result files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 6> field_names{"region", "angle",   "velocity",
+                                                             "margin", "impacts", "status"};
+
+constexpr std::string_view name_of(Field field)
+{
+    return field_names[std::size_t(field)];
+}
+
+/// The values of one field in one tile, row by row, frequency fastest. region and status: uint8;
+/// impacts: uint16; angle, velocity, margin: double.
+using FieldValues =
+    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<double>>;
+
+/// An array for `points` values of a field.
+FieldValues make_field_values(Field field, std::size_t points);
+
+/// Bytes that one point of the field takes.
+constexpr std::size_t bytes_per_point(Field field)
+{
+    switch (field) {
+    case Field::region:
+    case Field::status: return sizeof(std::uint8_t);
+    case Field::impacts: return sizeof(std::uint16_t);
+    default: return sizeof(double);
+    }
+}
+
+/// Flags of the field status. A point without any flag was computed without incident.
+namespace status {
+inline constexpr std::uint8_t came_to_rest = 1; ///< lay still for a while during the pulse
+inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps or impacts: undecided
+inline constexpr std::uint8_t not_finite = 4;   ///< a number overflowed: undecided
+inline constexpr std::uint8_t unresolved = 8;   ///< reserved for resolved verdicts
+inline constexpr std::uint8_t not_computed = 255;
+} // namespace status
+
+/// Values of the field impacts beyond a plain count.
+namespace impact_count {
+inline constexpr std::uint16_t bounce_series = 65535; ///< infinitely many: a series died out
+inline constexpr std::uint16_t not_computed = 65534;
+inline constexpr std::uint16_t largest = 65533; ///< stands for itself and for more
+} // namespace impact_count
+
+} // namespace overturn

@@ -1,0 +1,80 @@
+// The parameter plane: four axes, whose product is the set of points of a spectrum.
+// Everything is dimensionless but the slenderness [rad].
+#pragma once
+
+#include "overturn/sweep/scene.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace overturn {
+
+enum class Spacing { linear, log };
+
+/// Names as they stand in job files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 2> spacing_names{"linear", "log"};
+
+constexpr std::string_view name_of(Spacing spacing)
+{
+    return spacing_names[std::size_t(spacing)];
+}
+
+/// first + (last - first) i / (count - 1), or the same in the logarithm; the last value is exact.
+struct AxisRange {
+    double first = 0;
+    double last = 0;
+    std::int64_t count = 1;
+    Spacing spacing = Spacing::linear;
+};
+
+using AxisList = std::vector<double>;
+
+/// Strictly ascending values, given by a range or one by one.
+class Axis {
+public:
+    Axis() : Axis(AxisList{0}) {}
+    explicit Axis(AxisRange range) : definition_(range) {}
+    explicit Axis(AxisList values) : definition_(std::move(values)) {}
+
+    std::int64_t size() const;
+    double operator[](std::int64_t i) const;
+    double first() const { return (*this)[0]; }
+    double last() const { return (*this)[size() - 1]; }
+
+    /// The values of [begin, end).
+    std::vector<double> values(std::int64_t begin, std::int64_t end) const;
+    std::vector<double> values() const { return values(0, size()); }
+
+    const std::variant<AxisRange, AxisList>& definition() const { return definition_; }
+
+private:
+    std::variant<AxisRange, AxisList> definition_;
+};
+
+/// Half width b and half height h [m] of the block that a job names instead of a slenderness.
+struct BlockSize {
+    double half_width = 0;
+    double half_height = 0;
+};
+
+struct Plane {
+    Axis frequency;   ///< Omega = omega_p / p [1]
+    Axis amplitude;   ///< a = a_p / (g tan alpha), linear theory a_p / (g alpha) [1]
+    Axis restitution; ///< r, or r / r_max(alpha), see restitution_of [1]
+    Axis slenderness; ///< alpha [rad]
+    RestitutionOf restitution_of = RestitutionOf::absolute;
+    std::optional<BlockSize> block; ///< set if the slenderness came from it
+
+    /// Number of points; the reader of jobs has made sure that it fits.
+    std::int64_t points() const;
+
+    /// The energy ratio r at an impact, for the given indices of the two axes [1].
+    double restitution_ratio(std::int64_t slenderness_index, std::int64_t restitution_index) const;
+};
+
+} // namespace overturn

@@ -1,0 +1,68 @@
+// What is simulated: the ground's pulse, the theory of the block, and how finely it is integrated.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace overturn {
+
+enum class PulseKind {
+    one_sine,
+    one_cosine,
+    symmetric_ricker,
+    antisymmetric_ricker,
+    half_sine,
+    rectangular
+};
+
+enum class RestitutionOf { absolute, maximum };
+
+enum class Method { rk45 };
+
+/// Names as they stand in job files and result files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 6> pulse_names{
+    "one_sine",  "one_cosine", "symmetric_ricker", "antisymmetric_ricker",
+    "half_sine", "rectangular"};
+inline constexpr std::array<std::string_view, 2> theory_names{"nonlinear", "linear"};
+inline constexpr std::array<std::string_view, 2> restitution_of_names{"absolute", "maximum"};
+inline constexpr std::array<std::string_view, 1> method_names{"rk45"};
+
+constexpr std::string_view name_of(PulseKind pulse)
+{
+    return pulse_names[std::size_t(pulse)];
+}
+constexpr std::string_view name_of(Theory theory)
+{
+    return theory_names[std::size_t(theory)];
+}
+constexpr std::string_view name_of(RestitutionOf of)
+{
+    return restitution_of_names[std::size_t(of)];
+}
+constexpr std::string_view name_of(Method method)
+{
+    return method_names[std::size_t(method)];
+}
+
+/// Only the Ricker wavelets have no natural end and need a window.
+constexpr bool has_window(PulseKind pulse)
+{
+    return pulse == PulseKind::symmetric_ricker || pulse == PulseKind::antisymmetric_ricker;
+}
+
+struct Scene {
+    PulseKind pulse = PulseKind::one_sine;
+    Theory theory = Theory::nonlinear;
+    double window =
+        1; ///< half width of a Ricker wavelet [pulse periods]; without meaning elsewhere
+};
+
+struct Numerics {
+    Method method = Method::rk45;
+    double tolerance = 1e-9; ///< local error per step of tilt and rate, over the slenderness [1]
+};
+
+} // namespace overturn

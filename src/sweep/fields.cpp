@@ -1,0 +1,15 @@
+#include "overturn/sweep/fields.hpp"
+
+namespace overturn {
+
+FieldValues make_field_values(Field field, std::size_t points)
+{
+    switch (field) {
+    case Field::region:
+    case Field::status: return std::vector<std::uint8_t>(points);
+    case Field::impacts: return std::vector<std::uint16_t>(points);
+    default: return std::vector<double>(points);
+    }
+}
+
+} // namespace overturn

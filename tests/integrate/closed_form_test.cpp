@@ -1,0 +1,117 @@
+// The forced stage against closed forms and against numbers published by others.
+#include "support/one_point.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+const double digits = 1e-12; // the tolerance of these runs
+
+/// The uplift phase psi that solves `equation`, as an amplitude 1 / sin(psi).
+template <class Equation>
+double amplitude_of(const Equation& equation)
+{
+    std::uintmax_t iterations = 100;
+    const auto bracket = boost::math::tools::toms748_solve(
+        equation, 1e-3, pi<double>() / 2, boost::math::tools::eps_tolerance<double>(), iterations);
+    return 1 / std::sin(bracket.first);
+}
+
+// The errors of these runs are some 1e-11 of the end state; the margin falls with the amplitude by
+// order 1. A formula with a wrong sign or a missing term is off in the first digits.
+const double closed_form_error = 1e-10;
+
+TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
+{
+    for (const double frequency : {0.5, 1.5, 3.0, 6.0}) {
+        // Makris & Roussos (2000), eq. 27.
+        const double exact = amplitude_of([&](double psi) {
+            return frequency * std::sin(psi) - std::cos(psi) -
+                   std::exp(-(pi<double>() - psi) / frequency);
+        });
+        const double ours =
+            flip<HalfSine, Theory::linear>({0.2, 0.9, frequency, 0}, 1 + 1e-9, 2 * exact, digits);
+        EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
+    }
+}
+
+TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
+{
+    for (const double frequency : {3.0, 4.0, 5.0, 8.0}) {
+        // Zhang & Makris (2001), eq. 47, sign mended.
+        const double exact = amplitude_of([&](double psi) {
+            return frequency * std::sin(psi) - std::cos(psi) +
+                   std::exp(-(2 * pi<double>() - psi) / frequency);
+        });
+        const double ours = flip<OneSine, Theory::linear>({0.25, 0.81, frequency, 0}, 0.98 * exact,
+                                                          1.02 * exact, digits);
+        EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
+    }
+}
+
+TEST(RectangularLinear, OverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
+{
+    for (const double frequency : {0.7, 2.0, 5.0}) {
+        // p t1 = ln(A / (A - 1)), and the pulse lasts t1 = pi / (Omega p).
+        const double exact = 1 / (1 - std::exp(-pi<double>() / frequency));
+        const double ours = flip<Rectangular, Theory::linear>({0.2, 0.9, frequency, 0}, 1 + 1e-9,
+                                                              3 * exact, digits);
+        EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
+    }
+}
+
+TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
+{
+    // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).
+    const Point<double> point{0.2, 0.9, 2.5, 1.4};
+    const auto end = forced_end<Rectangular, Theory::linear>(point, digits);
+    const double tau = pi<double>() / point.frequency;
+    EXPECT_NEAR(end.state.tilt, 0.2 * 0.4 * (std::cosh(tau) - 1), 1e-11 * 0.2);
+    EXPECT_NEAR(end.state.rate, 0.2 * 0.4 * std::sinh(tau), 1e-11 * 0.2);
+    EXPECT_EQ(end.state.side, -1); // the ground accelerates to +, the block tips to -
+    EXPECT_EQ(end.impacts, 0);
+}
+
+/// Half a unit of the last printed digit, and the error of the runs.
+const double printed = 0.5e-6 + 1e-9;
+
+TEST(OneSineLinear, HasTheSafeStripOfZhangAndMakris)
+{
+    // p = 2.14, alpha = 0.25, velocity ratio 0.9, Omega = 5; printed there: 3.01, 6.32, 7.18.
+    const Point<double> point{0.25, 0.81, 5, 0};
+    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 2.9, 3.1, digits)), 3.018600, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 6.2, 6.5, digits)), 6.318071, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 7.0, 7.3, digits)), 7.168129, printed);
+}
+
+TEST(OneSineNonlinear, HasTheBoundariesOfThePapersBlock)
+{
+    const double alpha = papers_slenderness();
+    const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 1.3, 1.5, digits)), 1.382896, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.5, 3.62, digits)), 3.590936, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.62, 3.8, digits)), 3.647522, printed);
+}
+
+TEST(OneSineNonlinear, HasAWiderSafeStripWithLessRestitution)
+{
+    const double alpha = papers_slenderness();
+    const Point<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 1.4, 1.5, digits)), 1.458920, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.2, 3.4, digits)), 3.276686, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.5, 3.8, digits)), 3.647522, printed);
+}
+
+TEST(OneCosineNonlinear, HasTheBoundariesOfThePapersBlock)
+{
+    const double alpha = papers_slenderness();
+    const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 1.7, 1.9, digits)), 1.801257, printed);
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 6.7, 7.0, digits)), 6.848654, printed);
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 11, 11.3, digits)), 11.139644, printed);
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,11 @@
+// A test that fails on rank 1 alone. ctest knows that it must; see CMakeLists.txt.
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+TEST(MpiTestMain, FailsIfAnyRankFails)
+{
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    EXPECT_NE(rank, 1) << "this failure is wanted";
+}

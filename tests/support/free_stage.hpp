@@ -1,0 +1,53 @@
+// The free stage by plain numerical integration: what the regions are held against.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+
+#include <cmath>
+
+namespace overturn {
+
+struct FreeOutcome {
+    bool falls = false;
+    int impacts = 0; ///< before the fall
+    double side = 0; ///< to which it falls: +1 or -1
+};
+
+/// Classical Runge-Kutta on |theta|'' = -sin(alpha - |theta|), a hundredth of 1/p a step, until
+/// the block is flat, or has lost so much energy at impacts that it cannot reach the top.
+inline FreeOutcome watch_free_stage(State<double> state, const Block<double>& block)
+{
+    const double alpha = block.slenderness;
+    const double h = 0.01;
+    const auto pull = [alpha](double tilt) { return -std::sin(alpha - tilt); };
+    FreeOutcome outcome;
+    while (state.tilt < std::acos(0.0)) {
+        const double k1 = pull(state.tilt);
+        const double k2 = pull(state.tilt + h / 2 * state.rate);
+        const double k3 = pull(state.tilt + h / 2 * (state.rate + h / 2 * k1));
+        const double k4 = pull(state.tilt + h * (state.rate + h / 2 * k2));
+        const State<double> next{state.tilt + h * (state.rate + h / 6 * (k1 + k2 + k3)),
+                                 state.rate + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), state.side};
+        if (next.tilt >= 0) {
+            state = next;
+            continue;
+        }
+        // The speed at the impact from the energy, which is conserved since the last one (Eq. 5).
+        const double below = std::cos(alpha - state.tilt) - std::cos(alpha);
+        const double speed = std::sqrt(state.rate * state.rate + 2 * below);
+        state = {0, std::sqrt(block.restitution) * speed, -state.side};
+        ++outcome.impacts;
+        const double top = 1 - std::cos(alpha);
+        if (state.rate * state.rate / 2 < top) {
+            return outcome;
+        }
+        if (outcome.impacts > 10) {
+            return outcome;
+        }
+    }
+    outcome.falls = true;
+    outcome.side = state.side;
+    return outcome;
+}
+
+} // namespace overturn

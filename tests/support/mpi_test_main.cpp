@@ -1,0 +1,66 @@
+// main() of the tests that run on several ranks: every rank runs every test, a failure is printed
+// with the rank that it happened on, and one failing rank fails the program.
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <iostream>
+#include <sstream>
+
+namespace {
+
+class FailuresWithRank : public testing::EmptyTestEventListener {
+public:
+    explicit FailuresWithRank(int rank) : rank_(rank) {}
+
+    void OnTestPartResult(const testing::TestPartResult& result) override
+    {
+        if (result.failed()) {
+            // In one piece, so that the ranks do not write into each other's lines.
+            std::ostringstream text;
+            text << "rank " << rank_ << ": " << (result.file_name() ? result.file_name() : "?")
+                 << ':' << result.line_number() << ": " << result.message() << '\n';
+            std::cerr << text.str() << std::flush;
+        }
+    }
+
+private:
+    int rank_;
+};
+
+int run_on_this_rank(int rank)
+{
+    testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+    if (rank != 0) {
+        delete listeners.Release(listeners.default_result_printer());
+    }
+    listeners.Append(new FailuresWithRank(rank));
+    const int failed = RUN_ALL_TESTS();
+    return failed != 0 || testing::UnitTest::GetInstance()->test_to_run_count() == 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    MPI_Init(&argc, &argv);
+    testing::InitGoogleTest(&argc, argv);
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+
+    // A communicator of its own: a rank that left a test early must not be mistaken for one that
+    // takes part in its messages.
+    MPI_Comm verdicts = MPI_COMM_NULL;
+    MPI_Comm_dup(MPI_COMM_WORLD, &verdicts);
+    const int failed = run_on_this_rank(rank);
+    int failed_ranks = 0;
+    MPI_Allreduce(&failed, &failed_ranks, 1, MPI_INT, MPI_SUM, verdicts);
+    if (rank == 0 && failed_ranks > 0) {
+        std::cerr << "FAILED on " << failed_ranks << " of " << ranks << " ranks" << std::endl;
+    }
+    MPI_Comm_free(&verdicts);
+    MPI_Finalize();
+    return failed_ranks > 0 ? 1 : 0;
+}

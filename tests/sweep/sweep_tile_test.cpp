@@ -1,0 +1,169 @@
+#include "overturn/sweep/sweep_tile.hpp"
+#include "support/one_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace overturn {
+namespace {
+
+const std::vector<Field> all_fields{Field::region, Field::angle,   Field::velocity,
+                                    Field::margin, Field::impacts, Field::status};
+
+Plane small_plane()
+{
+    Plane plane;
+    plane.frequency = Axis(AxisRange{0.3, 9.0, 37, Spacing::linear});
+    plane.amplitude = Axis(AxisRange{0.9, 12.0, 29, Spacing::linear});
+    plane.restitution = Axis(AxisList{0.6, 1.0});
+    plane.restitution_of = RestitutionOf::maximum;
+    plane.slenderness = Axis(AxisList{0.12, 0.3});
+    return plane;
+}
+
+std::vector<Scene> all_scenes()
+{
+    std::vector<Scene> scenes;
+    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+            scenes.push_back({PulseKind(pulse), theory, 1.0});
+        }
+    }
+    return scenes;
+}
+
+/// All bytes of the whole plane, field by field, in the plane's order.
+std::vector<std::vector<std::byte>> sweep_plane(const Scene& scene, const Plane& plane,
+                                                const Tiling& tiling, Kernel kernel)
+{
+    std::vector<std::vector<std::byte>> bytes(all_fields.size());
+    for (std::size_t f = 0; f < all_fields.size(); ++f) {
+        bytes[f].resize(std::size_t(plane.points()) * bytes_per_point(all_fields[f]));
+    }
+    for (std::int64_t n = 0; n < tiling.size(); ++n) {
+        const Tile tile = tiling[n];
+        const TileFields fields = sweep_tile(scene, {}, plane, tile, all_fields, kernel);
+        for (std::size_t f = 0; f < all_fields.size(); ++f) {
+            std::visit(
+                [&](const auto& values) {
+                    const std::size_t size = sizeof(values[0]);
+                    const std::int64_t page =
+                        tile.slenderness * plane.restitution.size() + tile.restitution;
+                    for (std::int64_t i = 0; i < tile.amplitude_count; ++i) {
+                        const std::int64_t row =
+                            page * plane.amplitude.size() + tile.amplitude_begin + i;
+                        const std::int64_t to = row * plane.frequency.size() + tile.frequency_begin;
+                        std::memcpy(bytes[f].data() + std::size_t(to) * size,
+                                    values.data() + i * tile.frequency_count,
+                                    std::size_t(tile.frequency_count) * size);
+                    }
+                },
+                fields.values[f]);
+        }
+    }
+    return bytes;
+}
+
+TEST(SweepTile, EveryKernelGivesTheSameBits)
+{
+    const Plane plane = small_plane();
+    int compared = 0;
+    for (const Kernel kernel : {Kernel::avx2, Kernel::avx512}) {
+        if (!runs_here(kernel)) {
+            continue;
+        }
+        ++compared;
+        for (const Scene& scene : all_scenes()) {
+            EXPECT_EQ(sweep_plane(scene, plane, Tiling(plane), kernel),
+                      sweep_plane(scene, plane, Tiling(plane), Kernel::one_lane))
+                << name_of(scene.pulse) << ", " << name_of(scene.theory) << ", " << name_of(kernel);
+        }
+    }
+    EXPECT_GT(compared, 0) << "this processor has neither AVX2 nor AVX-512: nothing was compared";
+}
+
+TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
+{
+    const Plane plane = small_plane();
+    for (const Scene& scene : all_scenes()) {
+        const auto whole = sweep_plane(scene, plane, Tiling(plane), widest_kernel());
+        // Rows of 3, 5 and 37 points put every point into different lanes beside different ones.
+        for (const auto& [rows, columns] : {std::pair{1, 3}, {29, 5}, {7, 37}}) {
+            EXPECT_EQ(sweep_plane(scene, plane, Tiling(plane, rows, columns), widest_kernel()),
+                      whole)
+                << name_of(scene.pulse) << ", " << name_of(scene.theory);
+        }
+    }
+}
+
+TEST(SweepTile, AFieldDoesNotDependOnWhichOthersAreAskedFor)
+{
+    const Plane plane = small_plane();
+    const Tile tile = Tiling(plane)[0];
+    const TileFields all = sweep_tile({}, {}, plane, tile, all_fields, widest_kernel());
+    for (std::size_t f = 0; f < all_fields.size(); ++f) {
+        const TileFields one = sweep_tile({}, {}, plane, tile, {all_fields[f]}, widest_kernel());
+        ASSERT_EQ(one.values.size(), 1u);
+        EXPECT_EQ(one.values[0], all.values[f]) << name_of(all_fields[f]);
+    }
+}
+
+TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
+{
+    const Plane plane = small_plane();
+    const Tile tile = Tiling(plane)[3];
+    const TileFields fields = sweep_tile({}, {}, plane, tile, all_fields, widest_kernel());
+    const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+    const auto& angles = std::get<std::vector<double>>(fields.values[1]);
+    const auto& velocities = std::get<std::vector<double>>(fields.values[2]);
+    const auto& margins = std::get<std::vector<double>>(fields.values[3]);
+    const auto& impacts = std::get<std::vector<std::uint16_t>>(fields.values[4]);
+    const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[5]);
+    for (std::int64_t i = 0; i < tile.points(); ++i) {
+        const Point<double> point{plane.slenderness[tile.slenderness],
+                                  plane.restitution_ratio(tile.slenderness, tile.restitution),
+                                  plane.frequency[tile.frequency_begin + i % tile.frequency_count],
+                                  plane.amplitude[tile.amplitude_begin + i / tile.frequency_count]};
+        const auto end = forced_end<OneSine, Theory::nonlinear>(point, Numerics{}.tolerance);
+        const std::size_t k = std::size_t(i);
+        ASSERT_EQ(angles[k], end.state.side * end.state.tilt);
+        ASSERT_EQ(velocities[k], end.state.side * end.state.rate);
+        ASSERT_EQ(margins[k], margin_of<Theory::nonlinear>(end, point));
+        ASSERT_EQ(impacts[k], end.rested ? 65535 : end.impacts);
+        ASSERT_EQ(status[k], end.rested ? 1 : 0);
+        const Region region = Region(regions[k]);
+        ASSERT_EQ(region == Region::F_plus || region == Region::F_minus, end.fell);
+        ASSERT_EQ(is_safe(region), margins[k] >= 0);
+    }
+}
+
+TEST(SweepTile, AMirroredRegionIsWhatTheMirroredSideSays)
+{
+    // Regions with a sign follow the sign of the angle or the velocity.
+    const Plane plane = small_plane();
+    for (const Scene& scene : all_scenes()) {
+        const TileFields fields =
+            sweep_tile(scene, {}, plane, Tiling(plane)[0],
+                       {Field::region, Field::angle, Field::velocity}, widest_kernel());
+        const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+        const auto& angles = std::get<std::vector<double>>(fields.values[1]);
+        const auto& velocities = std::get<std::vector<double>>(fields.values[2]);
+        for (std::size_t i = 0; i < regions.size(); ++i) {
+            switch (Region(regions[i])) {
+            case Region::S_plus:
+            case Region::U1_plus: EXPECT_GT(velocities[i], 0); break;
+            case Region::S_minus:
+            case Region::U1_minus: EXPECT_LT(velocities[i], 0); break;
+            case Region::F_plus: EXPECT_EQ(angles[i], pi<double>() / 2); break;
+            case Region::F_minus: EXPECT_EQ(angles[i], -pi<double>() / 2); break;
+            case Region::U0_plus: EXPECT_GE(angles[i], 0); break;
+            case Region::U0_minus: EXPECT_LE(angles[i], 0); break;
+            default: EXPECT_EQ(Region(regions[i]), Region::S);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace overturn
