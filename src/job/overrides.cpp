@@ -1,0 +1,204 @@
+#include "overrides.hpp"
+
+#include "overturn/job/job.hpp"
+#include "toml_reading.hpp"
+#include "toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+using Path = std::vector<std::string>;
+
+// An argument may hold a list of thousands; in a message its beginning is enough.
+constexpr std::size_t longest_place = 100;
+
+/// The argument on one line.
+std::string place_of_argument(const std::string& argument)
+{
+    std::string place = std::string(override_prefix) + shortened(argument, longest_place);
+    std::replace_if(
+        place.begin(), place.end(), [](unsigned char letter) { return letter < 0x20; }, ' ');
+    return place;
+}
+
+[[noreturn]] void refuse_argument(const std::string& argument, std::string_view text)
+{
+    throw JobError(fmt::format("{}: {}", place_of_argument(argument), text));
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(" \t");
+    const std::size_t last = text.find_last_not_of(" \t");
+    return first == text.npos ? "" : text.substr(first, last - first + 1);
+}
+
+bool is_bare_key(std::string_view key)
+{
+    return !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char letter) {
+        return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
+    });
+}
+
+/// Text that can only be meant as a string: it begins with a letter and has nothing in it that
+/// quotes, brackets, comments or ends a line in TOML.
+bool is_unquoted_string(std::string_view text)
+{
+    const auto is_special = [](unsigned char letter) {
+        return letter < 0x20 ||
+               std::string_view("\"'[]{}#=\\").find(char(letter)) != std::string::npos;
+    };
+    return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
+           std::none_of(text.begin(), text.end(), is_special);
+}
+
+Path path_of(const std::string& argument, std::string_view dotted_key)
+{
+    Path path;
+    while (true) {
+        const std::size_t dot = dotted_key.find('.');
+        const std::string_view key = trimmed(dotted_key.substr(0, dot));
+        if (!is_bare_key(key)) {
+            refuse_argument(
+                argument,
+                fmt::format("the key {} is {}. Keys are words of letters, digits, '_' and "
+                            "'-', joined by dots, such as plane.frequency.count.",
+                            in_quotes(key), key.empty() ? "empty" : "not usable"));
+        }
+        path.emplace_back(key);
+        if (dot == dotted_key.npos) {
+            return path;
+        }
+        dotted_key.remove_prefix(dot + 1);
+    }
+}
+
+/// A job with this one entry, which knows that it came from the argument. A value that is no TOML
+/// may still be a string without its quotes.
+toml::table job_of(const std::string& argument, const Path& path, std::string_view value)
+{
+    std::string problem;
+    const auto parsed = [&](std::string_view text) -> std::optional<toml::table> {
+        try {
+            return toml::parse(fmt::format("{} = {}", fmt::join(path, "."), text),
+                               place_of_argument(argument));
+        } catch (const toml::parse_error& error) {
+            problem = error.description();
+            return std::nullopt;
+        }
+    };
+    std::optional<toml::table> job = parsed(value);
+    if (!job && is_unquoted_string(value)) {
+        job = parsed(in_quotes(value));
+    }
+    if (!job) {
+        refuse_argument(argument, fmt::format("the value is not valid TOML: {}. Write a number, a "
+                                              "\"string\", or a [list].",
+                                              problem));
+    }
+    return *std::move(job);
+}
+
+/// The value at the end of the path; along it, no table may hold anything else.
+const toml::node& value_at(const toml::table& laid, const Path& path, const std::string& argument)
+{
+    const toml::node* node = &laid;
+    for (std::size_t depth = 0; depth < path.size(); ++depth) {
+        const toml::table& table = *node->as_table();
+        if (table.size() != 1) {
+            refuse_argument(argument, "there is more than one value. Give each its own --set.");
+        }
+        node = &table.begin()->second;
+    }
+    return *node;
+}
+
+/// Moves the value at the end of the path to the same place in the job. A moved node still knows
+/// where it came from; a copied one would not.
+void lay(toml::table& job, toml::table& laid, const Path& path, const std::string& argument)
+{
+    toml::table* onto = &job;
+    toml::table* from = &laid;
+    for (std::size_t depth = 0;; ++depth) {
+        const auto entry = from->begin();
+        toml::node* present = onto->get(path[depth]);
+        if (present == nullptr || depth + 1 == path.size()) {
+            onto->insert_or_assign(entry->first, std::move(entry->second));
+            return;
+        }
+        if (!present->is_table()) {
+            const auto end = path.begin() + std::ptrdiff_t(depth + 1);
+            refuse_argument(argument, fmt::format("{} is not a table in the job: there is nothing "
+                                                  "inside it that could be set.",
+                                                  fmt::join(path.begin(), end, ".")));
+        }
+        onto = present->as_table();
+        from = entry->second.as_table();
+    }
+}
+
+void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys)
+{
+    for (const std::string_view key : keys) {
+        if (table != nullptr) {
+            table->erase(key);
+        }
+    }
+}
+
+/// Drops from the job what a new value at this path contradicts.
+void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
+{
+    if (path[0] == "block") {
+        erase_keys(job["plane"].as_table(), {"slenderness"});
+    }
+    if (path[0] == "plane" && path.size() >= 2 && path[1] == "slenderness") {
+        erase_keys(&job, {"block"});
+    }
+    if (path[0] == "plane" && path.size() == 3) {
+        toml::table* axis = job["plane"][path[1]].as_table();
+        if (path[2] == "values") {
+            erase_keys(axis, {"first", "last", "count", "spacing"});
+        } else if (path[2] == "first" || path[2] == "last" || path[2] == "count") {
+            erase_keys(axis, {"values"});
+        }
+    }
+    if (path == Path{"scene", "pulse"}) {
+        const auto name =
+            std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
+        if (name != pulse_names.end() && !has_window(PulseKind(name - pulse_names.begin()))) {
+            erase_keys(job["scene"].as_table(), {"window"});
+        }
+    }
+}
+
+} // namespace
+
+void lay_override(toml::table& job, const std::string& argument)
+{
+    const std::size_t equals = argument.find('=');
+    if (equals == argument.npos) {
+        refuse_argument(
+            argument, "there is no '='. Write key.path=value, such as plane.frequency.count=100.");
+    }
+    const Path path = path_of(argument, std::string_view(argument).substr(0, equals));
+    const std::string_view value = trimmed(std::string_view(argument).substr(equals + 1));
+    if (value.empty()) {
+        refuse_argument(argument,
+                        "the value is missing. Write it after the '='; an empty string is \"\".");
+    }
+    toml::table laid = job_of(argument, path, value);
+    drop_contradictions(job, path, value_at(laid, path, argument));
+    lay(job, laid, path, argument);
+}
+
+} // namespace overturn

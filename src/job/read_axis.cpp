@@ -1,0 +1,153 @@
+#include "read_axis.hpp"
+
+#include "toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+namespace {
+
+double read_value(const Entry& entry, const AxisRule& rule)
+{
+    const double value = number_of(entry);
+    if (!rule.allows(value)) {
+        refuse(entry, fmt::format(" = {} is outside {}. {}", value, rule.interval, rule.reason));
+    }
+    return value;
+}
+
+AxisList read_list(const Entry& entry, const AxisRule& rule)
+{
+    const std::size_t size = array_size(entry, "an array of numbers, such as [0.5, 1.0]");
+    if (size == 0) {
+        refuse(entry, " is empty. Give at least one value.");
+    }
+    AxisList values;
+    values.reserve(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const Entry entry_of_value = element(entry, i);
+        const double value = read_value(entry_of_value, rule);
+        if (i > 0 && !(value > values.back())) {
+            refuse(entry_of_value,
+                   fmt::format(" = {} {} the value before it, {}. Sort the values in ascending "
+                               "order, each of them once.",
+                               value, value == values.back() ? "repeats" : "is below",
+                               values.back()));
+        }
+        values.push_back(value);
+    }
+    return values;
+}
+
+/// Whether the computed values surely ascend; otherwise neighbours might coincide. The interval
+/// [first, last] is not negative, so that a value is at most `last`.
+///
+/// Linear: the roundings of first + (last - first) i / (count - 1) move a value by less than
+/// 1.5 eps last, the last step by another 0.5 eps last: neighbours 4 eps last apart cannot meet.
+/// Logarithmic: with L = log(last / first), those of first pow(last / first, i / (count - 1)) move
+/// the logarithm of a value by less than 0.5 eps (L + 4).
+bool surely_ascends(const AxisRange& range)
+{
+    if (range.count <= 2) {
+        return true;
+    }
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double steps = double(range.count - 1);
+    if (range.spacing == Spacing::log) {
+        const double extent = std::log(range.last / range.first);
+        return extent / steps >= 4 * epsilon * (1 + extent);
+    }
+    // Among subnormal numbers the roundings are absolute.
+    const double least_step =
+        std::fmax(epsilon * range.last, std::numeric_limits<double>::denorm_min());
+    return (range.last - range.first) / steps >= 4 * least_step;
+}
+
+/// Whether the values, or what is computed on the way to them, overflow.
+bool is_too_wide(const AxisRange& range)
+{
+    return !std::isfinite(range.spacing == Spacing::log
+                              ? range.last / range.first
+                              : (range.last - range.first) * double(range.count - 1));
+}
+
+void check_range(const Entry& entry, const AxisRange& range)
+{
+    const auto [first, last, count, spacing] = range;
+    const Entry first_entry = *find(entry, "first");
+    const Entry count_entry = *find(entry, "count");
+    if (first > last) {
+        refuse(first_entry,
+               fmt::format(" = {} is above last = {}. Axes ascend: swap them.", first, last));
+    }
+    if (count == 1 && first != last) {
+        refuse(count_entry, fmt::format(" = 1 needs first = last, but first = {} and last = {}. "
+                                        "Raise count, or make them equal.",
+                                        first, last));
+    }
+    if (count > 1 && first == last) {
+        refuse(count_entry,
+               fmt::format(" = {} needs first below last, but both are {}. Set count = 1, "
+                           "or move one of them.",
+                           count, first));
+    }
+    if (spacing == Spacing::log && !(first > 0)) {
+        refuse(first_entry,
+               fmt::format(" = {} cannot begin a logarithmic range. Raise it above 0, or "
+                           "use spacing = \"linear\".",
+                           first));
+    }
+    if (is_too_wide(range)) {
+        refuse(first_entry,
+               fmt::format(" = {} is too far from last = {} for double precision. Bring "
+                           "them closer.",
+                           first, last));
+    }
+    if (!surely_ascends(range)) {
+        refuse(count_entry, fmt::format(" = {} is too large: neighbouring values between {} and {} "
+                                        "would coincide in double precision. Lower it.",
+                                        count, first, last));
+    }
+}
+
+AxisRange read_range(const Entry& entry, const AxisRule& rule)
+{
+    constexpr std::string_view advice = "Give first, last and count, or values.";
+    AxisRange range;
+    range.first = read_value(require(entry, "first", advice), rule);
+    range.last = read_value(require(entry, "last", advice), rule);
+    const Entry count = require(entry, "count", advice);
+    range.count = integer_of(count);
+    if (range.count < 1) {
+        refuse(count,
+               fmt::format(" = {} is below 1. An axis has at least one value.", range.count));
+    }
+    if (const auto spacing = find(entry, "spacing")) {
+        range.spacing = choice_of<Spacing>(*spacing, spacing_names);
+    }
+    check_range(entry, range);
+    return range;
+}
+
+} // namespace
+
+Axis read_axis(const Entry& entry, const AxisRule& rule)
+{
+    const auto values = find(entry, "values");
+    if (!values) {
+        return Axis(read_range(entry, rule));
+    }
+    for (const std::string_view key : {"first", "last", "count", "spacing"}) {
+        if (const auto other = find(entry, key)) {
+            refuse(*other,
+                   fmt::format(" cannot stand beside {}.values. Remove one of them.", entry.key));
+        }
+    }
+    return Axis(read_list(*values, rule));
+}
+
+} // namespace overturn

@@ -1,0 +1,66 @@
+#include "overturn/job/job.hpp"
+
+#include "file_text.hpp"
+#include "overrides.hpp"
+#include "read_plane.hpp"
+#include "read_scene.hpp"
+#include "resolved_text.hpp"
+#include "toml_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> job_keys{"title", "scene",    "plane",
+                                                   "block", "numerics", "output"};
+
+toml::table parse(const std::string& text, const std::string& path)
+{
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        throw JobError(fmt::format("{}: this is not TOML: {}. Mend it here or just before.",
+                                   place_of(error.source()), error.description()));
+    }
+}
+
+std::string read_title(const Entry& job)
+{
+    const auto entry = find(job, "title");
+    if (!entry) {
+        return "";
+    }
+    std::string title = string_of(*entry);
+    if (title.find('\0') != title.npos) {
+        refuse(*entry, " holds a NUL character, which ends strings in other programs. Remove it.");
+    }
+    return title;
+}
+
+} // namespace
+
+Job read_job(const std::string& path, const std::vector<std::string>& overrides)
+{
+    Job job;
+    job.given = file_text(path);
+    job.overrides = overrides;
+    toml::table table = parse(job.given, path);
+    for (const std::string& argument : overrides) {
+        lay_override(table, argument);
+    }
+    const Entry entry{&table, ""};
+    expect_table(entry, job_keys);
+    job.title = read_title(entry);
+    job.scene = read_scene(entry);
+    job.numerics = read_numerics(entry);
+    job.fields = read_fields(entry);
+    job.plane = read_plane(entry, job.fields);
+    job.resolved = resolved_text(job);
+    return job;
+}
+
+} // namespace overturn

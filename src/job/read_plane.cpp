@@ -1,0 +1,171 @@
+#include "read_plane.hpp"
+
+#include "read_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> plane_keys{"frequency", "amplitude", "restitution",
+                                                     "slenderness"};
+constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   "last",
+                                                           "count",  "spacing", "of"};
+constexpr std::array<std::string_view, 2> block_keys{"half_width", "half_height"};
+
+constexpr std::string_view axis_advice = "Give { first, last, count } or { values = [...] }.";
+
+constexpr double right_angle = std::numbers::pi / 2;
+
+const AxisRule frequency_rule{"(0, inf)", [](double value) { return value > 0; },
+                              "A pulse must end, so its frequency is above 0."};
+const AxisRule amplitude_rule{"[0, inf)", [](double value) { return value >= 0; },
+                              "It is the size of the peak ground acceleration."};
+const AxisRule restitution_rule{"(0, 1]", [](double value) { return value > 0 && value <= 1; },
+                                "A block cannot gain energy at an impact, nor lose all of it."};
+const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return value > 0; },
+                                      "It is a share of the largest restitution (Eq. 17)."};
+const AxisRule slenderness_rule{"(0, pi/2)",
+                                [](double value) { return value > 0 && value < right_angle; },
+                                "It is arctan(half width / half height) in radians."};
+
+Axis read_plain_axis(const Entry& plane, std::string_view name, const AxisRule& rule)
+{
+    const Entry entry = require(plane, name, axis_advice);
+    expect_table(entry, axis_keys);
+    return read_axis(entry, rule);
+}
+
+double read_size(const Entry& block, std::string_view name)
+{
+    const Entry entry = require(block, name, "Give half_width and half_height in metres.");
+    const double size = number_of(entry);
+    if (!(size > 0)) {
+        refuse(entry,
+               fmt::format(" = {} is outside (0, inf). A block has a size, in metres.", size));
+    }
+    return size;
+}
+
+/// The slenderness arctan(b / h) [rad] of the block.
+double slenderness_of(const Entry& entry, const BlockSize& block)
+{
+    const double slenderness = std::atan(block.half_width / block.half_height);
+    if (!slenderness_rule.allows(slenderness)) {
+        refuse(entry,
+               fmt::format(" has half_width = {} and half_height = {}: their slenderness {} is "
+                           "outside {}. Bring the two closer.",
+                           block.half_width, block.half_height, slenderness,
+                           slenderness_rule.interval));
+    }
+    return slenderness;
+}
+
+/// The entry that gives the slenderness: plane.slenderness or block, and not both.
+Entry slenderness_entry(const Entry& job, const Entry& plane)
+{
+    const auto slenderness = find(plane, "slenderness");
+    const auto block = find(job, "block");
+    if (slenderness && block) {
+        refuse(*slenderness,
+               " cannot stand beside [block], which gives the slenderness too. Remove "
+               "one of them.");
+    }
+    if (block) {
+        return *block;
+    }
+    return require(plane, "slenderness",
+                   fmt::format("{} Or add [block] with half_width and half_height.", axis_advice));
+}
+
+/// With of = "maximum" the slenderness must leave a largest restitution (Eq. 17), which falls as
+/// the slenderness grows, and the product of the two must be in (0, 1]. A share above 1 is allowed:
+/// r_max is the largest value of a block on a flat base, not a bound of nature.
+void check_restitution(const Entry& slenderness, const Entry& restitution, const Plane& plane)
+{
+    const double limit = std::asin(std::sqrt(2.0 / 3.0));
+    const double last = plane.slenderness.last();
+    if (plane.restitution_of == RestitutionOf::maximum && !(last < limit)) {
+        refuse(slenderness,
+               fmt::format(" reaches {} rad, but plane.restitution.of = \"maximum\" has a meaning "
+                           "below arcsin sqrt(2/3) = {} rad only (Eq. 17). Lower it, or use of "
+                           "= \"absolute\".",
+                           last, limit));
+    }
+    if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {
+        refuse(slenderness,
+               fmt::format(" reaches {} rad, where plane.restitution[0] = {} times the largest "
+                           "restitution vanishes. Lower it.",
+                           last, plane.restitution.first()));
+    }
+    const double largest = plane.restitution_ratio(0, plane.restitution.size() - 1);
+    if (!(largest <= 1)) {
+        refuse(restitution,
+               fmt::format(" reaches r = {} at the slenderness {} rad, which is outside (0, 1]. A "
+                           "block cannot gain energy at an impact.",
+                           largest, plane.slenderness.first()));
+    }
+}
+
+/// Sizes are computed in floating point, which cannot overflow here.
+void check_size(const Entry& entry, const Plane& plane, const std::vector<Field>& fields)
+{
+    constexpr long double most_bytes = 0x1p62L;
+    long double points = 1;
+    for (const Axis* axis :
+         {&plane.frequency, &plane.amplitude, &plane.restitution, &plane.slenderness}) {
+        points *= static_cast<long double>(axis->size());
+    }
+    std::size_t bytes_of_point = 0;
+    for (const Field field : fields) {
+        bytes_of_point += bytes_per_point(field);
+    }
+    const long double bytes = points * static_cast<long double>(bytes_of_point);
+    if (bytes > most_bytes) {
+        refuse(entry, fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
+                                  "addressed. Lower the counts.",
+                                  points, bytes, most_bytes));
+    }
+}
+
+} // namespace
+
+Plane read_plane(const Entry& job, const std::vector<Field>& fields)
+{
+    const Entry entry = require(
+        job, "plane", "Add [plane] with frequency, amplitude, restitution and slenderness.");
+    expect_table(entry, plane_keys);
+    Plane plane;
+    plane.frequency = read_plain_axis(entry, "frequency", frequency_rule);
+    plane.amplitude = read_plain_axis(entry, "amplitude", amplitude_rule);
+
+    const Entry restitution = require(entry, "restitution", axis_advice);
+    expect_table(restitution, restitution_keys);
+    if (const auto of = find(restitution, "of")) {
+        plane.restitution_of = choice_of<RestitutionOf>(*of, restitution_of_names);
+    }
+    const bool is_share = plane.restitution_of == RestitutionOf::maximum;
+    plane.restitution =
+        read_axis(restitution, is_share ? restitution_share_rule : restitution_rule);
+
+    const Entry slenderness = slenderness_entry(job, entry);
+    if (slenderness.key == "block") {
+        expect_table(slenderness, block_keys);
+        plane.block = BlockSize{.half_width = read_size(slenderness, "half_width"),
+                                .half_height = read_size(slenderness, "half_height")};
+        plane.slenderness = Axis(AxisList{slenderness_of(slenderness, *plane.block)});
+    } else {
+        expect_table(slenderness, axis_keys);
+        plane.slenderness = read_axis(slenderness, slenderness_rule);
+    }
+    check_restitution(slenderness, restitution, plane);
+    check_size(entry, plane, fields);
+    return plane;
+}
+
+} // namespace overturn

@@ -1,0 +1,113 @@
+#include "read_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> scene_keys{"pulse", "theory", "window"};
+constexpr std::array<std::string_view, 2> numerics_keys{"method", "tolerance"};
+constexpr std::array<std::string_view, 1> output_keys{"fields"};
+
+// At 8 periods the wavelets have fallen below 1e-180 of their peak.
+constexpr double widest_window = 8;
+
+// Below, the round-off of a step is as large as the error that it may have; above, a verdict is
+// hardly more than a guess.
+constexpr double least_tolerance = 1e-14;
+constexpr double largest_tolerance = 1e-2;
+
+double read_window(const Entry& entry, PulseKind pulse)
+{
+    if (!has_window(pulse)) {
+        refuse(entry,
+               fmt::format(" has no meaning for the pulse \"{}\", which ends by itself. Only "
+                           "the Ricker wavelets have a window: remove it.",
+                           name_of(pulse)));
+    }
+    const double window = number_of(entry);
+    if (!(window > 0 && window <= widest_window)) {
+        refuse(entry,
+               fmt::format(" = {} is outside (0, {}]. It is the half width in pulse periods.",
+                           window, widest_window));
+    }
+    return window;
+}
+
+} // namespace
+
+Scene read_scene(const Entry& job)
+{
+    const Entry entry = require(job, "scene", "Add [scene] with a pulse.");
+    expect_table(entry, scene_keys);
+    Scene scene;
+    scene.pulse = choice_of<PulseKind>(
+        require(entry, "pulse", fmt::format("Give one of {}.", fmt::join(pulse_names, ", "))),
+        pulse_names);
+    if (const auto theory = find(entry, "theory")) {
+        scene.theory = choice_of<Theory>(*theory, theory_names);
+    }
+    if (const auto window = find(entry, "window")) {
+        scene.window = read_window(*window, scene.pulse);
+    }
+    return scene;
+}
+
+Numerics read_numerics(const Entry& job)
+{
+    Numerics numerics;
+    const auto entry = find(job, "numerics");
+    if (!entry) {
+        return numerics;
+    }
+    expect_table(*entry, numerics_keys);
+    if (const auto method = find(*entry, "method")) {
+        numerics.method = choice_of<Method>(*method, method_names);
+    }
+    if (const auto tolerance = find(*entry, "tolerance")) {
+        numerics.tolerance = number_of(*tolerance);
+        if (!(numerics.tolerance >= least_tolerance && numerics.tolerance <= largest_tolerance)) {
+            refuse(*tolerance,
+                   fmt::format(" = {} is outside [{}, {}]. It is the local error per step, "
+                               "over the slenderness.",
+                               numerics.tolerance, least_tolerance, largest_tolerance));
+        }
+    }
+    return numerics;
+}
+
+std::vector<Field> read_fields(const Entry& job)
+{
+    const std::vector<Field> by_default{Field::region};
+    const auto output = find(job, "output");
+    if (!output) {
+        return by_default;
+    }
+    expect_table(*output, output_keys);
+    const auto entry = find(*output, "fields");
+    if (!entry) {
+        return by_default;
+    }
+    const std::size_t size = array_size(*entry, "an array of strings, such as [\"region\"]");
+    if (size == 0) {
+        refuse(*entry,
+               fmt::format(" is empty. Give at least one of {}.", fmt::join(field_names, ", ")));
+    }
+    std::vector<Field> fields;
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto field = choice_of<Field>(element(*entry, i), field_names);
+        if (std::find(fields.begin(), fields.end(), field) != fields.end()) {
+            refuse(element(*entry, i),
+                   fmt::format(" = \"{}\" stands there already. Name each field once.",
+                               name_of(field)));
+        }
+        fields.push_back(field);
+    }
+    return fields;
+}
+
+} // namespace overturn

@@ -1,0 +1,81 @@
+#include "resolved_text.hpp"
+
+#include "toml_text.hpp"
+
+#include <fmt/format.h>
+
+namespace overturn {
+
+namespace {
+
+std::string list_text(const AxisList& values)
+{
+    std::string text = "values = [";
+    for (const double value : values) {
+        if (text.back() != '[') {
+            text += ", ";
+        }
+        text += float_text(value);
+    }
+    return text + "]";
+}
+
+std::string definition_text(const Axis& axis)
+{
+    if (const auto* list = std::get_if<AxisList>(&axis.definition())) {
+        return list_text(*list);
+    }
+    const auto& range = std::get<AxisRange>(axis.definition());
+    return fmt::format("first = {}, last = {}, count = {}, spacing = \"{}\"",
+                       float_text(range.first), float_text(range.last), range.count,
+                       name_of(range.spacing));
+}
+
+std::string scene_text(const Scene& scene)
+{
+    std::string text = fmt::format("[scene]\npulse = \"{}\"\ntheory = \"{}\"\n",
+                                   name_of(scene.pulse), name_of(scene.theory));
+    if (has_window(scene.pulse)) {
+        text += fmt::format("window = {}\n", float_text(scene.window));
+    }
+    return text;
+}
+
+std::string plane_text(const Plane& plane)
+{
+    std::string text =
+        fmt::format("[plane]\nfrequency = {{ {} }}\namplitude = {{ {} }}\nrestitution = {{ {}, of "
+                    "= \"{}\" }}\n",
+                    definition_text(plane.frequency), definition_text(plane.amplitude),
+                    definition_text(plane.restitution), name_of(plane.restitution_of));
+    if (plane.block) {
+        text +=
+            fmt::format("\n[block]\nhalf_width = {}\nhalf_height = {}\n",
+                        float_text(plane.block->half_width), float_text(plane.block->half_height));
+    } else {
+        text += fmt::format("slenderness = {{ {} }}\n", definition_text(plane.slenderness));
+    }
+    return text;
+}
+
+std::string fields_text(const std::vector<Field>& fields)
+{
+    std::string text;
+    for (const Field field : fields) {
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name_of(field));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string resolved_text(const Job& job)
+{
+    return fmt::format("title = {}\n\n{}\n{}\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n\n"
+                       "[output]\nfields = [{}]\n",
+                       in_quotes(job.title), scene_text(job.scene), plane_text(job.plane),
+                       name_of(job.numerics.method), float_text(job.numerics.tolerance),
+                       fields_text(job.fields));
+}
+
+} // namespace overturn

@@ -1,0 +1,168 @@
+#include "toml_reading.hpp"
+
+#include "nearest_name.hpp"
+#include "overturn/job/job.hpp"
+#include "toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace overturn {
+
+namespace {
+
+// Enough to recognise a value by, short enough for a line.
+constexpr std::size_t longest_quotation = 60;
+
+std::string joined(Names names)
+{
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string dotted(const std::string& table, std::string_view name)
+{
+    return table.empty() ? std::string(name) : fmt::format("{}.{}", table, name);
+}
+
+/// " Did you mean ...?", or nothing if no name of the table is near.
+std::string suggestion(const std::string& table, std::string_view word, Names names)
+{
+    const std::string_view name = nearest_name(word, names);
+    return name.empty() ? "" : fmt::format(" Did you mean \"{}\"?", dotted(table, name));
+}
+
+/// What a node is, in words.
+std::string description_of(const toml::node& node)
+{
+    if (const auto* text = node.as_string()) {
+        return "the string " + in_quotes(shortened(text->get(), longest_quotation));
+    }
+    if (const auto* number = node.as_integer()) {
+        return fmt::format("the integer {}", number->get());
+    }
+    if (const auto* number = node.as_floating_point()) {
+        return "the number " + float_text(number->get());
+    }
+    if (const auto* truth = node.as_boolean()) {
+        return truth->get() ? "the truth value true" : "the truth value false";
+    }
+    return node.is_array() ? "an array" : node.is_table() ? "a table" : "a date or time";
+}
+
+[[noreturn]] void refuse_type(const Entry& entry, std::string_view wanted)
+{
+    refuse(entry, fmt::format(" is {}, and must be {}.", description_of(*entry.node), wanted));
+}
+
+} // namespace
+
+std::string place_of(const toml::source_region& source)
+{
+    const std::string& path = *source.path;
+    if (path.starts_with(override_prefix)) {
+        return path;
+    }
+    return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
+}
+
+void refuse(const Entry& entry, std::string_view text)
+{
+    throw JobError(fmt::format("{}: {}{}", place_of(entry.node->source()), entry.key, text));
+}
+
+void expect_table(const Entry& entry, Names allowed)
+{
+    const toml::table* table = entry.node->as_table();
+    if (table == nullptr) {
+        refuse_type(entry, fmt::format("a table with the keys {}", joined(allowed)));
+    }
+    for (const auto& [key, value] : *table) {
+        if (std::find(allowed.begin(), allowed.end(), key.str()) == allowed.end()) {
+            const std::string unknown = shortened(dotted(entry.key, key.str()), longest_quotation);
+            throw JobError(fmt::format("{}: unknown key {}.{} Allowed here: {}.",
+                                       place_of(key.source()), in_quotes(unknown),
+                                       suggestion(entry.key, key.str(), allowed), joined(allowed)));
+        }
+    }
+}
+
+std::optional<Entry> find(const Entry& table, std::string_view name)
+{
+    const toml::node* node = table.node->as_table()->get(name);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    return Entry{node, dotted(table.key, name)};
+}
+
+Entry require(const Entry& table, std::string_view name, std::string_view advice)
+{
+    std::optional<Entry> entry = find(table, name);
+    if (!entry) {
+        refuse({table.node, dotted(table.key, name)}, fmt::format(" is missing. {}", advice));
+    }
+    return *std::move(entry);
+}
+
+std::size_t array_size(const Entry& entry, std::string_view wanted)
+{
+    const toml::array* array = entry.node->as_array();
+    if (array == nullptr) {
+        refuse_type(entry, wanted);
+    }
+    return array->size();
+}
+
+Entry element(const Entry& array, std::size_t i)
+{
+    return {array.node->as_array()->get(i), fmt::format("{}[{}]", array.key, i)};
+}
+
+std::string string_of(const Entry& entry)
+{
+    const auto* text = entry.node->as_string();
+    if (text == nullptr) {
+        refuse_type(entry, "a string in quotes");
+    }
+    return text->get();
+}
+
+std::int64_t integer_of(const Entry& entry)
+{
+    const auto* integer = entry.node->as_integer();
+    if (integer == nullptr) {
+        refuse_type(entry, "an integer, such as 100");
+    }
+    return integer->get();
+}
+
+double number_of(const Entry& entry)
+{
+    if (const auto* integer = entry.node->as_integer()) {
+        return double(integer->get());
+    }
+    const auto* number = entry.node->as_floating_point();
+    if (number == nullptr) {
+        refuse_type(entry, "a number, such as 0.5");
+    }
+    if (!std::isfinite(number->get())) {
+        refuse(entry, fmt::format(" = {} is not finite. Give a number.", number->get()));
+    }
+    return number->get() + 0.0;
+}
+
+std::size_t index_of_name(const Entry& entry, Names names)
+{
+    const std::string name = string_of(entry);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+        refuse(entry, fmt::format(" = {} is unknown.{} Allowed: {}.",
+                                  in_quotes(shortened(name, longest_quotation)),
+                                  suggestion("", name, names), joined(names)));
+    }
+    return std::size_t(found - names.begin());
+}
+
+} // namespace overturn

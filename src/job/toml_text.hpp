@@ -1,0 +1,19 @@
+// How strings and numbers are written in TOML.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace overturn {
+
+/// The text in double quotes; quotes, backslashes and control characters escaped.
+std::string in_quotes(std::string_view text);
+
+/// The shortest text that reads back to the same double, always recognisable as a float.
+std::string float_text(double value);
+
+/// The text itself, or its beginning and "..." if it is longer than `longest` bytes.
+std::string shortened(std::string_view text, std::size_t longest);
+
+} // namespace overturn

@@ -1,0 +1,63 @@
+// Job files that live as long as a test needs them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace overturn {
+
+/// A job in a directory of its own.
+class JobFile {
+public:
+    explicit JobFile(const std::string& text)
+    {
+        std::string directory = testing::TempDir() + "overturn_job_XXXXXX";
+        if (mkdtemp(directory.data()) == nullptr) {
+            throw std::runtime_error("cannot make the directory " + directory);
+        }
+        directory_ = directory;
+        std::ofstream(path(), std::ios::binary) << text;
+    }
+    ~JobFile() { std::filesystem::remove_all(directory_); }
+    JobFile(const JobFile&) = delete;
+    JobFile& operator=(const JobFile&) = delete;
+
+    std::string path() const { return directory_ / "job.toml"; }
+    std::string directory() const { return directory_; }
+
+private:
+    std::filesystem::path directory_;
+};
+
+/// A sound job; the tests of refusals count on its lines.
+inline constexpr const char* sound_job = R"(title = "A sound job"
+[scene]
+pulse = "one_sine"
+[plane]
+frequency = { first = 0.1, last = 12.0, count = 10 }
+amplitude = { values = [0.5, 1.0, 2.0] }
+restitution = { values = [0.7, 0.85], of = "maximum" }
+slenderness = { values = [0.1745716] }
+[numerics]
+tolerance = 1e-9
+[output]
+fields = ["region", "angle"]
+)";
+
+/// The sound job with one line, counted from 1, replaced by other text.
+inline std::string sound_job_with(int line, const std::string& text)
+{
+    const std::string job = sound_job;
+    std::size_t begin = 0;
+    for (int i = 1; i < line; ++i) {
+        begin = job.find('\n', begin) + 1;
+    }
+    return job.substr(0, begin) + text + job.substr(job.find('\n', begin));
+}
+
+} // namespace overturn

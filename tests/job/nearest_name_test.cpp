@@ -1,0 +1,45 @@
+#include "nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> names{"one_sine", "one_cosine", "half_sine", "count"};
+
+TEST(NearestName, ForgivesOneSlip)
+{
+    EXPECT_EQ(nearest_name("one_sne", names), "one_sine");
+    EXPECT_EQ(nearest_name("one_sinee", names), "one_sine");
+    EXPECT_EQ(nearest_name("one-sine", names), "one_sine");
+    EXPECT_EQ(nearest_name("cuont", names), "count");
+}
+
+TEST(NearestName, DoesNotForgiveManySlips)
+{
+    EXPECT_EQ(nearest_name("cuomt", names), "");
+}
+
+TEST(NearestName, TakesNoHeedOfCapitals)
+{
+    EXPECT_EQ(nearest_name("Count", names), "count");
+}
+
+TEST(NearestName, IsTheNearestOfSeveral)
+{
+    EXPECT_EQ(nearest_name("one_cosin", names), "one_cosine");
+    EXPECT_EQ(nearest_name("half_sin", names), "half_sine");
+}
+
+TEST(NearestName, IsNothingForAWordFarFromAll)
+{
+    EXPECT_EQ(nearest_name("earthquake", names), "");
+    EXPECT_EQ(nearest_name("", names), "");
+}
+
+} // namespace
+
+} // namespace overturn

@@ -1,0 +1,191 @@
+#include "overturn/job/job.hpp"
+
+#include "job_file.hpp"
+
+#include <algorithm>
+#include <ostream>
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+Job job_with(const std::vector<std::string>& overrides)
+{
+    return read_job(JobFile(sound_job).path(), overrides);
+}
+
+TEST(AnOverride, LiesOverTheFile)
+{
+    const Job job = job_with({"numerics.tolerance=1e-6", "title=\"Another\""});
+    EXPECT_EQ(job.numerics.tolerance, 1e-6);
+    EXPECT_EQ(job.title, "Another");
+    EXPECT_EQ(job.fields.size(), 2u) << "what is not overridden stays";
+}
+
+TEST(AnOverride, IsKeptAsItWasGiven)
+{
+    const std::vector<std::string> overrides{" scene.theory = linear", "title=x"};
+    EXPECT_EQ(job_with(overrides).overrides, overrides);
+    EXPECT_EQ(job_with(overrides).given, sound_job);
+}
+
+TEST(AnOverride, YieldsToALaterOne)
+{
+    EXPECT_EQ(job_with({"numerics.tolerance=1e-6", "numerics.tolerance=1e-7"}).numerics.tolerance,
+              1e-7);
+}
+
+TEST(AnOverride, MakesTablesThatTheFileDoesNotHave)
+{
+    const JobFile file("[scene]\npulse = 'one_sine'\n");
+    const Job job =
+        read_job(file.path(), {"plane.frequency.values=[1]", "plane.amplitude.values=[2]",
+                               "plane.restitution.values=[1]", "block.half_width=1",
+                               "block.half_height=5", "output.fields=['margin']"});
+    EXPECT_EQ(job.plane.amplitude[0], 2);
+    EXPECT_EQ(job.fields, std::vector<Field>{Field::margin});
+}
+
+TEST(AnOverride, AcceptsABareWordAsAString)
+{
+    EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).scene.pulse, PulseKind::one_cosine);
+    EXPECT_EQ(job_with({"title=Two words, and Ω (omega)"}).title, "Two words, and Ω (omega)");
+}
+
+TEST(AnOverride, AcceptsListsOverSeveralLines)
+{
+    EXPECT_EQ(job_with({"plane.frequency.values=[1,\n 2]"}).plane.frequency.size(), 2);
+}
+
+TEST(AnOverride, OfValuesReplacesTheRange)
+{
+    const Job job = job_with({"plane.frequency.values=[0.2]"});
+    EXPECT_EQ(std::get<AxisList>(job.plane.frequency.definition()), AxisList{0.2});
+}
+
+TEST(AnOverride, OfValuesReplacesALogarithmicRange)
+{
+    const JobFile file(
+        sound_job_with(5, "frequency = { first = 1, last = 4, count = 3, spacing = \"log\" }"));
+    const Job job = read_job(file.path(), {"plane.frequency.values=[0.2, 0.3]"});
+    EXPECT_EQ(job.plane.frequency.values(), (AxisList{0.2, 0.3}));
+}
+
+TEST(AnOverride, OfARangeReplacesTheValues)
+{
+    const Job job =
+        job_with({"plane.amplitude.first=1", "plane.amplitude.last=4", "plane.amplitude.count=4"});
+    EXPECT_EQ(job.plane.amplitude.values(), (AxisList{1, 2, 3, 4}));
+}
+
+TEST(AnOverride, OfTheRestitutionValuesKeepsWhatTheyAreSharesOf)
+{
+    const Job job = job_with({"plane.restitution.values=[1.0]"});
+    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::maximum);
+    EXPECT_EQ(job.plane.restitution.size(), 1);
+}
+
+TEST(AnOverride, OfAWholeAxisReplacesAllOfIt)
+{
+    const Job job = job_with({"plane.restitution={values=[0.5]}"});
+    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::absolute);
+    EXPECT_EQ(job.plane.restitution[0], 0.5);
+}
+
+TEST(AnOverride, OfTheBlockReplacesTheSlenderness)
+{
+    const Job job = job_with({"block.half_width=1", "block.half_height=2"});
+    ASSERT_TRUE(job.plane.block);
+    EXPECT_EQ(job.plane.block->half_height, 2);
+}
+
+TEST(AnOverride, OfTheSlendernessReplacesTheBlock)
+{
+    const JobFile file(sound_job_with(8, "[block]\nhalf_width = 1\nhalf_height = 2"));
+    const Job job = read_job(file.path(), {"plane.slenderness.values=[0.3]"});
+    EXPECT_FALSE(job.plane.block);
+    EXPECT_EQ(job.plane.slenderness[0], 0.3);
+}
+
+TEST(AnOverride, OfThePulseDropsAWindowThatItHasNoUseFor)
+{
+    const JobFile file(sound_job_with(3, "pulse = \"symmetric_ricker\"\nwindow = 2"));
+    EXPECT_EQ(read_job(file.path(), {"scene.pulse=half_sine"}).scene.pulse, PulseKind::half_sine);
+    EXPECT_EQ(read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).scene.window, 2);
+}
+
+/// An override that must be refused, and words of the message.
+struct Unusable {
+    std::string name;
+    std::string argument;
+    std::vector<std::string> words;
+
+    friend std::ostream& operator<<(std::ostream& stream, const Unusable& unusable)
+    {
+        return stream << unusable.argument;
+    }
+};
+
+class AnOverrideIsRefused : public testing::TestWithParam<Unusable> {};
+
+TEST_P(AnOverrideIsRefused, AndItsPlaceIsTheArgument)
+{
+    try {
+        job_with({GetParam().argument});
+        FAIL() << "the override was accepted";
+    } catch (const JobError& error) {
+        const std::string message = error.what();
+        std::string place = "--set " + GetParam().argument + ": ";
+        std::replace(place.begin(), place.end(), '\n', ' '); // a message is one line
+        EXPECT_TRUE(message.starts_with(place)) << message;
+        for (const std::string& words : GetParam().words) {
+            EXPECT_NE(message.find(words), message.npos)
+                << "no \"" << words << "\" in: " << message;
+        }
+    }
+}
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::vector<Unusable>{
+    {"WithoutEquals", "plane.frequency.count", {"no '='", "key.path=value"}},
+    {"WithoutKey", "=3", {"\"\" is empty"}},
+    {"WithAGapInTheKey", "plane..count=3", {"\"\" is empty"}},
+    {"WithAnUnusableKey", "plane.frequency.values[0]=3", {"\"values[0]\" is not usable"}},
+    {"WithoutValue", "title=", {"value is missing"}},
+    {"WithABrokenValue", "plane.frequency.values=[1,", {"not valid TOML"}},
+    {"WithANumberGoneWrong", "numerics.tolerance=1e-6x", {"not valid TOML"}},
+    {"WithInvalidUtf8", "title=a\xff", {"not valid TOML", "utf-8"}},
+    {"WithTwoValues", "numerics.tolerance=1e-6\nmethod='rk45'", {"more than one value"}},
+    {"WithASecondTable", "title='x'\n[scene]\npulse='one_sine'", {"more than one value"}},
+    {"ThroughANumber", "plane.frequency.first.deep=1", {"plane.frequency.first is not a table"}},
+    {"ThroughTheTitle", "title.x=1", {"title is not a table"}},
+    {"WithAnUnknownKey", "plane.frequency.cuont=3", {"unknown key \"plane.frequency.cuont\"", "\"plane.frequency.count\"?"}},
+    {"WithAnUnknownTable", "plan.frequency.count=3", {"unknown key \"plan\"", "\"plane\"?"}},
+    {"WithAValueOutOfRange", "plane.frequency.first=-1", {"plane.frequency.first = -1 is outside (0, inf)"}},
+    {"WithAWrongType", "plane.frequency.count=many", {"plane.frequency.count is the string \"many\"", "integer"}},
+    {"WithANumberForATable", "plane.frequency=3", {"plane.frequency is the integer 3", "a table"}},
+    {"WithAnUnknownPulse", "scene.pulse=one_sin", {"scene.pulse = \"one_sin\" is unknown", "\"one_sine\"?"}},
+    {"WithAWindowForAPulseThatEnds", "scene.window=2.0", {"scene.window has no meaning"}},
+    {"WithHalfABlock", "block.half_width=2", {"block.half_height is missing"}},
+    {"WithACountForASingleValue", "plane.frequency.count=1", {"count = 1 needs first = last"}}}),
+    [](const testing::TestParamInfo<Unusable>& unusable) { return unusable.param.name; });
+// clang-format on
+
+TEST(AnOverride, IsShortenedInMessages)
+{
+    std::string argument = "plane.frequency.values=[";
+    for (int i = 1; i < 1000; ++i) {
+        argument += std::to_string(i) + ", ";
+    }
+    try {
+        job_with({argument + "1]"});
+        FAIL() << "the override was accepted";
+    } catch (const JobError& error) {
+        EXPECT_LT(std::string(error.what()).size(), 300u) << error.what();
+    }
+}
+
+} // namespace
+
+} // namespace overturn

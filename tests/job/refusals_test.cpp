@@ -1,0 +1,223 @@
+// Every mistake in a job file is refused, and the message leads to it.
+#include "job_file.hpp"
+
+#include "overturn/job/job.hpp"
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+/// A job that is sound but for one line.
+struct Mistake {
+    std::string name;
+    int line;
+    const char* text;
+    const char* place; ///< line:column that the message must name
+    std::vector<std::string> words;
+
+    friend std::ostream& operator<<(std::ostream& stream, const Mistake& mistake)
+    {
+        return stream << "line " << mistake.line << ": " << mistake.text;
+    }
+};
+
+class ReadingAJobRefuses : public testing::TestWithParam<Mistake> {};
+
+TEST_P(ReadingAJobRefuses, AndLeadsTo)
+{
+    const JobFile file(sound_job_with(GetParam().line, GetParam().text));
+    try {
+        read_job(file.path());
+        FAIL() << "the job was accepted";
+    } catch (const JobError& error) {
+        const std::string message = error.what();
+        const std::string place = file.path() + ":" + GetParam().place + ": ";
+        EXPECT_EQ(message.substr(0, place.size()), place) << message;
+        for (const std::string& words : GetParam().words) {
+            EXPECT_NE(message.find(words), message.npos)
+                << "no \"" << words << "\" in: " << message;
+        }
+        EXPECT_EQ(message.find('\n'), message.npos) << "a message is one line: " << message;
+        EXPECT_EQ(message.back(), '.') << message;
+    }
+}
+
+#define MISTAKES(group, ...)                                                                       \
+    INSTANTIATE_TEST_SUITE_P(                                                                      \
+        group, ReadingAJobRefuses, testing::ValuesIn(std::vector<Mistake>{__VA_ARGS__}),           \
+        [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; })
+
+// clang-format off
+MISTAKES(Form,
+    {"BrokenToml", 3, "pulse = \"one_sine", "3:18", {"not TOML", "Mend"}},
+    {"AnUnfinishedTable", 5, "frequency = { first = 0.1,", "5:27", {"not TOML"}},
+    {"AKeyGivenTwice", 10, "tolerance = 1e-9\ntolerance = 1e-8", "11:13", {"not TOML", "tolerance"}},
+    {"InvalidUtf8", 1, "title = \"\xff\"", "1:9", {"not TOML", "utf-8"}},
+    {"ATitleWithNul", 1, "title = \"a\\u0000b\"", "1:9", {"title", "NUL"}});
+
+MISTAKES(UnknownKeys,
+    {"AtTheTop", 1, "titel = \"x\"", "1:1", {"unknown key \"titel\"", "Did you mean \"title\"?"}},
+    {"ATable", 9, "[numeric]", "9:2", {"unknown key \"numeric\"", "Did you mean \"numerics\"?"}},
+    {"InTheScene", 3, "pulse = \"one_sine\"\nPulse = \"x\"", "4:1", {"\"scene.Pulse\"", "\"scene.pulse\"?"}},
+    {"InThePlane", 8, "slendernes = { values = [0.2] }", "8:1",
+     {"unknown key \"plane.slendernes\"", "Did you mean \"plane.slenderness\"?"}},
+    {"InAnAxis", 5, "frequency = { first = 0.1, last = 1, cout = 3 }", "5:38",
+     {"\"plane.frequency.cout\"", "\"plane.frequency.count\"?"}},
+    {"OfOnAnotherAxis", 8, "slenderness = { values = [0.2], of = \"maximum\" }", "8:33",
+     {"\"plane.slenderness.of\"", "Allowed here: values, first, last, count, spacing"}},
+    {"InTheBlock", 8, "[block]\nhalf_width = 1\nhalf_height = 2\ndepth = 3", "11:1", {"\"block.depth\""}},
+    {"InTheNumerics", 10, "tolerence = 1e-9", "10:1", {"\"numerics.tolerance\"?"}},
+    {"InTheOutput", 12, "field = [\"region\"]", "12:1", {"\"output.fields\"?"}},
+    {"ADeepTable", 12, "[plane.more.and.more]", "12:8", {"unknown key \"plane.more\""}},
+    {"WithoutAFarFetchedGuess", 10, "quux = 1", "10:1", {"\"numerics.quux\". Allowed here: method, tolerance."}});
+
+MISTAKES(WrongTypes,
+    {"ANumberAsTitle", 1, "title = 3", "1:9", {"title is the integer 3", "must be a string"}},
+    {"ATruthValueAsPulse", 3, "pulse = true", "3:9", {"scene.pulse is the truth value true", "string"}},
+    {"AStringAsNumber", 5, "frequency = { first = \"0.1\", last = 1, count = 2 }", "5:23",
+     {"plane.frequency.first is the string \"0.1\"", "must be a number"}},
+    {"AStringAmongNumbers", 6, "amplitude = { values = [1, \"2\"] }", "6:28", {"plane.amplitude.values[1]", "number"}},
+    {"ANumberAsList", 6, "amplitude = { values = 1 }", "6:24", {"plane.amplitude.values", "an array of numbers"}},
+    {"ANumberAsAxis", 6, "amplitude = 1", "6:13", {"plane.amplitude is the integer 1", "a table with the keys values"}},
+    {"AFloatAsCount", 5, "frequency = { first = 1, last = 2, count = 10.0 }", "5:44",
+     {"plane.frequency.count is the number 10.0", "must be an integer"}},
+    {"AStringAsTolerance", 10, "tolerance = \"low\"", "10:13", {"numerics.tolerance", "number"}},
+    {"ADateAsTolerance", 10, "tolerance = 2020-01-01", "10:13", {"a date or time", "number"}},
+    {"AStringAsFields", 12, "fields = \"region\"", "12:10", {"output.fields", "an array of strings"}},
+    {"ANumberAsField", 12, "fields = [1]", "12:11", {"output.fields[0]", "string"}},
+    {"ATableAsField", 12, "fields = [{}]", "12:11", {"output.fields[0] is a table", "string"}},
+    {"ATableArrayAsScene", 2, "[[scene]]", "2:1", {"scene is an array", "table"}},
+    {"AnArrayAsSpacing", 5, "frequency = { first = 1, last = 2, count = 3, spacing = [] }", "5:57", {"spacing is an array"}});
+
+MISTAKES(MissingKeys,
+    {"ThePulse", 3, "", "2:1", {"scene.pulse is missing", "one_sine", "rectangular"}},
+    {"TheFrequency", 5, "", "4:1", {"plane.frequency is missing"}},
+    {"TheAmplitude", 6, "", "4:1", {"plane.amplitude is missing"}},
+    {"TheRestitution", 7, "", "4:1", {"plane.restitution is missing"}},
+    {"SlendernessAndBlock", 8, "", "4:1", {"plane.slenderness is missing", "[block]"}},
+    {"TheCount", 5, "frequency = { first = 1, last = 2 }", "5:13", {"plane.frequency.count is missing", "or values"}},
+    {"TheLast", 5, "frequency = { first = 1, count = 2 }", "5:13", {"plane.frequency.last is missing"}},
+    {"EverythingOfAnAxis", 7, "restitution = { of = \"maximum\" }", "7:15", {"plane.restitution.first is missing", "or values"}},
+    {"TheHalfHeight", 8, "[block]\nhalf_width = 1", "8:1", {"block.half_height is missing", "metres"}});
+
+MISTAKES(Lists,
+    {"NoValues", 6, "amplitude = { values = [] }", "6:24", {"plane.amplitude.values is empty"}},
+    {"UnsortedValues", 6, "amplitude = { values = [1, 3, 2] }", "6:31", {"values[2] = 2 is below", "3", "ascending"}},
+    {"RepeatedValues", 6, "amplitude = { values = [1, 2, 2.0] }", "6:31", {"values[2] = 2 repeats", "once"}},
+    {"ANanValue", 6, "amplitude = { values = [nan] }", "6:25", {"plane.amplitude.values[0] = nan is not finite"}},
+    {"AnInfiniteValue", 6, "amplitude = { values = [1, inf] }", "6:28", {"values[1] = inf is not finite"}},
+    {"ListAndRange", 6, "amplitude = { values = [1], first = 1 }", "6:37", {"first cannot stand beside plane.amplitude.values"}},
+    {"ListAndCount", 6, "amplitude = { values = [1], count = 1 }", "6:37", {"count cannot stand beside"}},
+    {"ListAndSpacing", 6, "amplitude = { values = [1], spacing = \"log\" }", "6:39", {"spacing cannot stand beside"}});
+
+MISTAKES(Ranges,
+    {"FirstAboveLast", 5, "frequency = { first = 3, last = 1, count = 2 }", "5:23", {"first = 3 is above last = 1", "swap"}},
+    {"ACountOfZero", 5, "frequency = { first = 1, last = 2, count = 0 }", "5:44", {"count = 0 is below 1"}},
+    {"ANegativeCount", 5, "frequency = { first = 1, last = 2, count = -3 }", "5:44", {"count = -3 is below 1"}},
+    {"ASingleValueWithTwoEnds", 5, "frequency = { first = 1, last = 2, count = 1 }", "5:44", {"count = 1 needs first = last"}},
+    {"ManyEqualValues", 5, "frequency = { first = 2, last = 2, count = 5 }", "5:44", {"count = 5", "both are 2"}},
+    {"AnInfiniteEnd", 5, "frequency = { first = 1, last = inf, count = 2 }", "5:33", {"last = inf is not finite"}},
+    {"ANanEnd", 5, "frequency = { first = nan, last = 1, count = 2 }", "5:23", {"first = nan is not finite"}},
+    {"AnUnknownSpacing", 5, "frequency = { first = 1, last = 2, count = 3, spacing = \"lin\" }", "5:57",
+     {"spacing = \"lin\" is unknown", "Allowed: linear, log"}},
+    {"ALogarithmicRangeFromZero", 6, "amplitude = { first = 0, last = 2, count = 3, spacing = \"log\" }", "6:23",
+     {"first = 0", "logarithmic", "linear"}},
+    {"ALinearRangeTooFine", 5, "frequency = { first = 1, last = 1.0000000000000004, count = 100 }", "5:61",
+     {"count = 100 is too large", "coincide"}},
+    {"ALogarithmicRangeTooFine", 5, "frequency = { first = 1, last = 2, count = 9007199254740993, spacing = \"log\" }", "5:44",
+     {"too large", "coincide"}},
+    {"ALinearRangeTooWide", 6, "amplitude = { first = 0, last = 1e308, count = 100 }", "6:23", {"too far from last"}},
+    {"ALogarithmicRangeTooWide", 6, "amplitude = { first = 1e-200, last = 1e200, count = 100, spacing = \"log\" }", "6:23",
+     {"too far from last"}});
+
+MISTAKES(Physics,
+    {"AZeroFrequency", 5, "frequency = { values = [0, 1] }", "5:25", {"plane.frequency.values[0] = 0 is outside (0, inf)"}},
+    {"ANegativeFrequency", 5, "frequency = { first = -1, last = 2, count = 3 }", "5:23", {"plane.frequency.first = -1 is outside (0, inf)"}},
+    {"ANegativeAmplitude", 6, "amplitude = { values = [-0.5] }", "6:25", {"plane.amplitude.values[0] = -0.5 is outside [0, inf)"}},
+    {"ARestitutionOfZero", 7, "restitution = { values = [0.0] }", "7:27", {"plane.restitution.values[0] = 0 is outside (0, 1]"}},
+    {"ARestitutionAboveOne", 7, "restitution = { values = [0.9, 1.2] }", "7:32",
+     {"plane.restitution.values[1] = 1.2 is outside (0, 1]. A block cannot gain energy at an impact"}},
+    {"AShareOfZero", 7, "restitution = { values = [0], of = \"maximum\" }", "7:27", {"= 0 is outside (0, inf)", "share"}},
+    {"AShareThatGainsEnergy", 7, "restitution = { first = 0.5, last = 1.3, count = 3, of = \"maximum\" }", "7:15",
+     {"plane.restitution reaches r = 1.", "outside (0, 1]", "cannot gain energy"}},
+    {"AnUnknownOf", 7, "restitution = { values = [1], of = \"maximal\" }", "7:36", {"of = \"maximal\" is unknown", "\"maximum\"?", "absolute"}},
+    {"AZeroSlenderness", 8, "slenderness = { values = [0] }", "8:27", {"plane.slenderness.values[0] = 0 is outside (0, pi/2)"}},
+    {"ASlendernessOfARightAngle", 8, "slenderness = { values = [1.5707963267948966] }", "8:27", {"outside (0, pi/2)"}},
+    {"ASlendernessInDegrees", 8, "slenderness = { values = [10] }", "8:27", {"outside (0, pi/2)", "radians"}},
+    {"AShareOfNoLargestRestitution", 8, "slenderness = { values = [0.2, 0.96] }", "8:15",
+     {"plane.slenderness reaches 0.96 rad", "0.9553", "absolute"}},
+    {"AShareForAStoutBlock", 8, "[block]\nhalf_width = 2\nhalf_height = 1", "8:1", {"block reaches 1.107", "0.9553", "absolute"}},
+    {"SlendernessBesideBlock", 9, "[block]\nhalf_width = 1\nhalf_height = 2\n[numerics]", "8:15",
+     {"plane.slenderness cannot stand beside [block]"}},
+    {"AZeroHalfWidth", 8, "[block]\nhalf_width = 0\nhalf_height = 2", "9:14", {"block.half_width = 0 is outside (0, inf)"}},
+    {"ANegativeHalfHeight", 8, "[block]\nhalf_width = 1\nhalf_height = -2", "10:15", {"block.half_height = -2 is outside (0, inf)"}},
+    {"AnInfiniteHalfHeight", 8, "[block]\nhalf_width = 1\nhalf_height = inf", "10:15", {"block.half_height = inf is not finite"}},
+    {"ABlockWithoutAngle", 8, "[block]\nhalf_width = 1e-300\nhalf_height = 1e300", "8:1", {"block has half_width = 1e-300", "slenderness 0"}},
+    {"ABlockLyingFlat", 8, "[block]\nhalf_width = 1e300\nhalf_height = 1e-300", "8:1", {"block has half_width = 1e+300", "pi/2"}});
+
+MISTAKES(Scene,
+    {"AnUnknownPulse", 3, "pulse = \"one-sine\"", "3:9", {"scene.pulse = \"one-sine\" is unknown", "Did you mean \"one_sine\"?", "antisymmetric_ricker"}},
+    {"AFarFetchedPulse", 3, "pulse = \"earthquake\"", "3:9", {"is unknown. Allowed: one_sine, one_cosine"}},
+    {"AnUnknownTheory", 3, "pulse = \"one_sine\"\ntheory = \"non-linear\"", "4:10", {"Did you mean \"nonlinear\"?", "Allowed: nonlinear, linear"}},
+    {"AWindowOnAPulseThatEnds", 3, "pulse = \"one_sine\"\nwindow = 1.0", "4:10", {"scene.window has no meaning", "\"one_sine\"", "Ricker"}},
+    {"AZeroWindow", 3, "pulse = \"symmetric_ricker\"\nwindow = 0", "4:10", {"scene.window = 0 is outside (0, 8]"}},
+    {"AWideWindow", 3, "pulse = \"symmetric_ricker\"\nwindow = 8.5", "4:10", {"scene.window = 8.5 is outside (0, 8]"}},
+    {"ANanWindow", 3, "pulse = \"symmetric_ricker\"\nwindow = nan", "4:10", {"scene.window = nan is not finite"}});
+
+MISTAKES(NumericsAndOutput,
+    {"AnUnknownMethod", 10, "method = \"rk4\"", "10:10", {"numerics.method = \"rk4\" is unknown", "Did you mean \"rk45\"?"}},
+    {"ATinyTolerance", 10, "tolerance = 9e-15", "10:13", {"numerics.tolerance = 9e-15 is outside [1e-14, 0.01]"}},
+    {"AHugeTolerance", 10, "tolerance = 1", "10:13", {"numerics.tolerance = 1 is outside [1e-14, 0.01]"}},
+    {"ANanTolerance", 10, "tolerance = nan", "10:13", {"numerics.tolerance = nan is not finite"}},
+    {"NoFields", 12, "fields = []", "12:10", {"output.fields is empty", "region, angle"}},
+    {"AnUnknownField", 12, "fields = [\"region\", \"angel\"]", "12:21", {"output.fields[1] = \"angel\" is unknown", "Did you mean \"angle\"?", "Allowed: region"}},
+    {"ARepeatedField", 12, "fields = [\"region\", \"angle\", \"region\"]", "12:30", {"output.fields[2] = \"region\"", "once"}});
+// clang-format on
+
+TEST(ReadingAJob, RefusesAPlaneTooLargeToAddress)
+{
+    const JobFile file(R"([scene]
+pulse = "one_sine"
+[plane]
+frequency   = { first = 0.1, last = 12.0, count = 1099511627776 }
+amplitude   = { first = 0.1, last = 12.0, count = 1099511627776 }
+restitution = { first = 0.1, last = 1.0, count = 1099511627776 }
+slenderness = { first = 0.1, last = 1.0, count = 1099511627776 }
+[output]
+fields = ["region", "angle"]
+)");
+    try {
+        read_job(file.path());
+        FAIL() << "the job was accepted";
+    } catch (const JobError& error) {
+        const std::string message = error.what();
+        // 2^160 points of 9 bytes.
+        EXPECT_NE(message.find(":3:1: plane has 1.462e+48 points"), message.npos) << message;
+        EXPECT_NE(message.find("1.315e+49 bytes"), message.npos) << message;
+    }
+}
+
+TEST(ReadingAJob, AcceptsTheLargestPlaneThatCanBeAddressed)
+{
+    // 2^40 x 2^22 points of one byte; one more frequency is one more row than 2^62 bytes.
+    const std::string job = R"([scene]
+pulse = "one_sine"
+[plane]
+frequency   = { first = 0.1, last = 12.0, count = 1099511627776 }
+amplitude   = { first = 0.1, last = 12.0, count = 4194304 }
+restitution = { values = [1.0] }
+slenderness = { values = [0.2] }
+)";
+    const JobFile file(job);
+    EXPECT_EQ(read_job(file.path()).plane.points(), std::int64_t(1) << 62);
+    EXPECT_THROW(read_job(file.path(), {"plane.frequency.count=1099511627777"}), JobError);
+    EXPECT_THROW(read_job(file.path(), {"output.fields=['region', 'status']"}), JobError);
+}
+
+} // namespace
+
+} // namespace overturn

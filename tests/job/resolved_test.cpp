@@ -1,0 +1,122 @@
+#include "overturn/job/job.hpp"
+
+#include "job_file.hpp"
+
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+Job read_text(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    return read_job(JobFile(text).path(), overrides);
+}
+
+void expect_equal(const Axis& axis, const Axis& other)
+{
+    ASSERT_EQ(axis.definition().index(), other.definition().index());
+    ASSERT_EQ(axis.size(), other.size());
+    EXPECT_EQ(axis.values(), other.values());
+}
+
+TEST(TheResolvedJob, SpellsOutEveryDefault)
+{
+    const Job job =
+        read_text("[scene]\npulse = 'symmetric_ricker'\n"
+                  "[plane]\n"
+                  "slenderness = { values = [0.2] }\n"
+                  "restitution.values = [1] # of = absolute\n"
+                  "amplitude = { count = 3, last = 2, first = 0 }\n"
+                  "frequency = { first = 0.1, last = 1e22, count = 7, spacing = 'log' }\n");
+    EXPECT_EQ(job.resolved, R"(title = ""
+
+[scene]
+pulse = "symmetric_ricker"
+theory = "nonlinear"
+window = 1.0
+
+[plane]
+frequency = { first = 0.1, last = 1e+22, count = 7, spacing = "log" }
+amplitude = { first = 0.0, last = 2.0, count = 3, spacing = "linear" }
+restitution = { values = [1.0], of = "absolute" }
+slenderness = { values = [0.2] }
+
+[numerics]
+method = "rk45"
+tolerance = 1e-09
+
+[output]
+fields = ["region"]
+)");
+}
+
+TEST(TheResolvedJob, HasAWindowOnlyWhereThePulseHasOne)
+{
+    EXPECT_EQ(read_text(sound_job).resolved.find("window"), std::string::npos);
+}
+
+class ResolvingAgain : public testing::TestWithParam<const char*> {};
+
+TEST_P(ResolvingAgain, ChangesNothing)
+{
+    const Job once = read_text(GetParam());
+    const Job twice = read_text(once.resolved);
+    EXPECT_EQ(once.resolved, twice.resolved);
+    EXPECT_EQ(once.title, twice.title);
+    EXPECT_EQ(once.scene.pulse, twice.scene.pulse);
+    EXPECT_EQ(once.scene.theory, twice.scene.theory);
+    EXPECT_EQ(once.scene.window, twice.scene.window);
+    expect_equal(once.plane.frequency, twice.plane.frequency);
+    expect_equal(once.plane.amplitude, twice.plane.amplitude);
+    expect_equal(once.plane.restitution, twice.plane.restitution);
+    expect_equal(once.plane.slenderness, twice.plane.slenderness);
+    EXPECT_EQ(once.plane.restitution_of, twice.plane.restitution_of);
+    EXPECT_EQ(once.plane.block.has_value(), twice.plane.block.has_value());
+    EXPECT_EQ(once.numerics.tolerance, twice.numerics.tolerance);
+    EXPECT_EQ(once.fields, twice.fields);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Jobs, ResolvingAgain,
+    testing::Values(sound_job,
+                    R"(title = "Quotes \" and \\, a tab \t, an end\n, a bell \u0007, Ω"
+[scene]
+pulse = "antisymmetric_ricker"
+theory = "linear"
+window = 0.7
+[plane]
+frequency = { values = [5e-324, 0.1, 0.30000000000000004, 1e22, 1.7976931348623157e308] }
+amplitude = { first = 1e-3, last = 3, count = 5, spacing = "log" }
+restitution = { first = 0.1, last = 1, count = 4 }
+[block]
+half_width = 1
+half_height = 5.67
+[numerics]
+tolerance = 3.3e-14
+[output]
+fields = ["status", "region", "impacts", "velocity", "margin", "angle"]
+)"));
+
+TEST(TheResolvedJob, IsTheSameForTheSameJobWrittenDifferently)
+{
+    const std::string plain = read_text(sound_job).resolved;
+    EXPECT_EQ(read_text(sound_job_with(10, "tolerance = 0.000_000_001 # the default")).resolved,
+              plain);
+    EXPECT_EQ(
+        read_text(sound_job_with(3, "pulse = 'rectangular'"), {"scene.pulse=one_sine"}).resolved,
+        plain);
+}
+
+TEST(TheResolvedJob, DiffersForAnotherJob)
+{
+    const std::string plain = read_text(sound_job).resolved;
+    // One unit in the last place of one value is another job.
+    EXPECT_NE(read_text(sound_job, {"plane.slenderness.values=[0.17457160000000003]"}).resolved,
+              plain);
+    EXPECT_NE(read_text(sound_job, {"output.fields=['angle', 'region']"}).resolved, plain);
+}
+
+} // namespace
+
+} // namespace overturn
