@@ -1,0 +1,44 @@
+// Where a result comes from. What decides the bits (program version and commit) stands in the
+// result file; what varies from run to run goes into a sidecar beside it, OUT.h5.json.
+#pragma once
+
+#include "overturn/file/file_error.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// As in "0.1.0".
+std::string_view program_version();
+
+/// The commit that the program was built from, with "-dirty" if the sources differed from it;
+/// "unknown" if they were not in a git repository.
+std::string_view program_commit();
+
+/// Of the HDF5 library in use, as in "1.10.8".
+std::string hdf5_version();
+
+/// One rank's share of a run.
+struct RankRecord {
+    std::string host;
+    std::int64_t tiles = 0; ///< computed in this run
+    double busy_seconds = 0;
+};
+
+/// One run, or the part of it since it was last resumed.
+struct RunRecord {
+    std::chrono::system_clock::time_point start;
+    double wall_seconds = 0;
+    std::string kernel;
+    std::vector<RankRecord> ranks; ///< by rank number
+};
+
+/// Writes the record to spectrum_path + ".json", together with the compiler and the versions of
+/// HDF5 and MPI. Replaces an older sidecar in one step. Throws FileError.
+void write_sidecar(const std::string& spectrum_path, const RunRecord& record);
+
+} // namespace overturn

@@ -1,0 +1,47 @@
+// Reading a result file back, knowing nothing but its path: what it holds and whether it is whole.
+#pragma once
+
+#include "overturn/file/file_error.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+struct AxisSummary {
+    std::string name;
+    std::int64_t size = 0;
+    double first = 0; ///< in `units`
+    double last = 0;  ///< in `units`
+    std::string units;
+};
+
+struct FieldSummary {
+    std::string name;
+    std::string type; ///< "uint8", "uint16" or "float64"
+};
+
+/// What a result file says of itself.
+struct SpectrumSummary {
+    std::string title;
+    std::string program_version;
+    std::string program_commit;
+    std::string resolved_job;
+    std::vector<AxisSummary> axes;     ///< slowest first: the dimensions of every field
+    std::vector<FieldSummary> fields;  ///< in the job's order
+    std::int64_t amplitude_extent = 0; ///< of a tile [points]
+    std::int64_t frequency_extent = 0; ///< of a tile [points]
+    std::int64_t tiles = 0;
+    std::int64_t tiles_done = 0;
+    std::uint64_t bytes = 0; ///< of the file
+};
+
+/// Throws FileError if the file is missing, not a spectrum of ours, or damaged.
+SpectrumSummary summarize(const std::string& path);
+
+/// Numbers of the tiles whose stored values do not match their checksum, ascending; tiles that are
+/// not computed yet are not among them. Reads all data. Throws FileError as summarize() does.
+std::vector<std::int64_t> damaged_tiles(const std::string& path);
+
+} // namespace overturn

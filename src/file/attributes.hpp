@@ -1,0 +1,27 @@
+// Attributes of files and datasets as every reader of netCDF-4 understands them: fixed-length UTF-8
+// text, numbers, and lists of numbers.
+#pragma once
+
+#include "hdf5_handles.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn::hdf5 {
+
+/// An empty text has no such form and is left out.
+void write_attribute(hid_t object, const char* name, std::string_view text);
+void write_attribute(hid_t object, const char* name, double value);
+void write_attribute(hid_t object, const char* name, std::int64_t value);
+void write_attribute(hid_t object, const char* name, const std::vector<std::uint8_t>& values);
+void write_attribute(hid_t object, const char* name, const std::vector<std::uint16_t>& values);
+
+/// Empty if there is no such attribute or if it is not a text of ours.
+std::string read_text_attribute(hid_t object, const char* name);
+
+/// Throws Hdf5Error if there is no such attribute or if it is not a number.
+std::int64_t read_integer_attribute(hid_t object, const char* name);
+
+} // namespace overturn::hdf5

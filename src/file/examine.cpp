@@ -1,0 +1,97 @@
+// Whether what stands at the output path is this job's.
+
+#include "stored_spectrum.hpp"
+#include "tile_checksum.hpp"
+
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/spectrum_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace overturn {
+
+namespace {
+
+/// The part of a line around a column, so that a list of ten thousand values stays readable.
+std::string excerpt(std::string_view line, std::size_t column)
+{
+    constexpr std::size_t before = 40;
+    constexpr std::size_t length = 80;
+    const std::size_t begin = line.size() <= length || column < before ? 0 : column - before;
+    const std::string_view shown = line.substr(std::min(begin, line.size()), length);
+    return fmt::format("{}{}{}", begin > 0 ? "..." : "", shown,
+                       begin + shown.size() < line.size() ? "..." : "");
+}
+
+/// Takes the first line off a text.
+std::string_view next_line(std::string_view& text)
+{
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    return line;
+}
+
+/// The first line in which two different texts differ, in words.
+std::string first_difference(std::string_view stored, std::string_view given)
+{
+    for (int number = 1;; ++number) {
+        const bool ends = stored.empty() || given.empty();
+        const std::string_view theirs = stored.empty() ? "(nothing more)" : next_line(stored);
+        const std::string_view ours = given.empty() ? "(nothing more)" : next_line(given);
+        if (ends || theirs != ours) {
+            const auto differ =
+                std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());
+            const auto column = std::size_t(differ.first - theirs.begin());
+            return fmt::format("line {} of its resolved job is\n  {}\nand here it is\n  {}\n",
+                               number, excerpt(theirs, column), excerpt(ours, column));
+        }
+    }
+}
+
+/// The refusal of a file that is not ours ends with what to do.
+StoredSpectrum open_or_refuse(const std::string& path)
+{
+    try {
+        return open_stored_spectrum(path);
+    } catch (const FileError& error) {
+        throw FileError(fmt::format("{} Choose another name with -o.", error.what()));
+    }
+}
+
+} // namespace
+
+Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
+{
+    std::error_code reason;
+    if (std::filesystem::status(path, reason).type() == std::filesystem::file_type::not_found) {
+        return Existing::nothing;
+    }
+    const StoredSpectrum stored = open_or_refuse(path);
+    if (stored.resolved_job != job.resolved) {
+        throw FileError(fmt::format("\"{}\" holds another job: {}Choose another name with -o.",
+                                    path, first_difference(stored.resolved_job, job.resolved)));
+    }
+    if (stored.program_version != program_version() || stored.program_commit != program_commit()) {
+        throw FileError(fmt::format(
+            "\"{}\" was computed by overturn {} (commit {}), and this is overturn {} (commit {}), "
+            "whose results may differ in their last digits. Choose another name with -o, or take "
+            "that program.",
+            path, stored.program_version, stored.program_commit, program_version(),
+            program_commit()));
+    }
+    if (stored.amplitude_extent != tiling.amplitude_extent() ||
+        stored.frequency_extent != tiling.frequency_extent() || stored.fields != job.fields ||
+        stored.checksums.size() != std::size_t(tiling.size())) {
+        throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles are not those of its "
+                                    "job. Remove it, or choose another name with -o.",
+                                    path));
+    }
+    const bool unfinished = std::find(stored.checksums.begin(), stored.checksums.end(),
+                                      not_computed_checksum) != stored.checksums.end();
+    return unfinished ? Existing::unfinished : Existing::complete;
+}
+
+} // namespace overturn

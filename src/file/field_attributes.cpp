@@ -1,0 +1,77 @@
+#include "field_attributes.hpp"
+
+#include "attributes.hpp"
+#include "layout.hpp"
+
+#include <limits>
+
+namespace overturn {
+
+namespace {
+
+using hdf5::write_attribute;
+
+void describe_region(hid_t dataset)
+{
+    write_attribute(dataset, "long_name", "region of the block's state at the end of the pulse");
+    write_attribute(dataset, "flag_values",
+                    std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255});
+    write_attribute(dataset, "flag_meanings",
+                    "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus undecided "
+                    "not_computed");
+    write_attribute(dataset, "comment",
+                    "S safe without impact, S_plus and S_minus safe after one impact, U0 overturns "
+                    "without impact, U1 overturns after one impact, F overturned during the pulse");
+}
+
+void describe_status(hid_t dataset)
+{
+    write_attribute(dataset, "long_name", "incidents on the way to the end of the pulse");
+    write_attribute(dataset, "flag_masks",
+                    std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
+                                              status::not_finite, status::unresolved});
+    write_attribute(dataset, "flag_meanings", "came_to_rest cap_was_hit not_finite unresolved");
+    write_attribute(dataset, "comment", "0 is a point without incident, 255 one not computed yet");
+}
+
+void describe_impacts(hid_t dataset)
+{
+    write_attribute(dataset, "long_name", "number of impacts during the pulse");
+    write_attribute(dataset, "units", "1");
+    write_attribute(dataset, "flag_values",
+                    std::vector<std::uint16_t>{impact_count::largest, impact_count::not_computed,
+                                               impact_count::bounce_series});
+    write_attribute(dataset, "flag_meanings", "this_many_or_more not_computed bounce_series");
+}
+
+/// NaN is what readers take for missing, so it can be declared; on the integer fields a declared
+/// fill value would turn codes into floats.
+void describe_number(hid_t dataset, const char* long_name, const char* units)
+{
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "units", units);
+    write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
+}
+
+} // namespace
+
+void write_field_attributes(hid_t dataset, Field field)
+{
+    switch (field) {
+    case Field::region: describe_region(dataset); break;
+    case Field::status: describe_status(dataset); break;
+    case Field::impacts: describe_impacts(dataset); break;
+    case Field::angle:
+        describe_number(dataset, "angle theta of the block at the end of the pulse", "rad");
+        break;
+    case Field::velocity:
+        describe_number(dataset, "d theta / d(p t) at the end of the pulse", "rad");
+        break;
+    case Field::margin:
+        describe_number(dataset, "distance of the verdict from flipping, positive where safe", "1");
+        break;
+    }
+    write_attribute(dataset, "coordinates", layout::restitution_ratio);
+}
+
+} // namespace overturn

@@ -1,0 +1,12 @@
+// What a field says of itself in the file: names, units, and the meaning of codes.
+#pragma once
+
+#include "hdf5_handles.hpp"
+
+#include "overturn/sweep/fields.hpp"
+
+namespace overturn {
+
+void write_field_attributes(hid_t dataset, Field field);
+
+} // namespace overturn

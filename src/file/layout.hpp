@@ -1,0 +1,52 @@
+// What stands where in a result file: names, dimensions and types, shared by writer and readers.
+#pragma once
+
+#include "hdf5_handles.hpp"
+
+#include "overturn/sweep/fields.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+namespace overturn::layout {
+
+/// Global attribute `kind`: tells spectra from the other files that overturn writes.
+inline constexpr char kind[] = "overturning spectrum";
+
+/// Dimensions of every field, slowest first; each has a coordinate variable of its name.
+inline constexpr std::array<const char*, 4> dimensions{"slenderness", "restitution", "amplitude",
+                                                       "frequency"};
+
+inline constexpr char restitution_ratio[] = "restitution_ratio";
+inline constexpr char checksum[] = "checksum";
+inline constexpr char tile[] = "tile";
+inline constexpr char amplitude_extent[] = "amplitude_extent";
+inline constexpr char frequency_extent[] = "frequency_extent";
+inline constexpr char job_given[] = "job_given";
+inline constexpr char job_overrides[] = "job_overrides";
+inline constexpr char job_resolved[] = "job_resolved";
+
+/// The types of a field in the file and in memory, and the value of a point not computed yet.
+struct StoredAs {
+    hid_t file;
+    hid_t memory;
+    const char* name;
+    std::variant<std::uint8_t, std::uint16_t, double> fill;
+};
+
+inline StoredAs stored_as(Field field)
+{
+    switch (field) {
+    case Field::region:
+    case Field::status: return {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed};
+    case Field::impacts:
+        return {H5T_STD_U16LE, H5T_NATIVE_UINT16, "uint16", impact_count::not_computed};
+    default:
+        return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, "float64",
+                std::numeric_limits<double>::quiet_NaN()};
+    }
+}
+
+} // namespace overturn::layout

@@ -1,0 +1,84 @@
+#include "part_file.hpp"
+
+#include "system_reason.hpp"
+
+#include "overturn/file/file_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+namespace overturn {
+
+namespace {
+
+/// Waits until the file or folder is on the disk.
+bool sync(const std::string& path)
+{
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+        return false;
+    }
+    const int result = fsync(descriptor);
+    const int reason = errno;
+    close(descriptor);
+    errno = reason;
+    // Some file systems cannot sync a folder, and say so with EINVAL.
+    return result == 0 || reason == EINVAL;
+}
+
+std::string folder_of(const std::string& path)
+{
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    return folder.empty() ? std::string(".") : folder.string();
+}
+
+} // namespace
+
+PartFile::PartFile(std::string path)
+    : target_(std::move(path)), folder_(folder_of(target_)), part_(target_ + ".part")
+{
+    if (!std::filesystem::is_directory(folder_)) {
+        throw FileError(
+            fmt::format("cannot create \"{}\": there is no folder \"{}\". Create it, or "
+                        "choose another name with -o.",
+                        target_, folder_));
+    }
+    if (access(folder_.c_str(), W_OK | X_OK) != 0) {
+        throw FileError(fmt::format("cannot create \"{}\": the folder \"{}\" is not writable: {}. "
+                                    "Choose another name with -o.",
+                                    target_, folder_, system_reason(errno)));
+    }
+    unlink(part_.c_str());
+}
+
+PartFile::~PartFile()
+{
+    if (!in_place_) {
+        unlink(part_.c_str());
+    }
+}
+
+std::uint64_t PartFile::available_bytes() const
+{
+    struct statvfs disk = {};
+    if (statvfs(folder_.c_str(), &disk) != 0) {
+        throw FileError(fmt::format("cannot see how much space is left in \"{}\": {}.", folder_,
+                                    system_reason(errno)));
+    }
+    return std::uint64_t(disk.f_bavail) * disk.f_frsize;
+}
+
+void PartFile::move_into_place()
+{
+    if (!sync(part_) || std::rename(part_.c_str(), target_.c_str()) != 0 || !sync(folder_)) {
+        throw FileError(fmt::format("cannot create \"{}\": {}.", target_, system_reason(errno)));
+    }
+    in_place_ = true;
+}
+
+} // namespace overturn

@@ -1,0 +1,108 @@
+#include "overturn/file/provenance.hpp"
+
+#include "part_file.hpp"
+#include "program_identity.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <mpi.h>
+
+#include <fstream>
+
+namespace overturn {
+
+namespace {
+
+/// A JSON string (RFC 8259). UTF-8 passes as it is.
+std::string quoted(std::string_view text)
+{
+    std::string result = "\"";
+    for (const char character : text) {
+        if (character == '"' || character == '\\') {
+            result += '\\';
+            result += character;
+        } else if (static_cast<unsigned char>(character) < 0x20) {
+            result += fmt::format("\\u{:04x}", int(character));
+        } else {
+            result += character;
+        }
+    }
+    return result + '"';
+}
+
+std::string mpi_version()
+{
+    char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+    int length = 0;
+    MPI_Get_library_version(text, &length);
+    return std::string(text, std::size_t(length));
+}
+
+std::string compiler_version()
+{
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "GCC " __VERSION__;
+#else
+    return "unknown";
+#endif
+}
+
+std::string as_json(const RunRecord& record)
+{
+    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(record.start);
+    std::string text = "{\n";
+    text += fmt::format("  \"program_version\": {},\n", quoted(program_version()));
+    text += fmt::format("  \"program_commit\": {},\n", quoted(program_commit()));
+    text += fmt::format("  \"start\": \"{:%Y-%m-%dT%H:%M:%SZ}\",\n", fmt::gmtime(start));
+    text += fmt::format("  \"wall_seconds\": {},\n", record.wall_seconds);
+    text += fmt::format("  \"kernel\": {},\n", quoted(record.kernel));
+    text += fmt::format("  \"compiler\": {},\n", quoted(compiler_version()));
+    text += fmt::format("  \"hdf5\": {},\n", quoted(hdf5_version()));
+    text += fmt::format("  \"mpi\": {},\n", quoted(mpi_version()));
+    text += "  \"ranks\": [";
+    const char* separator = "\n";
+    for (const RankRecord& rank : record.ranks) {
+        text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"busy_seconds\": {}}}",
+                            separator, quoted(rank.host), rank.tiles, rank.busy_seconds);
+        separator = ",\n";
+    }
+    return text + "\n  ]\n}\n";
+}
+
+} // namespace
+
+std::string hdf5_version()
+{
+    unsigned major = 0;
+    unsigned minor = 0;
+    unsigned release = 0;
+    H5get_libversion(&major, &minor, &release);
+    return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+std::string_view program_version()
+{
+    return identity::version;
+}
+
+std::string_view program_commit()
+{
+    return identity::commit;
+}
+
+void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
+{
+    PartFile part(spectrum_path + ".json");
+    std::ofstream stream(part.path(), std::ios::binary);
+    stream << as_json(record);
+    stream.close();
+    if (!stream) {
+        throw FileError(fmt::format("cannot write \"{}.json\".", spectrum_path));
+    }
+    part.move_into_place();
+}
+
+} // namespace overturn

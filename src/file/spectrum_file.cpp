@@ -1,0 +1,133 @@
+#include "overturn/file/spectrum_file.hpp"
+
+#include "hdf5_handles.hpp"
+#include "layout.hpp"
+#include "system_reason.hpp"
+#include "tile_access.hpp"
+#include "tile_checksum.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cerrno>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+namespace overturn {
+
+using hdf5::check;
+using hdf5::Handle;
+
+void start_hdf5()
+{
+    hdf5::start();
+}
+
+struct SpectrumFile::Open {
+    std::string path;
+    std::vector<Field> fields;
+    Handle file;
+    std::vector<Handle> datasets; ///< in the order of `fields`
+    Handle checksums;
+
+    FileError cannot_write(const Tile& tile, std::string_view dataset,
+                           const hdf5::Hdf5Error& error) const;
+};
+
+FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view dataset,
+                                           const hdf5::Hdf5Error& error) const
+{
+    // MPI-IO keeps the reason of a failed write to itself: what the system said last is the best
+    // guess, and a full disk cannot be hidden.
+    int reason = errno;
+    struct statvfs disk = {};
+    if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
+        reason = ENOSPC;
+    }
+    return FileError(
+        fmt::format("cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
+                    tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
+                    reason == ENOSPC || reason == EDQUOT ? "Free some and run" : "Run"));
+}
+
+SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job)
+    : open_(std::make_unique<Open>())
+{
+    open_->path = path;
+    open_->fields = job.fields;
+    if (access(path.c_str(), R_OK | W_OK) != 0) {
+        // MPI-IO would say "invalid access mode".
+        throw FileError(
+            fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
+    }
+    try {
+        hdf5::start();
+        const Handle through_mpi = hdf5::file_access();
+        check(H5Pset_fapl_mpio(through_mpi, communicator, MPI_INFO_NULL));
+        open_->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, through_mpi), H5Fclose);
+        for (const Field field : job.fields) {
+            open_->datasets.emplace_back(H5Dopen2(open_->file, name_of(field).data(), H5P_DEFAULT),
+                                         H5Dclose);
+        }
+        open_->checksums = Handle(H5Dopen2(open_->file, layout::checksum, H5P_DEFAULT), H5Dclose);
+    } catch (const hdf5::Hdf5Error& error) {
+        open_->file.release();
+        throw FileError(fmt::format("cannot open \"{}\" for writing: {}.", path, error.what()));
+    }
+}
+
+SpectrumFile::~SpectrumFile()
+{
+    open_->file.release();
+}
+
+std::vector<std::int64_t> SpectrumFile::missing_tiles()
+{
+    try {
+        std::vector<std::int64_t> missing;
+        const std::vector<std::uint64_t> checksums = read_checksums(open_->checksums);
+        for (std::size_t tile = 0; tile < checksums.size(); ++tile) {
+            if (checksums[tile] == not_computed_checksum) {
+                missing.push_back(std::int64_t(tile));
+            }
+        }
+        return missing;
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(fmt::format("cannot read which tiles of \"{}\" are missing: {}.",
+                                    open_->path, error.what()));
+    }
+}
+
+void SpectrumFile::write(const Tile& tile, const TileFields& fields)
+{
+    assert(fields.values.size() == open_->fields.size());
+    std::string_view dataset;
+    try {
+        errno = 0;
+        for (std::size_t i = 0; i < open_->fields.size(); ++i) {
+            dataset = name_of(open_->fields[i]);
+            write_tile(open_->datasets[i], tile, open_->fields[i], fields.values[i]);
+        }
+        dataset = layout::checksum;
+        write_checksum(open_->checksums, tile.number, tile_checksum(fields.values));
+    } catch (const hdf5::Hdf5Error& error) {
+        throw open_->cannot_write(tile, dataset, error);
+    }
+}
+
+void SpectrumFile::close()
+{
+    try {
+        open_->datasets.clear();
+        open_->checksums.close();
+        check(H5Fflush(open_->file, H5F_SCOPE_GLOBAL));
+        open_->file.close();
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(
+            fmt::format("cannot bring all of \"{}\" to the disk: {}. Have it checked by "
+                        "overturn verify.",
+                        open_->path, error.what()));
+    }
+}
+
+} // namespace overturn

@@ -1,0 +1,186 @@
+#include "stored_spectrum.hpp"
+
+#include "attributes.hpp"
+#include "layout.hpp"
+#include "system_reason.hpp"
+#include "tile_access.hpp"
+
+#include "overturn/file/file_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+
+namespace overturn {
+
+namespace {
+
+using hdf5::check;
+using hdf5::Handle;
+
+void demand(bool condition, const char* what_is_wrong)
+{
+    if (!condition) {
+        throw hdf5::Hdf5Error(what_is_wrong);
+    }
+}
+
+Handle open_dataset(hid_t file, const char* name)
+{
+    return Handle(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+}
+
+std::vector<hsize_t> shape_of(hid_t dataset)
+{
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    std::vector<hsize_t> shape(std::size_t(check(H5Sget_simple_extent_ndims(space))));
+    check(H5Sget_simple_extent_dims(space, shape.data(), nullptr));
+    return shape;
+}
+
+bool has_type(hid_t dataset, hid_t expected)
+{
+    const Handle type(H5Dget_type(dataset), H5Tclose);
+    return check(H5Tequal(type, expected)) > 0;
+}
+
+// Sizes are held against the file's, so that a damaged one cannot make us allocate without bound.
+
+std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
+{
+    const Handle dataset = open_dataset(file, name);
+    const std::vector<hsize_t> shape = shape_of(dataset);
+    demand(shape.size() == 1 && shape[0] <= bytes && has_type(dataset, H5T_C_S1),
+           "a text is malformed");
+    std::string text(shape[0], '\0');
+    check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
+    return text;
+}
+
+StoredAxis read_axis(hid_t file, const char* name, std::uint64_t bytes)
+{
+    const Handle dataset = open_dataset(file, name);
+    const std::vector<hsize_t> shape = shape_of(dataset);
+    demand(shape.size() == 1 && shape[0] >= 1 && shape[0] <= bytes / sizeof(double) &&
+               has_type(dataset, H5T_IEEE_F64LE),
+           "an axis is malformed");
+    StoredAxis axis{name, hdf5::read_text_attribute(dataset, "units"), {}};
+    axis.values.resize(shape[0]);
+    check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, axis.values.data()));
+    return axis;
+}
+
+/// The fields in the order of their creation, which is the job's.
+std::vector<Field> read_fields(hid_t file)
+{
+    H5G_info_t group = {};
+    check(H5Gget_info(file, &group));
+    std::vector<Field> fields;
+    for (hsize_t i = 0; i < group.nlinks; ++i) {
+        std::string name(64, '\0');
+        const auto length = check(H5Lget_name_by_idx(file, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i,
+                                                     name.data(), name.size(), H5P_DEFAULT));
+        name.resize(std::min(std::size_t(length), name.size()));
+        const auto* found = std::find(field_names.begin(), field_names.end(), name);
+        if (found != field_names.end()) {
+            fields.push_back(Field(found - field_names.begin()));
+        }
+    }
+    demand(!fields.empty(), "there are no fields");
+    return fields;
+}
+
+void check_field(const StoredSpectrum& spectrum, Field field)
+{
+    const Handle dataset = open_dataset(spectrum.file, name_of(field).data());
+    const std::vector<hsize_t> shape = shape_of(dataset);
+    demand(shape.size() == spectrum.axes.size() && has_type(dataset, layout::stored_as(field).file),
+           "a field is malformed");
+    std::uint64_t room = spectrum.bytes / bytes_per_point(field);
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        demand(shape[i] == spectrum.axes[i].values.size(), "a field does not fit the axes");
+        demand(shape[i] <= room, "a field is larger than the file");
+        room /= shape[i];
+    }
+}
+
+void read_checksums_of_tiles(StoredSpectrum& spectrum)
+{
+    const Handle dataset = open_dataset(spectrum.file, layout::checksum);
+    spectrum.amplitude_extent = hdf5::read_integer_attribute(dataset, layout::amplitude_extent);
+    spectrum.frequency_extent = hdf5::read_integer_attribute(dataset, layout::frequency_extent);
+    demand(spectrum.amplitude_extent >= 1 && spectrum.frequency_extent >= 1,
+           "the tiles are malformed");
+    const std::vector<hsize_t> shape = shape_of(dataset);
+    demand(shape.size() == 1 && shape[0] == hsize_t(spectrum.tiling().size()) &&
+               has_type(dataset, H5T_STD_U64LE),
+           "the checksums do not fit the tiles");
+    spectrum.checksums = read_checksums(dataset);
+}
+
+StoredSpectrum read(const std::string& path)
+{
+    StoredSpectrum spectrum;
+    spectrum.bytes = std::filesystem::file_size(path);
+    spectrum.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
+    const hid_t file = spectrum.file;
+    if (hdf5::read_text_attribute(file, "kind") != layout::kind) {
+        throw FileError(
+            fmt::format("\"{}\" is an HDF5 file, but not a spectrum of overturn.", path));
+    }
+    spectrum.title = hdf5::read_text_attribute(file, "title");
+    spectrum.program_version = hdf5::read_text_attribute(file, "program_version");
+    spectrum.program_commit = hdf5::read_text_attribute(file, "program_commit");
+    spectrum.resolved_job = read_text(file, layout::job_resolved, spectrum.bytes);
+    for (const char* name : layout::dimensions) {
+        spectrum.axes.push_back(read_axis(file, name, spectrum.bytes));
+    }
+    spectrum.fields = read_fields(file);
+    for (const Field field : spectrum.fields) {
+        check_field(spectrum, field);
+    }
+    read_checksums_of_tiles(spectrum);
+    return spectrum;
+}
+
+} // namespace
+
+Tiling StoredSpectrum::tiling() const
+{
+    const auto axis = [this](std::size_t i) { return Axis(axes[i].values); };
+    const Plane plane{.frequency = axis(3),
+                      .amplitude = axis(2),
+                      .restitution = axis(1),
+                      .slenderness = axis(0),
+                      .restitution_of = RestitutionOf::absolute,
+                      .block = {}};
+    return Tiling(plane, amplitude_extent, frequency_extent);
+}
+
+StoredSpectrum open_stored_spectrum(const std::string& path)
+{
+    std::error_code reason;
+    if (!std::filesystem::is_regular_file(path, reason)) {
+        throw FileError(
+            fmt::format("cannot read \"{}\": {}.", path,
+                        reason ? in_sentence(reason.message()) : std::string("it is not a file")));
+    }
+    hdf5::start();
+    const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
+    if (is_hdf5 == 0) {
+        throw FileError(fmt::format("\"{}\" is not an HDF5 file.", path));
+    }
+    try {
+        check(is_hdf5);
+        return read(path);
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(
+            fmt::format("\"{}\" cannot be read or is damaged: {}.", path, error.what()));
+    } catch (const std::bad_alloc&) {
+        throw FileError(fmt::format("\"{}\" is damaged: a size in it is absurd.", path));
+    }
+}
+
+} // namespace overturn

@@ -1,0 +1,41 @@
+// A result file opened for reading, its structure checked: whoever holds one of these can trust the
+// numbers in it, if not yet the values of the tiles.
+#pragma once
+
+#include "hdf5_handles.hpp"
+
+#include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/tile.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+struct StoredAxis {
+    std::string name;
+    std::string units;
+    std::vector<double> values; ///< in `units`
+};
+
+struct StoredSpectrum {
+    hdf5::Handle file;
+    std::uint64_t bytes = 0;
+    std::string title;
+    std::string program_version;
+    std::string program_commit;
+    std::string resolved_job;
+    std::vector<StoredAxis> axes; ///< slowest first
+    std::vector<Field> fields;    ///< in the job's order
+    std::int64_t amplitude_extent = 0;
+    std::int64_t frequency_extent = 0;
+    std::vector<std::uint64_t> checksums; ///< by tile number
+
+    Tiling tiling() const;
+};
+
+/// Throws FileError if the file is missing, not a spectrum of ours, or damaged.
+StoredSpectrum open_stored_spectrum(const std::string& path);
+
+} // namespace overturn

@@ -1,0 +1,68 @@
+#include "layout.hpp"
+#include "stored_spectrum.hpp"
+#include "tile_access.hpp"
+#include "tile_checksum.hpp"
+
+#include "overturn/file/spectrum_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace overturn {
+
+SpectrumSummary summarize(const std::string& path)
+{
+    const StoredSpectrum stored = open_stored_spectrum(path);
+    SpectrumSummary summary;
+    summary.title = stored.title;
+    summary.program_version = stored.program_version;
+    summary.program_commit = stored.program_commit;
+    summary.resolved_job = stored.resolved_job;
+    for (const StoredAxis& axis : stored.axes) {
+        summary.axes.push_back({axis.name, std::int64_t(axis.values.size()), axis.values.front(),
+                                axis.values.back(), axis.units});
+    }
+    for (const Field field : stored.fields) {
+        summary.fields.push_back({std::string(name_of(field)), layout::stored_as(field).name});
+    }
+    summary.amplitude_extent = stored.amplitude_extent;
+    summary.frequency_extent = stored.frequency_extent;
+    summary.tiles = std::int64_t(stored.checksums.size());
+    summary.tiles_done = summary.tiles - std::count(stored.checksums.begin(),
+                                                    stored.checksums.end(), not_computed_checksum);
+    summary.bytes = stored.bytes;
+    return summary;
+}
+
+std::vector<std::int64_t> damaged_tiles(const std::string& path)
+{
+    const StoredSpectrum stored = open_stored_spectrum(path);
+    const Tiling tiling = stored.tiling();
+    try {
+        std::vector<hdf5::Handle> datasets;
+        for (const Field field : stored.fields) {
+            datasets.emplace_back(H5Dopen2(stored.file, name_of(field).data(), H5P_DEFAULT),
+                                  H5Dclose);
+        }
+        std::vector<std::int64_t> damaged;
+        for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            const std::uint64_t expected = stored.checksums[std::size_t(number)];
+            if (expected == not_computed_checksum) {
+                continue;
+            }
+            std::vector<FieldValues> values;
+            for (std::size_t i = 0; i < datasets.size(); ++i) {
+                values.push_back(read_tile(datasets[i], tiling[number], stored.fields[i]));
+            }
+            if (tile_checksum(values) != expected) {
+                damaged.push_back(number);
+            }
+        }
+        return damaged;
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(fmt::format("cannot read the values in \"{}\": {}.", path, error.what()));
+    }
+}
+
+} // namespace overturn

@@ -1,0 +1,20 @@
+// The values of one tile in a dataset of the result file, and the checksums of all.
+#pragma once
+
+#include "hdf5_handles.hpp"
+
+#include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/tile.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace overturn {
+
+void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
+FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
+
+void write_checksum(hid_t dataset, std::int64_t tile, std::uint64_t checksum);
+std::vector<std::uint64_t> read_checksums(hid_t dataset);
+
+} // namespace overturn

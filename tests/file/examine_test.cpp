@@ -1,0 +1,169 @@
+#include "file/sample_job.hpp"
+#include "support/scratch_folder.hpp"
+
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/spectrum_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace overturn {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Lt;
+using testing::SizeIs;
+
+/// The message with which the file at `path` is refused; empty if it is not.
+std::string refusal(const std::string& path, const Job& job)
+{
+    try {
+        examine(path, job, sample_tiling(job));
+        return {};
+    } catch (const FileError& error) {
+        return error.what();
+    }
+}
+
+class Examine : public testing::Test {
+protected:
+    void create() { create_spectrum_file(path, job, sample_tiling(job)); }
+
+    /// Overwrites a global text attribute, as another program of the same format would have it.
+    void set_attribute(const char* name, const std::string& text)
+    {
+        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        H5Adelete(file, name);
+        const hid_t type = H5Tcopy(H5T_C_S1);
+        H5Tset_size(type, text.size());
+        const hid_t space = H5Screate(H5S_SCALAR);
+        const hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+        ASSERT_GE(H5Awrite(attribute, type, text.data()), 0);
+        H5Aclose(attribute);
+        H5Sclose(space);
+        H5Tclose(type);
+        ASSERT_GE(H5Fclose(file), 0);
+    }
+
+    ScratchFolder folder;
+    std::string path = folder / "a.h5";
+    Job job = sample_job();
+};
+
+TEST_F(Examine, FindsNothingWhereNothingStands)
+{
+    EXPECT_EQ(examine(path, job, sample_tiling(job)), Existing::nothing);
+}
+
+TEST_F(Examine, FindsANewFileUnfinished)
+{
+    create();
+    EXPECT_EQ(examine(path, job, sample_tiling(job)), Existing::unfinished);
+}
+
+TEST_F(Examine, LeavesTheFileAsItIs)
+{
+    create();
+    const std::string before = bytes_of(path);
+    examine(path, job, sample_tiling(job));
+    EXPECT_EQ(bytes_of(path), before);
+}
+
+// Many network file systems have no locks, or stale ones.
+TEST_F(Examine, DoesNotWaitForLocks)
+{
+    create();
+    const int descriptor = open(path.c_str(), O_RDWR);
+    ASSERT_EQ(flock(descriptor, LOCK_EX | LOCK_NB), 0);
+    EXPECT_EQ(examine(path, job, sample_tiling(job)), Existing::unfinished);
+    close(descriptor);
+}
+
+TEST_F(Examine, SaysInWhichLineAnotherJobDiffers)
+{
+    create();
+    job.resolved = "pulse = \"symmetric_ricker\"\nwindow = 1.5\ntolerance = 1e-09\n";
+    EXPECT_THAT(refusal(path, job),
+                AllOf(HasSubstr("holds another job"), HasSubstr("line 2"),
+                      HasSubstr("window = 1.25\n"), HasSubstr("window = 1.5\n"), HasSubstr("-o")));
+}
+
+TEST_F(Examine, SaysThatAnotherJobIsLonger)
+{
+    create();
+    job.resolved += "one more line\n";
+    EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("line 4"), HasSubstr("(nothing more)"),
+                                          HasSubstr("one more line")));
+}
+
+TEST_F(Examine, ShowsOnlyThePartOfALongLineThatDiffers)
+{
+    const std::string many(30000, '7');
+    job.resolved = "values = [" + many + ", 0.25, " + many + "]";
+    create();
+    job.resolved = "values = [" + many + ", 0.50, " + many + "]";
+    EXPECT_THAT(refusal(path, job),
+                AllOf(HasSubstr(", 0.25,"), HasSubstr(", 0.50,"), SizeIs(Lt(600u))));
+}
+
+TEST_F(Examine, RefusesAFileOfAnotherVersion)
+{
+    create();
+    set_attribute("program_version", "99.1.2");
+    EXPECT_THAT(refusal(path, job),
+                AllOf(HasSubstr("overturn 99.1.2"), HasSubstr(std::string(program_version()))));
+}
+
+TEST_F(Examine, RefusesAFileOfAnotherCommit)
+{
+    create();
+    set_attribute("program_commit", "0123456789abcdef");
+    EXPECT_THAT(refusal(path, job), HasSubstr("(commit 0123456789abcdef)"));
+}
+
+TEST_F(Examine, RefusesAnotherKindOfHdf5File)
+{
+    create();
+    set_attribute("kind", "rocking history");
+    EXPECT_THAT(refusal(path, job), HasSubstr("not a spectrum of overturn"));
+}
+
+TEST_F(Examine, RefusesAFileThatIsNotHdf5)
+{
+    write_bytes(path, "the only copy of a thesis");
+    EXPECT_THAT(refusal(path, job), HasSubstr("is not an HDF5 file"));
+    EXPECT_EQ(bytes_of(path), "the only copy of a thesis");
+}
+
+TEST_F(Examine, RefusesAnEmptyFile)
+{
+    write_bytes(path, "");
+    EXPECT_THAT(refusal(path, job), HasSubstr("is not an HDF5 file"));
+}
+
+TEST_F(Examine, RefusesAFolder)
+{
+    EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a file"));
+}
+
+TEST_F(Examine, RefusesAFileThatLacksItsEnd)
+{
+    create();
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("damaged"), HasSubstr("truncated file")));
+}
+
+TEST_F(Examine, RefusesAFileThatIsCutIntoOtherTiles)
+{
+    create_spectrum_file(path, job, Tiling(job.plane, 3, 3));
+    EXPECT_THAT(refusal(path, job), HasSubstr("tiles"));
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,214 @@
+"""Result files as others read them: xarray with both engines, h5py, netCDF4, ncdump.
+
+Takes the program write_sample from the environment variable WRITE_SAMPLE and mpirun with its flags
+from MPIRUN. Every warning is an error.
+"""
+
+import json
+import os
+import shlex
+import signal
+import subprocess
+import tempfile
+import unittest
+import warnings
+
+import h5py
+import netCDF4
+import numpy as np
+import xarray as xr
+
+ENGINES = ["h5netcdf", "netcdf4"]
+SHAPE = {"slenderness": 2, "restitution": 3, "amplitude": 7, "frequency": 11}
+FIELDS = ["region", "angle", "velocity", "margin", "impacts", "status"]
+
+
+def write_sample(*arguments, ranks=2):
+    command = [*shlex.split(os.environ["MPIRUN"]), "-n", str(ranks), os.environ["WRITE_SAMPLE"]]
+    return subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=100)
+
+
+def position():
+    """The number of each point, frequency counting fastest."""
+    return np.arange(np.prod(list(SHAPE.values()))).reshape(list(SHAPE.values()))
+
+
+class Sample(unittest.TestCase):
+    """Makes a finished and an unfinished file, once for all tests."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.finished = os.path.join(cls.folder.name, "finished.h5")
+        cls.unfinished = os.path.join(cls.folder.name, "unfinished.h5")
+        for arguments in ([cls.finished], [cls.unfinished, "1"]):
+            run = write_sample(*arguments)
+            if run.returncode != 0:
+                raise RuntimeError(run.stderr)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def setUp(self):
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+        warnings.simplefilter("error")
+
+    def in_every_engine(self, path, check):
+        for engine in ENGINES:
+            with self.subTest(engine), xr.open_dataset(path, engine=engine) as dataset:
+                check(dataset.load())
+
+
+class TestXarray(Sample):
+    def test_has_four_coordinates_with_units(self):
+        def check(dataset):
+            units = {name: dataset[name].attrs["units"] for name in SHAPE}
+            self.assertEqual(units, {"slenderness": "rad", "restitution": "1", "amplitude": "1",
+                                     "frequency": "1"})
+            np.testing.assert_array_equal(dataset.slenderness, [0.1745716, 0.25])
+            np.testing.assert_array_equal(dataset.restitution, [0.7, 0.85, 1])
+            np.testing.assert_allclose(dataset.amplitude, np.linspace(0.25, 16, 7), rtol=1e-15)
+            np.testing.assert_allclose(dataset.frequency, np.linspace(0.5, 12, 11), rtol=1e-15)
+            for name in SHAPE:
+                self.assertTrue(dataset[name].attrs["long_name"])
+        self.in_every_engine(self.finished, check)
+
+    def test_has_every_field_on_the_four_dimensions(self):
+        def check(dataset):
+            for name in FIELDS:
+                self.assertEqual(dict(dataset[name].sizes), SHAPE)
+                self.assertEqual(dataset[name].dims, tuple(SHAPE))
+            types = [dataset[name].dtype for name in FIELDS]
+            self.assertEqual(types, ["u1", "f8", "f8", "f8", "u2", "u1"])
+        self.in_every_engine(self.finished, check)
+
+    def test_finds_each_value_at_its_point(self):
+        def check(dataset):
+            np.testing.assert_array_equal(dataset.region, position() % 251)
+            np.testing.assert_array_equal(dataset.angle, position() + 1 / 8)
+            np.testing.assert_array_equal(dataset.velocity, position() + 2 / 8)
+            np.testing.assert_array_equal(dataset.margin, position() + 3 / 8)
+            np.testing.assert_array_equal(dataset.impacts, position() % 251)
+            np.testing.assert_array_equal(dataset.status, position() % 251)
+        self.in_every_engine(self.finished, check)
+
+    def test_selects_by_coordinates(self):
+        def check(dataset):
+            point = dataset.angle.sel(slenderness=0.25, restitution=0.85, amplitude=16, frequency=0.5)
+            self.assertEqual(point.item(), position()[1, 1, 6, 0] + 1 / 8)
+        self.in_every_engine(self.finished, check)
+
+    def test_has_the_restitution_ratio_as_a_coordinate(self):
+        largest = (1 - 1.5 * np.sin([[0.1745716], [0.25]]) ** 2) ** 2
+
+        def check(dataset):
+            self.assertIn("restitution_ratio", dataset.coords)
+            np.testing.assert_allclose(dataset.restitution_ratio, [[0.7, 0.85, 1]] * largest,
+                                       rtol=1e-14)
+            self.assertEqual(dataset.restitution.attrs["of"], "maximum")
+        self.in_every_engine(self.finished, check)
+
+    def test_has_as_many_meanings_as_flags(self):
+        def check(dataset):
+            region = dict(zip(dataset.region.attrs["flag_meanings"].split(),
+                              dataset.region.attrs["flag_values"]))
+            self.assertEqual(region, {"S": 0, "S_plus": 1, "S_minus": 2, "U0_plus": 3,
+                                      "U0_minus": 4, "U1_plus": 5, "U1_minus": 6, "F_plus": 7,
+                                      "F_minus": 8, "undecided": 254, "not_computed": 255})
+            status = dict(zip(dataset.status.attrs["flag_meanings"].split(),
+                              dataset.status.attrs["flag_masks"]))
+            self.assertEqual(status, {"came_to_rest": 1, "cap_was_hit": 2, "not_finite": 4,
+                                      "unresolved": 8})
+            impacts = dict(zip(dataset.impacts.attrs["flag_meanings"].split(),
+                               dataset.impacts.attrs["flag_values"]))
+            self.assertEqual(impacts["bounce_series"], 65535)
+            for name, flags in [("region", "flag_values"), ("status", "flag_masks"),
+                                ("impacts", "flag_values")]:
+                self.assertEqual(np.asarray(dataset[name].attrs[flags]).dtype, dataset[name].dtype)
+        self.in_every_engine(self.finished, check)
+
+    def test_sees_nan_and_codes_where_nothing_is_computed(self):
+        def check(dataset):
+            missing = np.isnan(dataset.angle.values)
+            self.assertEqual((~missing).sum(), 2 * 4 * 4)  # one tile of each rank
+            self.assertEqual(dataset.region.dtype, "u1")
+            np.testing.assert_array_equal(dataset.region.values == 255, missing)
+            np.testing.assert_array_equal(dataset.status.values == 255, missing)
+            np.testing.assert_array_equal(dataset.impacts.values == 65534, missing)
+            self.assertEqual((dataset.checksum.values != 0).sum(), 2)
+        self.in_every_engine(self.unfinished, check)
+
+    def test_has_the_job_and_where_the_file_comes_from(self):
+        def check(dataset):
+            self.assertEqual(dataset.attrs["Conventions"], "CF-1.8")
+            self.assertEqual(dataset.attrs["title"], "Sample: r = r_max, α = 10°")
+            self.assertEqual(dataset.attrs["window"], 1.25)
+            self.assertIn("Rocking of rigid blocks", dataset.attrs["references"])
+            given = dataset.job_given.item()
+            self.assertTrue(given.startswith('title = "Sample: r = r_max, α = 10°"\nvalues = [0, 1,'))
+            self.assertGreater(len(dataset.job_resolved.item()), 50000)
+            self.assertTrue(dataset.job_resolved.item().endswith(", 9999]\n"))
+            self.assertEqual(dataset.job_overrides.item().splitlines()[1],
+                             'output.fields=["region"]')
+        self.in_every_engine(self.finished, check)
+
+    def test_writes_it_out_again(self):
+        def check(dataset):
+            copy = os.path.join(self.folder.name, "copy.nc")
+            dataset.to_netcdf(copy, engine="netcdf4")
+            with xr.open_dataset(copy, engine="netcdf4") as again:
+                xr.testing.assert_identical(dataset, again.load())
+        self.in_every_engine(self.finished, check)
+
+
+class TestOtherReaders(Sample):
+    def test_h5py_sees_dimension_scales(self):
+        with h5py.File(self.finished) as file:
+            for name in FIELDS:
+                self.assertEqual([scale.keys()[0] for scale in file[name].dims], list(SHAPE))
+                np.testing.assert_array_equal(file[name].dims[3][0], file["frequency"])
+            self.assertEqual(file["job_resolved"][()].tobytes().decode()[:5], "pulse")
+            self.assertEqual(file["angle"].chunks, (1, 1, 4, 4))
+
+    def test_netcdf4_masks_only_what_is_not_computed(self):
+        with netCDF4.Dataset(self.unfinished) as file:
+            self.assertEqual(file["angle"].dimensions, tuple(SHAPE))
+            for name in ("angle", "region"):
+                self.assertEqual(np.ma.count(file[name][:]), 2 * 4 * 4)
+
+    def test_ncdump_reads_every_value(self):
+        run = subprocess.run(["ncdump", self.finished], capture_output=True, text=True, timeout=60)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("double angle(slenderness, restitution, amplitude, frequency) ;", run.stdout)
+        self.assertIn('frequency:units = "1" ;', run.stdout)
+        self.assertIn("tile = 36 ;", run.stdout)
+
+    def test_the_sidecar_is_json(self):
+        with open(self.finished + ".json", encoding="utf-8") as stream:
+            record = json.load(stream)
+        self.assertEqual([rank["host"] for rank in record["ranks"]], ['a "host"'] * 2)
+        self.assertRegex(record["start"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        self.assertRegex(record["hdf5"], r"^\d+\.\d+\.\d+$")
+        for key in ("compiler", "mpi", "program_commit"):
+            self.assertTrue(record[key])
+
+
+class TestAKilledRun(Sample):
+    def test_leaves_a_file_that_opens_and_resumes_to_the_same_bytes(self):
+        path = os.path.join(self.folder.name, "killed.h5")
+        killed = write_sample(path, "5", "kill")
+        self.assertIn(killed.returncode, (128 + signal.SIGKILL, -signal.SIGKILL), killed.stderr)
+        with xr.open_dataset(path, engine="netcdf4") as dataset:
+            done = int((dataset.checksum != 0).sum())
+        self.assertTrue(1 <= done <= 10, done)
+        resumed = write_sample(path, ranks=1)
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        with open(path, "rb") as one, open(self.finished, "rb") as other:
+            self.assertTrue(one.read() == other.read())
+
+
+if __name__ == "__main__":
+    unittest.main()

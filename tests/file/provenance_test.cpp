@@ -1,0 +1,71 @@
+#include "support/scratch_folder.hpp"
+
+#include "overturn/file/provenance.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+RunRecord sample_record()
+{
+    RunRecord record;
+    record.start = std::chrono::system_clock::time_point(std::chrono::seconds(1'600'000'000));
+    record.wall_seconds = 12.5;
+    record.kernel = "avx2";
+    record.ranks = {{"node\"1\"\\\n", 4117, 12.25}, {"node2", 0, 0}};
+    return record;
+}
+
+TEST(Sidecar, StandsBesideTheSpectrum)
+{
+    const ScratchFolder folder;
+    write_sidecar(folder / "a.h5", sample_record());
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.h5.json"));
+}
+
+TEST(Sidecar, TellsWhenAndWhereTheRunWas)
+{
+    const ScratchFolder folder;
+    write_sidecar(folder / "a.h5", sample_record());
+    const std::string text = bytes_of(folder / "a.h5.json");
+    // `date -u -d @1600000000`
+    EXPECT_THAT(text, HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
+    EXPECT_THAT(text, HasSubstr("\"wall_seconds\": 12.5,"));
+    EXPECT_THAT(text, HasSubstr("{\"host\": \"node2\", \"tiles\": 0, \"busy_seconds\": 0}"));
+}
+
+TEST(Sidecar, EscapesWhatJsonReserves)
+{
+    const ScratchFolder folder;
+    write_sidecar(folder / "a.h5", sample_record());
+    EXPECT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr(R"("node\"1\"\\\u000a")"));
+}
+
+TEST(Sidecar, ReplacesAnOlderOne)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.h5.json", std::string(10000, 'x'));
+    write_sidecar(folder / "a.h5", sample_record());
+    EXPECT_THAT(bytes_of(folder / "a.h5.json"), Not(HasSubstr("xx")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
+}
+
+TEST(Sidecar, NeedsAFolder)
+{
+    const ScratchFolder folder;
+    EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_record()), FileError);
+}
+
+TEST(ProgramIdentity, HasAVersionAndACommit)
+{
+    EXPECT_THAT(std::string(program_version()), MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+    EXPECT_THAT(std::string(program_commit()), MatchesRegex("unknown|[0-9a-f]+(-dirty)?"));
+}
+
+} // namespace
+} // namespace overturn

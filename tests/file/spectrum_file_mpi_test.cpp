@@ -1,0 +1,178 @@
+#include "file/sample_job.hpp"
+#include "support/scratch_folder_mpi.hpp"
+
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/spectrum_summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <numeric>
+#include <sys/resource.h>
+
+namespace overturn {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class SpectrumFileOnRanks : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    }
+
+    /// All tile numbers, ascending.
+    std::vector<std::int64_t> all_tiles() const
+    {
+        std::vector<std::int64_t> numbers(std::size_t(tiling.size()));
+        std::iota(numbers.begin(), numbers.end(), 0);
+        return numbers;
+    }
+
+    /// Rank 0 alone creates a file; the others wait for it.
+    void create(const std::string& path) const
+    {
+        if (rank == 0) {
+            create_spectrum_file(path, job, tiling);
+        }
+        MPI_Barrier(MPI_COMM_WORLD);
+    }
+
+    void write_tiles(SpectrumFile& file, const std::vector<std::int64_t>& numbers) const
+    {
+        for (const std::int64_t number : numbers) {
+            file.write(tiling[number], sample_values(job, tiling[number]));
+        }
+    }
+
+    /// The bytes of the finished file, when one rank writes all tiles in ascending order.
+    std::string bytes_from_one_rank(const std::string& path) const
+    {
+        if (rank == 0) {
+            create_spectrum_file(path, job, tiling);
+            SpectrumFile file(path, MPI_COMM_SELF, job);
+            write_tiles(file, all_tiles());
+            file.close();
+        }
+        MPI_Barrier(MPI_COMM_WORLD);
+        return bytes_of(path);
+    }
+
+    SharedScratchFolder folder;
+    Job job = sample_job();
+    Tiling tiling = sample_tiling(job);
+    int rank = 0;
+    int ranks = 1;
+};
+
+TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhoeverWritesTheTilesInWhateverOrder)
+{
+    const std::string expected = bytes_from_one_rank(folder / "one.h5");
+    create(folder / "many.h5");
+    SpectrumFile file(folder / "many.h5", MPI_COMM_WORLD, job);
+    // Unequal shares, from the last tile to the first: rank 0 takes half of them.
+    std::vector<std::int64_t> mine;
+    for (std::int64_t number = tiling.size() - 1; number >= 0; --number) {
+        const auto owner = int(number % 2 == 0 ? 0 : number % ranks);
+        if (owner == rank) {
+            mine.push_back(number);
+        }
+    }
+    write_tiles(file, mine);
+    file.close();
+    EXPECT_TRUE(bytes_of(folder / "many.h5") == expected);
+}
+
+TEST_F(SpectrumFileOnRanks, IsCompleteWhenEveryTileIsWritten)
+{
+    bytes_from_one_rank(folder / "a.h5");
+    EXPECT_EQ(examine(folder / "a.h5", job, tiling), Existing::complete);
+}
+
+TEST_F(SpectrumFileOnRanks, MissesTheTilesThatNobodyWrote)
+{
+    create(folder / "a.h5");
+    {
+        SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+        if (rank == ranks - 1) {
+            std::vector<std::int64_t> numbers = all_tiles();
+            numbers.erase(numbers.begin() + 3);
+            numbers.pop_back();
+            write_tiles(file, numbers);
+        }
+        file.close();
+    }
+    EXPECT_EQ(examine(folder / "a.h5", job, tiling), Existing::unfinished);
+    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+    if (rank == 0) {
+        EXPECT_THAT(file.missing_tiles(), ElementsAre(3, tiling.size() - 1));
+    }
+    file.close();
+}
+
+TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenItIsFinishedLater)
+{
+    const std::string expected = bytes_from_one_rank(folder / "one.h5");
+    create(folder / "resumed.h5");
+    for (const std::int64_t remainder : {1, 0}) {
+        SpectrumFile file(folder / "resumed.h5", MPI_COMM_WORLD, job);
+        if (rank == 0) {
+            std::vector<std::int64_t> numbers = file.missing_tiles();
+            std::erase_if(numbers, [&](auto number) { return number % 2 != remainder; });
+            write_tiles(file, numbers);
+        }
+        file.close();
+    }
+    EXPECT_TRUE(bytes_of(folder / "resumed.h5") == expected);
+}
+
+TEST_F(SpectrumFileOnRanks, HoldsValuesThatMatchTheirChecksums)
+{
+    bytes_from_one_rank(folder / "a.h5");
+    EXPECT_THAT(damaged_tiles(folder / "a.h5"), IsEmpty());
+}
+
+TEST_F(SpectrumFileOnRanks, CannotBeOpenedWhereItIsNot)
+{
+    try {
+        SpectrumFile file(folder / "nowhere.h5", MPI_COMM_WORLD, job);
+        ADD_FAILURE() << "opened";
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("cannot open"));
+    }
+}
+
+// A limit on the size of files stands in for a full disk. The file is left open, as a failing rank
+// leaves it; MPI_COMM_SELF keeps the other ranks out of it.
+TEST_F(SpectrumFileOnRanks, NamesTheTileAndTheReasonWhenAWriteFails)
+{
+    const std::string path = folder / ("limited" + std::to_string(rank));
+    create_spectrum_file(path, job, tiling);
+    SpectrumFile file(path, MPI_COMM_SELF, job);
+    rlimit before = {};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limited{1000, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
+    std::string message;
+    try {
+        file.write(tiling[17], sample_values(job, tiling[17]));
+    } catch (const FileError& error) {
+        message = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, SIG_DFL);
+    EXPECT_EQ(message, "cannot write tile 17 of \"region\": file too large. Run the same command "
+                       "again to resume.");
+    file.close();
+    EXPECT_EQ(summarize(path).tiles_done, 0) << "a tile that failed must not count as done";
+}
+
+} // namespace
+} // namespace overturn

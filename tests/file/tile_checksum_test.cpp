@@ -1,0 +1,30 @@
+#include "tile_checksum.hpp"
+
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Shorts = std::vector<std::uint16_t>;
+
+// The published xxHash64 of nothing and of "abc", seed 0.
+TEST(TileChecksum, IsXxHash64)
+{
+    EXPECT_EQ(tile_checksum({}), 0xef46db3751d8e999u);
+    EXPECT_EQ(tile_checksum({Bytes{'a', 'b', 'c'}}), 0x44bc2cf5ad770999u);
+}
+
+TEST(TileChecksum, RunsOnFromFieldToField)
+{
+    EXPECT_EQ(tile_checksum({Bytes{'a'}, Shorts{'b' + 256 * 'c'}}),
+              tile_checksum({Bytes{'a', 'b', 'c'}}));
+}
+
+TEST(TileChecksum, DependsOnTheOrderOfTheFields)
+{
+    EXPECT_NE(tile_checksum({Bytes{1}, Bytes{2}}), tile_checksum({Bytes{2}, Bytes{1}}));
+}
+
+} // namespace
+} // namespace overturn

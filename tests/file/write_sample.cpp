@@ -1,0 +1,88 @@
+// write_sample OUT.h5 [TILES [kill]]: writes the sample spectrum and its sidecar on all ranks, or
+// goes on with an unfinished one. Each rank stops after TILES tiles; `kill` ends it there by
+// SIGKILL, in the middle of everything.
+#include "file/sample_job.hpp"
+
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/spectrum_file.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+
+namespace overturn {
+namespace {
+
+/// A job with a list that no attribute could hold.
+Job job_with_long_text()
+{
+    Job job = sample_job();
+    std::string list = "values = [0";
+    for (int i = 1; i < 10000; ++i) {
+        list += ", " + std::to_string(i);
+    }
+    job.given += list + "]\n";
+    job.resolved += list + "]\n";
+    return job;
+}
+
+struct Stop {
+    std::int64_t after_tiles = std::numeric_limits<std::int64_t>::max();
+    bool by_kill = false;
+};
+
+void write_sample(const std::string& path, Stop stop)
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    const Job job = job_with_long_text();
+    const Tiling tiling = sample_tiling(job);
+    if (rank == 0 && examine(path, job, tiling) == Existing::nothing) {
+        create_spectrum_file(path, job, tiling);
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    SpectrumFile file(path, MPI_COMM_WORLD, job);
+    // All ranks learn what is missing before the first of them writes.
+    const std::vector<std::int64_t> missing = file.missing_tiles();
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::int64_t written = 0;
+    for (const std::int64_t number : missing) {
+        if (number % ranks == rank && written < stop.after_tiles) {
+            file.write(tiling[number], sample_values(job, tiling[number]));
+            ++written;
+        }
+    }
+    if (stop.by_kill) {
+        std::raise(SIGKILL);
+    }
+    file.close();
+    if (rank == 0) {
+        RunRecord record{std::chrono::system_clock::now(), 1.5, "double", {}};
+        record.ranks.resize(std::size_t(ranks), {"a \"host\"", written, 1.25});
+        write_sidecar(path, record);
+    }
+}
+
+} // namespace
+} // namespace overturn
+
+int main(int argc, char** argv)
+{
+    MPI_Init(&argc, &argv);
+    overturn::Stop stop;
+    if (argc > 2) {
+        stop.after_tiles = std::atoll(argv[2]);
+        stop.by_kill = argc > 3;
+    }
+    try {
+        overturn::write_sample(argc > 1 ? argv[1] : "sample.h5", stop);
+    } catch (const overturn::FileError& error) {
+        std::cerr << error.what() << std::endl;
+        MPI_Abort(MPI_COMM_WORLD, 74);
+    }
+    MPI_Finalize();
+    return 0;
+}
