@@ -1,0 +1,41 @@
+// Which tiles go next: ranges of consecutive tile numbers out of a list, in its order.
+// Guided: a share of what is left, so that ranges shrink as the end comes near. No messages here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace overturn {
+
+/// The tile numbers [begin, end).
+struct TileRange {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+
+    bool empty() const { return begin == end; }
+};
+
+class TileDealer {
+public:
+    /// The tile numbers to deal, strictly ascending, and the ranks that will ask for them.
+    TileDealer(std::vector<std::int64_t> tiles, int ranks);
+
+    /// The next range; empty when there is nothing left.
+    TileRange deal();
+
+    /// The next tile alone; empty when there is nothing left.
+    TileRange deal_one() { return take(1); }
+
+    /// Deals nothing from now on.
+    void stop() { next_ = tiles_.size(); }
+
+private:
+    TileRange take(std::size_t at_most);
+
+    std::vector<std::int64_t> tiles_;
+    std::size_t next_ = 0;
+    std::size_t ranks_;
+};
+
+} // namespace overturn

@@ -1,0 +1,127 @@
+#include "command_line.hpp"
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+
+#include "overturn/farm/mpi_session.hpp"
+#include "overturn/file/provenance.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <sstream>
+
+namespace overturn {
+
+namespace {
+
+std::string version_text()
+{
+    return fmt::format("overturn {} (commit {})\n"
+                       "kernel   {}, the widest that this processor runs\n"
+                       "MPI      {}\n"
+                       "HDF5     {}",
+                       program_version(), program_commit(), name_of(widest_kernel()), mpi_library(),
+                       hdf5_version());
+}
+
+constexpr const char* overview = R"(Examples:
+  overturn check jobs/smoke.toml
+  overturn run jobs/smoke.toml
+  mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5
+  overturn info smoke.h5
+
+Exit codes: 0 complete, 2 usage, 65 the job's content is wrong, 70 a fault of overturn,
+74 anything about the output, 85 stopped by a signal and resumable.)";
+
+constexpr const char* run_help = R"(Example:
+  mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
+
+The same command resumes an unfinished run, with any number of ranks. SIGUSR1, SIGTERM and SIGINT
+stop it after the tiles in hand, with exit code 85.)";
+
+constexpr const char* check_help = R"(Example:
+  overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
+
+constexpr const char* info_help = R"(Example:
+  overturn info smoke.h5)";
+
+void add_job_arguments(CLI::App& command, JobSource& job)
+{
+    command.add_option("JOB", job.path, "The job file (TOML)")->required();
+    command
+        .add_option("--set", job.overrides,
+                    "Lay KEY=VALUE, in TOML, over the job file; may be given again")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
+/// Everything that the options are parsed into: it must live as long as the parser.
+struct Arguments {
+    RunOptions run;
+    JobSource check;
+    std::string info;
+};
+
+} // namespace
+
+Command read_command_line(int argc, const char* const* argv)
+{
+    CLI::App app{"Overturning spectra of rocking blocks."};
+    app.require_subcommand(1);
+    app.footer(overview);
+    app.set_version_flag("--version", version_text);
+    const auto arguments = std::make_shared<Arguments>();
+
+    CLI::App* const run_command = app.add_subcommand(
+        "run", "Compute a spectrum, alone or under mpirun; resume an unfinished one");
+    run_command->footer(run_help);
+    add_job_arguments(*run_command, arguments->run.job);
+    run_command
+        ->add_option("-o,--output", arguments->run.output,
+                     "The result file; without it JOB.h5 in the working directory")
+        ->type_name("OUT.h5");
+    run_command
+        ->add_option("--kernel", arguments->run.kernel,
+                     "Lanes to compute with; changes the speed, but no byte of the result")
+        ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
+        ->capture_default_str();
+
+    CLI::App* const check_command = app.add_subcommand(
+        "check", "Validate a job; tell its points, bytes and time; write nothing");
+    check_command->footer(check_help);
+    add_job_arguments(*check_command, arguments->check);
+
+    CLI::App* const info_command = app.add_subcommand("info", "Tell what a result file holds");
+    info_command->footer(info_help);
+    info_command->add_option("FILE", arguments->info, "The result file")->required();
+
+    const auto is_meant = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+    if (argc > 1 && *argv[1] != '-' && app.get_subcommands(is_meant).empty()) {
+        throw UsageError(
+            fmt::format("unknown subcommand \"{}\". Run with --help for a list.", argv[1]));
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& asked) { // for help or the version
+        std::ostringstream answer;
+        app.exit(asked, answer);
+        return {.execute = [text = answer.str()] {
+            fmt::print("{}", text);
+            return exit_code::complete;
+        }};
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(fmt::format("{}\nRun with --help for more information.", error.what()));
+    }
+    if (run_command->parsed()) {
+        return {.execute = [arguments] { return run(arguments->run); }, .on_every_rank = true};
+    }
+    if (check_command->parsed()) {
+        return {.execute = [arguments] { return check(arguments->check); }};
+    }
+    return {.execute = [arguments] { return info(arguments->info); }};
+}
+
+} // namespace overturn

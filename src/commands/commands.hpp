@@ -1,0 +1,29 @@
+// The subcommands, one file each. They return an exit code, and throw what is wrong.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+/// A job file, and the --set arguments laid over it.
+struct JobSource {
+    std::string path;
+    std::vector<std::string> overrides;
+};
+
+/// Computes a spectrum under MPI, or goes on with one. All ranks call it.
+struct RunOptions {
+    JobSource job;
+    std::string output; ///< path of the result file; empty: the job's name in the working directory
+    std::string kernel = "auto";
+};
+int run(const RunOptions& options);
+
+/// Tells what a job would compute, store and cost. Writes nothing.
+int check(const JobSource& source);
+
+/// Tells what a result file holds.
+int info(const std::string& path);
+
+} // namespace overturn

@@ -1,0 +1,29 @@
+// What the shell and batch systems learn from overturn's exit code.
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+
+namespace overturn {
+
+namespace exit_code {
+inline constexpr int complete = 0;
+inline constexpr int usage = 2;     ///< the command line is wrong
+inline constexpr int job = 65;      ///< the job's content is wrong
+inline constexpr int internal = 70; ///< a fault of ours
+inline constexpr int output = 74;   ///< disk, permission, a file of another job, damage
+inline constexpr int stopped = 85;  ///< stopped by a signal, and resumable
+} // namespace exit_code
+
+/// The command line asks for what does not exist, or for what does not run here.
+class UsageError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+int exit_code_of(const std::exception& error);
+
+/// Prints `overturn: message` and returns the exit code.
+int complain(const std::exception& error);
+
+} // namespace overturn

@@ -1,0 +1,53 @@
+// What a result file holds, and how to go on with it if it is unfinished.
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "print_row.hpp"
+
+#include "overturn/farm/human_units.hpp"
+#include "overturn/file/spectrum_summary.hpp"
+
+#include <fmt/format.h>
+
+namespace overturn {
+
+namespace {
+
+std::string axis_text(const AxisSummary& axis)
+{
+    const std::string unit = axis.units == "1" ? "" : " " + axis.units;
+    if (axis.size == 1) {
+        return fmt::format("{}{}", axis.first, unit);
+    }
+    return fmt::format("{} values from {} to {}{}", axis.size, axis.first, axis.last, unit);
+}
+
+} // namespace
+
+int info(const std::string& path)
+{
+    const SpectrumSummary summary = summarize(path);
+    if (!summary.title.empty()) {
+        fmt::print("{}\n\n", summary.title);
+    }
+    print_row("file", fmt::format("{}, {}", path, human_bytes(double(summary.bytes))));
+    print_row("made by", fmt::format("overturn {} (commit {})", summary.program_version,
+                                     summary.program_commit));
+    for (const AxisSummary& axis : summary.axes) {
+        print_row(axis.name, axis_text(axis));
+    }
+    for (const FieldSummary& field : summary.fields) {
+        print_row("field", fmt::format("{}, {}", field.name, field.type));
+    }
+    print_row("tiles",
+              fmt::format("{} of {} done, {} x {} points each", summary.tiles_done, summary.tiles,
+                          summary.amplitude_extent, summary.frequency_extent));
+    if (summary.tiles_done < summary.tiles) {
+        print_row("unfinished", fmt::format("To go on: overturn run JOB.toml -o {}, with the job "
+                                            "file and the --set arguments of the first run",
+                                            path));
+    }
+    fmt::print("\nThe job as resolved:\n\n{}", summary.resolved_job);
+    return exit_code::complete;
+}
+
+} // namespace overturn

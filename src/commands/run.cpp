@@ -1,0 +1,209 @@
+// The map of the code: open a session, read the job, open the file, hand out the missing tiles,
+// compute each, write each.
+#include "commands.hpp"
+#include "exit_code.hpp"
+
+#include "overturn/farm/farm.hpp"
+#include "overturn/farm/human_units.hpp"
+#include "overturn/farm/mpi_session.hpp"
+#include "overturn/farm/progress.hpp"
+#include "overturn/farm/stop_signals.hpp"
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/job/job.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+
+namespace overturn {
+
+namespace {
+
+using Clock = std::chrono::system_clock; // the record tells the date
+
+constexpr int go_on = -1; // rank 0's first look found something to compute; no exit code
+
+/// All that a rank needs to know to take part.
+struct Task {
+    const MpiSession& session;
+    const Job& job;
+    const Tiling tiling;
+    const std::string path;
+    const Kernel kernel;
+
+    bool leads() const { return session.rank() == 0; }
+    std::int64_t points(std::int64_t tiles) const
+    {
+        return std::int64_t(double(job.plane.points()) * (double(tiles) / double(tiling.size())));
+    }
+};
+
+void say(const std::string& line)
+{
+    fmt::print("{}\n", line);
+    std::fflush(stdout); // a log should have it before the progress that follows
+}
+
+std::string output_path(const RunOptions& options)
+{
+    if (!options.output.empty()) {
+        return options.output;
+    }
+    return std::filesystem::path(options.job.path).stem().string() + ".h5";
+}
+
+Kernel kernel_of(const RunOptions& options)
+{
+    if (options.kernel == "auto") {
+        return widest_kernel();
+    }
+    for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
+        if (options.kernel == name_of(kernel) && runs_here(kernel)) {
+            return kernel;
+        }
+    }
+    throw UsageError(fmt::format("--kernel {} does not run on this processor. The widest that "
+                                 "does is {}.",
+                                 options.kernel, name_of(widest_kernel())));
+}
+
+/// Makes sure that a file for the job stands at the path. Returns go_on, or the exit code if there
+/// is nothing left to do.
+int prepare_output(const Job& job, const std::string& path)
+{
+    const Tiling tiling(job.plane);
+    switch (examine(path, job, tiling)) {
+    case Existing::complete: say(path + " is complete already."); return exit_code::complete;
+    case Existing::nothing: create_spectrum_file(path, job, tiling); break;
+    case Existing::unfinished: break;
+    }
+    return go_on;
+}
+
+std::string beginning(const Task& task, std::int64_t tiles_before)
+{
+    const std::string what =
+        tiles_before == 0
+            ? fmt::format("{} points in {} tiles", human_count(double(task.job.plane.points())),
+                          task.tiling.size())
+            : fmt::format("going on, {} of {} tiles are there", tiles_before, task.tiling.size());
+    return fmt::format("{}: {}; {} rank{}, kernel {}", task.path, what, task.session.size(),
+                       task.session.size() == 1 ? "" : "s", name_of(task.kernel));
+}
+
+std::string ending(const Task& task, const FarmReport& report, double seconds)
+{
+    const auto points = double(task.points(report.tiles));
+    return fmt::format("computed {} points in {}, {} points/s", human_count(points),
+                       human_duration(seconds), human_count(points / seconds));
+}
+
+FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
+                         SpectrumFile& file)
+{
+    const Job& job = task.job;
+    const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
+    Progress progress(task.points(tiles_before), job.plane.points());
+    return farm_out(
+        task.session, missing,
+        [&](std::int64_t number) {
+            const Tile tile = task.tiling[number];
+            file.write(tile, sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
+                                        task.kernel));
+        },
+        [&](std::int64_t done) { progress.update(task.points(tiles_before + done)); },
+        StopSignals::requested);
+}
+
+void write_record(const Task& task, const FarmReport& report, Clock::time_point start,
+                  double seconds)
+{
+    RunRecord record;
+    record.start = start;
+    record.wall_seconds = seconds;
+    record.kernel = name_of(task.kernel);
+    const std::vector<std::string> hosts = task.session.host_names();
+    for (std::size_t rank = 0; rank < hosts.size(); ++rank) {
+        const RankShare& share = report.ranks[rank];
+        record.ranks.push_back({hosts[rank], share.tiles, share.busy_seconds});
+    }
+    if (task.leads()) {
+        write_sidecar(task.path, record);
+    }
+}
+
+int compute_what_is_missing(const Task& task)
+{
+    const auto start = Clock::now();
+    SpectrumFile file(task.path, task.session.communicator(), task.job);
+    std::vector<std::int64_t> missing;
+    if (task.leads()) {
+        missing = file.missing_tiles();
+        say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
+    }
+    const FarmReport report = compute_tiles(task, missing, file);
+    file.close();
+
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    write_record(task, report, start, seconds);
+    if (task.leads()) {
+        say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
+        if (report.stopped) {
+            fmt::print(stderr,
+                       "overturn: stopped by a signal; {} of {} tiles are missing. Run the same "
+                       "command again to resume.\n",
+                       std::int64_t(missing.size()) - report.tiles, task.tiling.size());
+        }
+    }
+    return report.stopped ? exit_code::stopped : exit_code::complete;
+}
+
+} // namespace
+
+int run(const RunOptions& options)
+{
+    const StopSignals signals;
+    start_hdf5();
+    const MpiSession session;
+    std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
+    const std::string path = output_path(options);
+    Job job;
+
+    // Rank 0 looks first. What it finds wrong is said once, and all ranks leave with it; what goes
+    // wrong on a single rank after that stops the others.
+    int verdict = go_on;
+    if (session.rank() == 0) {
+        try {
+            kernel_of(options); // throws if it does not run here
+            job = read_job(options.job.path, options.job.overrides);
+            verdict = prepare_output(job, path);
+        } catch (const std::exception& error) {
+            verdict = complain(error);
+        }
+    }
+    verdict = session.from_rank_0(verdict);
+    if (verdict != go_on) {
+        return verdict;
+    }
+    try {
+        if (session.rank() != 0) {
+            job = read_job(options.job.path, options.job.overrides);
+        }
+        if (session.from_rank_0(job.resolved) != job.resolved) {
+            throw JobError(options.job.path + " is another job here than on rank 0.");
+        }
+        return compute_what_is_missing({session, job, Tiling(job.plane), path, kernel_of(options)});
+    } catch (const std::exception& error) {
+        if (session.size() == 1) {
+            throw;
+        }
+        session.abort(exit_code_of(error), error.what());
+    }
+}
+
+} // namespace overturn

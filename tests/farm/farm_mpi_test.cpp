@@ -1,0 +1,196 @@
+#include "overturn/farm/farm.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace overturn {
+namespace {
+
+const auto never = [] { return false; };
+const auto no_progress = [](std::int64_t) {};
+
+/// Every `stride`-th number from 0, on rank 0; nothing elsewhere, as farm_out wants it.
+std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_t count,
+                                          std::int64_t stride = 1)
+{
+    std::vector<std::int64_t> tiles;
+    for (std::int64_t i = 0; i < count && session.rank() == 0; ++i) {
+        tiles.push_back(stride * i);
+    }
+    return tiles;
+}
+
+/// How often each tile number in [0, numbers) was computed, over all ranks; on all ranks.
+std::vector<int> over_all_ranks(const MpiSession& session, std::vector<int> times)
+{
+    MPI_Allreduce(MPI_IN_PLACE, times.data(), int(times.size()), MPI_INT, MPI_SUM,
+                  session.communicator());
+    return times;
+}
+
+void work_for(std::chrono::microseconds duration)
+{
+    std::this_thread::sleep_for(duration); // other ranks of a small machine may compute meanwhile
+}
+
+TEST(Farm, ComputesEachTileOnceOnSomeRank)
+{
+    const MpiSession session;
+    for (const int count : {0, 1, 2, 3, 4, 7, 50, 1000}) {
+        std::vector<int> times(std::size_t(count), 0);
+        const FarmReport report = farm_out(
+            session, tiles_on_rank_0(session, count),
+            [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
+        EXPECT_EQ(over_all_ranks(session, times), std::vector<int>(std::size_t(count), 1));
+        EXPECT_EQ(report.tiles, count);
+        EXPECT_FALSE(report.stopped);
+    }
+}
+
+TEST(Farm, ComputesOnlyTheTilesOfTheList)
+{
+    const MpiSession session;
+    std::vector<int> times(300, 0);
+    farm_out(
+        session, tiles_on_rank_0(session, 100, 3),
+        [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
+    times = over_all_ranks(session, times);
+    for (std::size_t number = 0; number < times.size(); ++number) {
+        EXPECT_EQ(times[number], number % 3 == 0 ? 1 : 0) << number;
+    }
+}
+
+TEST(Farm, ReportsWhatEachRankDid)
+{
+    const MpiSession session;
+    std::int64_t own = 0;
+    const FarmReport report = farm_out(
+        session, tiles_on_rank_0(session, 60),
+        [&](std::int64_t) {
+            work_for(std::chrono::milliseconds(1));
+            ++own;
+        },
+        no_progress, never);
+
+    std::vector<std::int64_t> counted(std::size_t(session.size()));
+    MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
+    if (session.rank() != 0) {
+        EXPECT_TRUE(report.ranks.empty());
+        return;
+    }
+    ASSERT_EQ(report.ranks.size(), counted.size());
+    for (std::size_t rank = 0; rank < counted.size(); ++rank) {
+        EXPECT_EQ(report.ranks[rank].tiles, counted[rank]);
+        EXPECT_GE(report.ranks[rank].busy_seconds, 0.001 * double(counted[rank]));
+    }
+}
+
+TEST(Farm, ProgressGrowsToTheNumberOfTiles)
+{
+    const MpiSession session;
+    std::vector<std::int64_t> seen{0};
+    farm_out(
+        session, tiles_on_rank_0(session, 200),
+        [&](std::int64_t) { work_for(std::chrono::microseconds(100)); },
+        [&](std::int64_t done) { seen.push_back(done); }, never);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+    EXPECT_EQ(seen.back(), session.rank() == 0 ? 200 : 0);
+}
+
+TEST(Farm, SharesUnequalTilesEvenly)
+{
+    const MpiSession session;
+    // The first tenth of the tiles takes two thirds of the time.
+    const auto cost = [](std::int64_t number) {
+        return std::chrono::microseconds(number < 20 ? 19000 : 1000);
+    };
+    const FarmReport report = farm_out(
+        session, tiles_on_rank_0(session, 200),
+        [&](std::int64_t number) { work_for(cost(number)); }, no_progress, never);
+    double most = 0;
+    double all = 0;
+    for (const RankShare& rank : report.ranks) {
+        most = std::max(most, rank.busy_seconds);
+        all += rank.busy_seconds;
+    }
+    // On a calm machine the busiest rank has 1.1 fair shares. Equal parts of the list would give
+    // the first rank 1.6 of them on two ranks, 2.4 on three and 3.6 on five.
+    if (session.rank() == 0) {
+        EXPECT_LT(most, 1.4 * all / session.size());
+    }
+}
+
+TEST(Farm, AStopOfAnyRankLeavesTheRestUndone)
+{
+    const MpiSession session;
+    for (int stopping_rank = 0; stopping_rank < session.size(); ++stopping_rank) {
+        constexpr int count = 2000;
+        std::vector<int> times(count, 0);
+        int own = 0;
+        const FarmReport report = farm_out(
+            session, tiles_on_rank_0(session, count),
+            [&](std::int64_t number) {
+                work_for(std::chrono::microseconds(100));
+                ++times[std::size_t(number)];
+                ++own;
+            },
+            no_progress, [&] { return session.rank() == stopping_rank && own >= 5; });
+        times = over_all_ranks(session, times);
+        const auto done = std::count(times.begin(), times.end(), 1);
+        EXPECT_TRUE(report.stopped);
+        EXPECT_EQ(report.tiles, done);
+        EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
+        // Others finish the ranges that they hold, of at most 16 tiles, one in hand and one ahead.
+        EXPECT_LT(done, count / 2);
+        if (session.rank() == stopping_rank) {
+            EXPECT_EQ(own, 5);
+        }
+    }
+}
+
+TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
+{
+    const MpiSession session;
+    int own = 0;
+    const FarmReport report = farm_out(
+        session, tiles_on_rank_0(session, 100), [&](std::int64_t) { ++own; }, no_progress,
+        [] { return true; });
+    EXPECT_EQ(own, 0);
+    EXPECT_EQ(report.tiles, 0);
+    EXPECT_TRUE(report.stopped);
+}
+
+TEST(Farm, AStopAfterTheLastTileIsNoStop)
+{
+    const MpiSession session;
+    const FarmReport report = farm_out(
+        session, tiles_on_rank_0(session, 0), [](std::int64_t) {}, no_progress,
+        [] { return true; });
+    EXPECT_FALSE(report.stopped);
+}
+
+TEST(MpiSession, GivesAllRanksTheValueOfRank0)
+{
+    const MpiSession session;
+    EXPECT_EQ(session.from_rank_0(session.rank() == 0 ? 74 : 0), 74);
+}
+
+TEST(MpiSession, KnowsTheHostOfEachRankOnRank0)
+{
+    const MpiSession session;
+    const auto hosts = session.host_names();
+    ASSERT_EQ(hosts.size(), session.rank() == 0 ? std::size_t(session.size()) : 0);
+    for (const std::string& host : hosts) {
+        EXPECT_EQ(host, hosts.front()); // the ranks of a test share one machine
+        EXPECT_FALSE(host.empty());
+    }
+}
+
+} // namespace
+} // namespace overturn
