@@ -4,22 +4,14 @@
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
+#include "overturn/integrate/landing.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/integrate/step_size.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/pulse.hpp"
+#include "overturn/mechanics/bounce_series.hpp"
+#include "overturn/mechanics/excitation.hpp"
 
 namespace overturn {
-
-/// What shakes the ground under one block; dimensionless.
-template <class Pulse, Number T>
-struct Excitation {
-    T acceleration;                      ///< a_p / g [1]
-    T frequency;                         ///< Omega = omega_p / p [1]
-    std::array<T, Pulse::lobes> uplifts; ///< from uplift_phases() [rad]
-    scalar_t<T> begin;                   ///< phase at which the pulse begins and ends [rad]
-    scalar_t<T> end;
-};
 
 /// What a run records beside the end state. Not asked for, not paid for.
 struct Records {
@@ -51,21 +43,17 @@ class ForcedStage {
 
 public:
     ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
-        : block_(block), excitation_(excitation), sqrt_restitution_(root(block.restitution)),
-          end_(excitation.end), zero_(S(0)), tolerance_(tolerance)
+        : block_(block), excitation_(excitation), tolerance_(tolerance), end_(excitation.end),
+          zero_(S(0)), phase_(excitation.begin), motion_{zero_, zero_, zero_}, landing_step_(zero_),
+          towards_fall_(zero_), active_(zero_ == zero_), landing_(zero_ != zero_)
     {
+        using std::sqrt;
+        sqrt_restitution_ = sqrt(block.restitution);
         const T frequency = excitation.frequency;
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
         first_step_ = step_error_power(T(tolerance)) / fastest;
-    }
-
-    ForcedEnd<T> run()
-    {
-        phase_ = T(excitation_.begin);
-        const Mask all_lanes = phase_ == phase_;
-        const Mask none = all_lanes && !all_lanes;
-        active_ = all_lanes;
-        landing_ = none;
+        step_size_ = first_step_;
+        const Mask none = landing_;
         end_of_run_ = {.state = {zero_, zero_, T(S(1))},
                        .fell = none,
                        .rested = none,
@@ -73,11 +61,11 @@ public:
                        .not_finite = none,
                        .impacts = zero_,
                        .steps = zero_};
-        motion_ = {zero_, zero_, zero_};
-        step_size_ = first_step_;
-        landing_step_ = zero_;
-        towards_fall_ = zero_;
-        wait_for_uplift(all_lanes);
+    }
+
+    ForcedEnd<T> run()
+    {
+        wait_for_uplift(active_);
         while (any<T>(active_)) {
             advance();
         }
@@ -85,20 +73,11 @@ public:
     }
 
 private:
-    static T root(const T& x)
-    {
-        using std::sqrt;
-        return sqrt(x);
-    }
-
-    /// Acceleration of the ground over g [1].
-    T ground(const T& phase) const { return excitation_.acceleration * Pulse::value(phase); }
-
     T& side() { return end_of_run_.state.side; }
 
     void restart(const Mask& lanes)
     {
-        const T push = side() * ground(phase_);
+        const T push = side() * excitation_.ground(phase_);
         const T acceleration =
             rocking_acceleration<theory>(motion_.position, block_.slenderness, push);
         motion_.acceleration = select<T>(lanes, acceleration, motion_.acceleration);
@@ -117,7 +96,7 @@ private:
         motion_.position = select<T>(lanes, zero_, motion_.position);
         motion_.rate = select<T>(lanes, zero_, motion_.rate);
         phase_ = select<T>(lifted, next, phase_);
-        const auto pushed_to_plus = ground(phase_) < zero_;
+        const auto pushed_to_plus = excitation_.ground(phase_) < zero_;
         side() = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), side());
         step_size_ = select<T>(lifted, first_step_, step_size_);
         finish(lanes && !lifted);
@@ -134,72 +113,6 @@ private:
         active_ = active_ && !lanes;
     }
 
-    /// Whether the bounces that follow an impact at phase_, with the outward rate v, surely die
-    /// out before the pulse ends and before the ground can lift the block.
-    ///
-    /// Let g(t) be the pull towards the ground on one side, sin(alpha) +- A cos(alpha), A = ground
-    /// acceleration / g. Between two extrema of the pulse one side's pull rises and the other's
-    /// falls. A flight under a falling pull ends no faster than it began, one under a rising pull
-    /// faster by at most sqrt(g(end) / g(begin)); so after n impacts the speed is at most
-    /// v r^(n/2) sqrt(rise(t) / rise(0)), and the flights, each 2 speed / g at most, last
-    ///
-    ///     2 v / (1 - sqrt r) max(1 / rise(0), sqrt(rise(D) / rise(0)) / fall(D))
-    ///
-    /// in all if that is at most D. D is 3 v / (1 - sqrt r) over the weaker pull: 1 1/2 times the
-    /// sum under constant pulls. The pull changes with the tilt, too, which stays below v^2 / 2g:
-    /// by less than a twentieth.
-    Mask bounces_die_out(const T& rate) const
-    {
-        using std::abs;
-        const T two(S(2));
-        const auto pull = [&](const T& push) -> T {
-            return -rocking_acceleration<theory>(zero_, block_.slenderness, push);
-        };
-        const T ground_now = ground(phase_);
-        const T plus = pull(ground_now);
-        const T minus = pull(-ground_now);
-        const T weaker = select<T>(plus < minus, plus, minus);
-        const T series = rate / (T(S(1)) - sqrt_restitution_); // v (1 + sqrt r + r + ...)
-        const T duration = T(S(3)) * series / weaker;
-        const T over = phase_ + duration * excitation_.frequency;
-        Mask in_time = over <= end_;
-        for (const Flank<S>& flank : Pulse::template flanks<S>()) {
-            const T extremum(flank.peak);
-            in_time = in_time && !(phase_ < extremum && extremum < over);
-        }
-        const T ground_then = ground(select<T>(in_time, over, phase_));
-        const T plus_then = pull(ground_then);
-        const T minus_then = pull(-ground_then);
-        const Mask plus_rises = plus_then >= plus;
-        const T rise = select<T>(plus_rises, plus, minus);
-        const T rise_then = select<T>(plus_rises, plus_then, minus_then);
-        const T fall_then = select<T>(plus_rises, minus_then, plus_then);
-        const Mask short_enough =
-            two * series <= duration * rise &&
-            two * series * root(select<T>(rise > zero_, rise_then / rise, zero_)) <=
-                duration * fall_then;
-        const Mask low = T(S(10)) * rate * rate * (T(S(1)) + abs(ground_now)) <= weaker * weaker;
-        return weaker > zero_ && ((in_time && short_enough && low) || rate == zero_);
-    }
-
-    /// Newton's correction, to second order, of a landing: where `gap` vanishes exactly.
-    struct Landing {
-        T delay;   ///< time from the end of the step to the event, either sign
-        T closing; ///< speed there, towards it
-        Mask hits; ///< not so if the gap is open and has its minimum above zero
-    };
-    static Landing land(const T& gap, const T& rate, const T& acceleration)
-    {
-        using std::fma;
-        const T zero(S(0));
-        const T square = fma(rate, rate, -(acceleration + acceleration) * gap);
-        // Within round-off a closed gap may seem never to have been open: then it closes as it is.
-        const T speed = root(select<T>(square > zero, square, rate * rate));
-        const T denominator = speed - rate;
-        const T delay = (gap + gap) / select<T>(denominator > zero, denominator, T(S(1)));
-        return {select<T>(denominator > zero, delay, zero), speed, square >= zero || gap <= zero};
-    }
-
     /// One trial step in every lane: accept or reject it, look for events in it, act on them.
     void advance()
     {
@@ -209,7 +122,7 @@ private:
         const T phase_step = h * excitation_.frequency;
         const auto acceleration = [&](const S& node, const T& tilt) {
             using std::fma;
-            const T push = side() * ground(fma(T(node), phase_step, phase_));
+            const T push = side() * excitation_.ground(fma(T(node), phase_step, phase_));
             return rocking_acceleration<theory>(tilt, block_.slenderness, push);
         };
         const Step<T> step = runge_kutta_step(motion_, h, acceleration);
@@ -309,7 +222,7 @@ private:
         const T gap = select<T>(falls, T(pi<S>() / 2) - motion_.position, motion_.position);
         const T gap_rate = select<T>(falls, -motion_.rate, motion_.rate);
         const T gap_acceleration = select<T>(falls, -motion_.acceleration, motion_.acceleration);
-        const Landing landing = land(gap, gap_rate, gap_acceleration);
+        const Landing<T> landing = land(gap, gap_rate, gap_acceleration);
         const Mask hits = lanes && landing.hits;
         const T delayed = phase_ + excitation_.frequency * landing.delay;
         phase_ = select<T>(hits, select<T>(delayed < end_, delayed, end_), phase_);
@@ -330,7 +243,8 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(impact, impacts + T(S(1)), impacts);
         }
-        const Mask rests = impact && bounces_die_out(after.rate);
+        const Mask rests =
+            impact && bounces_die_out<theory>(block_, excitation_, phase_, after.rate);
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
             wait_for_uplift(rests);
@@ -338,12 +252,12 @@ private:
         restart(impact && active_);
     }
 
-    Block<T> block_;
-    Excitation<Pulse, T> excitation_;
+    const Block<T> block_;
+    const Excitation<Pulse, T> excitation_;
+    const S tolerance_;
+    const T end_;
+    const T zero_;
     T sqrt_restitution_;
-    T end_;
-    T zero_;
-    S tolerance_;
     T first_step_;
 
     T phase_;          // of the pulse [rad]
@@ -351,8 +265,8 @@ private:
     T step_size_;      // the next step, unless it lands or ends the pulse [1/p]
     T landing_step_;   // the step that ends at an event found before [1/p]
     T towards_fall_;   // 1 if that event is the fall, 0 if it is an impact
-    Mask landing_;
     Mask active_;
+    Mask landing_;
     ForcedEnd<T> end_of_run_;
 };
 

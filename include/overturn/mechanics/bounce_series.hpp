@@ -1,0 +1,63 @@
+// The end of a bounce series in closed form: infinitely many impacts in finite time.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/excitation.hpp"
+
+namespace overturn {
+
+/// Per lane: whether the bounces that follow an impact at `phase` [rad], from which the block rises
+/// at the rate v >= 0, surely die out before the pulse ends and before the ground can lift the
+/// block.
+///
+/// Let g(t) be the pull towards the ground on one side, sin(alpha) +- A cos(alpha), A = ground
+/// acceleration / g. Between two extrema of the pulse one side's pull rises and the other's falls.
+/// A flight under a falling pull ends no faster than it began, one under a rising pull faster by at
+/// most sqrt(g(end) / g(begin)); so after n impacts the speed is at most
+/// v r^(n/2) sqrt(rise(t) / rise(0)), and the flights, each 2 speed / g at most, last
+///
+///     2 v / (1 - sqrt r) max(1 / rise(0), sqrt(rise(D) / rise(0)) / fall(D))
+///
+/// in all if that is at most D. D is 3 v / (1 - sqrt r) over the weaker pull: 1 1/2 times the sum
+/// under constant pulls. The pull changes with the tilt, too, which stays below v^2 / 2g: by less
+/// than a twentieth.
+template <Theory theory, class Pulse, Number T>
+mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+                          const T& phase, const T& rate)
+{
+    using std::abs;
+    using std::sqrt;
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const auto pull = [&](const T& push) -> T {
+        return -rocking_acceleration<theory>(zero, block.slenderness, push);
+    };
+    const T ground_now = excitation.ground(phase);
+    const T plus = pull(ground_now);
+    const T minus = pull(-ground_now);
+    const T weaker = select<T>(plus < minus, plus, minus);
+    const T series = rate / (T(S(1)) - T(sqrt(block.restitution))); // v (1 + sqrt r + r + ...)
+    const T duration = T(S(3)) * series / weaker;                   // D
+
+    const T over = phase + duration * excitation.frequency;
+    mask_t<T> in_time = over <= T(excitation.end);
+    for (const Flank<S>& flank : Pulse::template flanks<S>()) {
+        const T extremum(flank.peak);
+        in_time = in_time && !(phase < extremum && extremum < over);
+    }
+    const T ground_then = excitation.ground(select<T>(in_time, over, phase));
+    const T plus_then = pull(ground_then);
+    const T minus_then = pull(-ground_then);
+    const mask_t<T> plus_rises = plus_then >= plus;
+    const T rise = select<T>(plus_rises, plus, minus);
+    const T rise_then = select<T>(plus_rises, plus_then, minus_then);
+    const T fall_then = select<T>(plus_rises, minus_then, plus_then);
+    const T growth = sqrt(select<T>(rise > zero, rise_then / rise, zero));
+    const T twice = series + series;
+    const mask_t<T> short_enough =
+        twice <= duration * rise && twice * growth <= duration * fall_then;
+    const mask_t<T> low = T(S(10)) * rate * rate * (T(S(1)) + abs(ground_now)) <= weaker * weaker;
+    return weaker > zero && ((in_time && short_enough && low) || rate == zero);
+}
+
+} // namespace overturn
