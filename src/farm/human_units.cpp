@@ -50,18 +50,20 @@ std::string human_duration(double seconds)
     if (seconds < 9.995) {
         return fmt::format("{:.2f} s", seconds);
     }
+    constexpr std::int64_t minute = 60;
+    constexpr std::int64_t hour = 60 * minute;
+    constexpr std::int64_t day = 24 * hour;
     const auto whole = std::int64_t(std::llround(seconds));
-    if (whole < 60) {
+    if (whole < minute) {
         return fmt::format("{} s", whole);
     }
-    if (whole < 60 * 60) {
-        return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    if (whole < hour) {
+        return fmt::format("{} min {:02} s", whole / minute, whole % minute);
     }
-    const std::int64_t minutes = whole / 60;
-    if (minutes < 24 * 60) {
-        return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+    if (whole < day) {
+        return fmt::format("{} h {:02} min", whole / hour, whole % hour / minute);
     }
-    return fmt::format("{} d {:02} h", minutes / (24 * 60), minutes / 60 % 24);
+    return fmt::format("{} d {:02} h", whole / day, whole % day / hour);
 }
 
 std::string human_bytes(double bytes)

@@ -1,5 +1,6 @@
 #include "overturn/farm/mpi_session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -108,10 +109,9 @@ std::vector<std::string> MpiSession::host_names() const
     std::vector<Name> all(rank_ == 0 ? std::size_t(size_) : 0);
     MPI_Gather(own.data(), int(own.size()), MPI_CHAR, all.data(), int(own.size()), MPI_CHAR, 0,
                communicator_);
-    std::vector<std::string> names;
-    for (const Name& name : all) {
-        names.emplace_back(name.data());
-    }
+    std::vector<std::string> names(all.size());
+    std::transform(all.begin(), all.end(), names.begin(),
+                   [](const Name& name) { return std::string(name.data()); });
     return names;
 }
 

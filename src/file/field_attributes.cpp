@@ -20,8 +20,9 @@ void describe_region(hid_t dataset)
                     "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus undecided "
                     "not_computed");
     write_attribute(dataset, "comment",
-                    "S safe without impact, S_plus and S_minus safe after one impact, U0 overturns "
-                    "without impact, U1 overturns after one impact, F overturned during the pulse");
+                    "S safe within the separatrix, S_plus and S_minus safe thanks to the loss at the "
+                    "first impact, U0 overturns without impact, U1 overturns after one impact, "
+                    "F overturned during the pulse");
 }
 
 void describe_status(hid_t dataset)

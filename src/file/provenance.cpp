@@ -36,7 +36,7 @@ std::string mpi_version()
     char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
     int length = 0;
     MPI_Get_library_version(text, &length);
-    return std::string(text, std::size_t(length));
+    return text; // Open MPI counts the zero at its end into the length
 }
 
 std::string compiler_version()

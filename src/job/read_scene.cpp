@@ -82,15 +82,14 @@ Numerics read_numerics(const Entry& job)
 
 std::vector<Field> read_fields(const Entry& job)
 {
-    const std::vector<Field> by_default{Field::region};
     const auto output = find(job, "output");
     if (!output) {
-        return by_default;
+        return {Field::region};
     }
     expect_table(*output, output_keys);
     const auto entry = find(*output, "fields");
     if (!entry) {
-        return by_default;
+        return {Field::region};
     }
     const std::size_t size = array_size(*entry, "an array of strings, such as [\"region\"]");
     if (size == 0) {

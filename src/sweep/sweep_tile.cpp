@@ -181,8 +181,14 @@ bool runs_here(Kernel kernel)
     switch (kernel) {
     case Kernel::one_lane: return true;
 #ifdef __x86_64__
-    case Kernel::avx2: return __builtin_cpu_supports("x86-64-v3");
-    case Kernel::avx512: return __builtin_cpu_supports("x86-64-v4");
+    // The kernels are compiled for x86-64-v3 and v4, of which these are the telling parts.
+    case Kernel::avx2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+               __builtin_cpu_supports("bmi2");
+    case Kernel::avx512:
+        return runs_here(Kernel::avx2) && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
 #endif
     default: return false;
     }

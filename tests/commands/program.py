@@ -1,0 +1,97 @@
+"""The program as its users meet it: driven from outside, judged by exit code, words and bytes.
+
+The tests that use this want OVERTURN (the binary) and MPIEXEC in the environment; their arguments
+are names of test classes."""
+
+import hashlib
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+OVERTURN = os.environ["OVERTURN"]
+MPIEXEC = os.environ["MPIEXEC"]
+PATIENCE = 60  # [s] for one run of the program; the longest takes some seconds
+
+ENVIRONMENT = {
+    **os.environ,
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+}
+
+JOB = """
+title = "A small plane"
+[scene]
+pulse = "one_sine"
+theory = "nonlinear"
+[plane]
+frequency = {{ first = 0.5, last = 8.0, count = {columns} }}
+amplitude = {{ first = 0.5, last = 12.0, count = {rows} }}
+restitution = {{ values = {restitutions}, of = "maximum" }}
+slenderness = {{ values = [0.1745716] }}
+[numerics]
+method = "rk45"
+tolerance = {tolerance}
+[output]
+fields = ["region", "angle", "velocity", "margin", "impacts", "status"]
+"""
+
+# 2 x 3 x 4 tiles, some of them cut off at the far edges: a moment's work.
+SMALL = JOB.format(columns=200, rows=150, restitutions="[0.7, 1.0]", tolerance="1e-6")
+# 3 x 9 x 9 tiles: some seconds, so that a signal comes in the midst of them.
+LONG = JOB.format(columns=576, rows=576, restitutions="[0.7, 0.85, 1.0]", tolerance="1e-12")
+
+
+def checksum(path):
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+def under_mpi(ranks):
+    return [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
+
+
+def words(text):
+    """Messages break their lines where it looks well; tests do not care."""
+    return " ".join(text.split())
+
+
+class Scratch(unittest.TestCase):
+    """A folder of its own for each test, with the two jobs in it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "small.toml").write_text(SMALL)
+        (self.folder / "long.toml").write_text(LONG)
+
+    def overturn(self, *arguments, ranks=None, shell_setup=None):
+        """Runs the program to its end; without ranks, alone and without mpirun."""
+        command = [OVERTURN, *map(str, arguments)]
+        if shell_setup is not None:
+            command = ["sh", "-c", shell_setup + '; exec "$@"', "sh", *command]
+        if ranks is not None:
+            command = under_mpi(ranks) + command
+        return subprocess.run(
+            command, cwd=self.folder, env=ENVIRONMENT, timeout=PATIENCE, capture_output=True,
+            text=True,
+        )
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_exit(self, result, code, *phrases):
+        """The exit code, and that the messages hold the phrases."""
+        everything = words(result.stdout + result.stderr)
+        self.assertEqual(result.returncode, code, everything)
+        for phrase in phrases:
+            self.assertIn(phrase, everything)
+
+    def assert_refused(self, code, phrases, *arguments, ranks=None):
+        """The exit code, one message with the phrases in it, and nothing written."""
+        before = self.files()
+        result = self.overturn(*arguments, ranks=ranks)
+        self.assert_exit(result, code, *phrases)
+        self.assertEqual(result.stderr.count("overturn: "), 1, result.stderr)
+        self.assertEqual(self.files(), before)

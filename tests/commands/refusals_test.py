@@ -1,0 +1,130 @@
+"""What overturn refuses, with which words and exit code; and what it teaches."""
+
+import unittest
+
+from program import JOB, SMALL, Scratch, checksum
+
+
+class TheCommandLine(Scratch):
+    def test_help_teaches_each_subcommand_by_an_example(self):
+        for subcommand in ("run", "check", "info"):
+            self.assert_exit(self.overturn("--help"), 0, f"overturn {subcommand} ")
+            self.assert_exit(self.overturn(subcommand, "--help"), 0, f"overturn {subcommand} ")
+
+    def test_version_names_what_results_depend_on(self):
+        result = self.overturn("--version")
+        self.assert_exit(result, 0, "overturn ", "commit", "kernel", "MPI", "HDF5 1.")
+
+    def test_an_unknown_subcommand_is_a_usage_error(self):
+        self.assert_refused(2, ["rum", "--help"], "rum", "small.toml")
+
+    def test_no_subcommand_is_a_usage_error(self):
+        self.assert_refused(2, ["subcommand", "--help"])
+
+    def test_a_missing_job_argument_is_a_usage_error(self):
+        self.assert_refused(2, ["JOB", "--help"], "run")
+
+    def test_an_unknown_option_is_a_usage_error(self):
+        self.assert_refused(2, ["--fast", "--help"], "run", "small.toml", "--fast")
+
+    def test_an_unknown_kernel_is_a_usage_error(self):
+        self.assert_refused(2, ["sse2", "avx512"], "run", "small.toml", "--kernel", "sse2")
+
+    def test_a_launcher_that_mpi_does_not_know_is_a_usage_error(self):
+        # As srun --mpi=none would start four ranks that each compute everything.
+        result = self.overturn("run", "small.toml", shell_setup="export SLURM_STEP_NUM_TASKS=4")
+        self.assert_exit(result, 2, "4 processes", "MPI found 1", "srun --mpi=pmix")
+        self.assertNotIn("small.h5", self.files())
+
+
+class ABadJob(Scratch):
+    def test_a_missing_job_file_is_named(self):
+        self.assert_refused(65, ["nowhere.toml"], "run", "nowhere.toml")
+
+    def test_toml_that_does_not_parse_is_located(self):
+        (self.folder / "broken.toml").write_text("[scene\n")
+        self.assert_refused(65, ["broken.toml:1"], "run", "broken.toml")
+
+    def test_an_unknown_key_is_told_with_what_was_meant(self):
+        misspelt = SMALL.replace("slenderness", "slendernes")
+        (self.folder / "misspelt.toml").write_text(misspelt)
+        self.assert_refused(65, ["slendernes", "slenderness"], "run", "misspelt.toml")
+
+    def test_a_value_out_of_range_is_refused_before_anything_is_computed(self):
+        override = "plane.restitution={ values = [1.2], of = 'absolute' }"
+        self.assert_refused(65, ["1.2"], "run", "small.toml", "--set", override)
+
+    def test_check_refuses_what_run_refuses(self):
+        self.assert_refused(65, ["3"], "check", "small.toml", "--set", "numerics.tolerance=3")
+
+
+class ABadOutput(Scratch):
+    def test_a_missing_folder_is_refused(self):
+        self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/out.h5")
+
+    def test_a_folder_that_cannot_be_written_is_refused(self):
+        self.assert_refused(74, ["/proc"], "run", "small.toml", "-o", "/proc/out.h5")
+
+    def test_a_file_in_place_of_a_folder_is_refused(self):
+        self.assert_refused(74, ["small.toml/"], "run", "small.toml", "-o", "small.toml/out.h5")
+
+    def test_a_folder_in_place_of_a_file_is_refused(self):
+        (self.folder / "out.h5").mkdir()
+        self.assert_refused(74, ["out.h5"], "run", "small.toml", "-o", "out.h5")
+
+    def test_a_file_that_is_not_ours_is_never_overwritten(self):
+        (self.folder / "notes.txt").write_text("not to be lost")
+        self.assert_refused(74, ["notes.txt"], "run", "small.toml", "-o", "notes.txt")
+        self.assertEqual((self.folder / "notes.txt").read_text(), "not to be lost")
+
+    def test_the_file_of_another_job_stays_as_it_is(self):
+        self.assert_exit(self.overturn("run", "small.toml"), 0)
+        before = checksum(self.folder / "small.h5")
+        self.assert_refused(
+            74, ["small.h5", "job"], "run", "small.toml", "--set", "numerics.tolerance=1e-5"
+        )
+        self.assertEqual(checksum(self.folder / "small.h5"), before)
+
+    def test_a_plane_too_large_for_the_disk_is_refused_at_once(self):
+        self.assert_refused(
+            74, ["small.h5"], "run", "small.toml",
+            "--set", "plane.frequency={ first = 0.5, last = 8.0, count = 10_000_000 }",
+            "--set", "plane.amplitude={ first = 0.5, last = 12.0, count = 1_000_000 }",
+        )  # fmt: skip
+
+    def test_a_limit_of_file_sizes_is_a_message_not_a_crash(self):
+        result = self.overturn("run", "small.toml", shell_setup="ulimit -f 100")
+        self.assert_exit(result, 74, "overturn: ", "small.h5")
+        self.assertNotIn("small.h5", self.files())
+
+    def test_info_refuses_what_is_not_there_or_not_ours(self):
+        self.assert_refused(74, ["nowhere.h5"], "info", "nowhere.h5")
+        self.assert_refused(74, ["small.toml"], "info", "small.toml")
+
+
+class UnderMpirun(Scratch):
+    """What rank 0 finds wrong is said once, and mpirun returns its exit code."""
+
+    def test_help_is_printed_once(self):
+        result = self.overturn("--help", ranks=3)
+        self.assert_exit(result, 0)
+        self.assertEqual(result.stdout.count("Usage:"), 1)
+
+    def test_a_usage_error_ends_all_ranks(self):
+        self.assert_refused(2, ["--fast"], "run", "small.toml", "--fast", ranks=3)
+
+    def test_a_bad_job_ends_all_ranks(self):
+        self.assert_refused(65, ["nowhere.toml"], "run", "nowhere.toml", ranks=3)
+
+    def test_a_bad_output_ends_all_ranks(self):
+        self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/o.h5", ranks=3)
+
+    def test_ranks_that_read_different_jobs_do_not_mix_them(self):
+        # As when a folder is not shared between two hosts: one copy of the job is older.
+        setup = 'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'
+        result = self.overturn("run", "small.toml", "-o", "out.h5", ranks=2, shell_setup=setup)
+        self.assert_exit(result, 65, "rank 1: long.toml is another job here than on rank 0")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,201 @@
+"""What overturn leaves behind: equal bytes from equal jobs, and nothing lost when it is stopped."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, under_mpi, words
+
+
+class AFinishedFile(Scratch):
+    def test_the_output_is_named_after_the_job_in_the_working_directory(self):
+        (self.folder / "jobs").mkdir()
+        (self.folder / "small.toml").rename(self.folder / "jobs" / "small.toml")
+        self.assert_exit(self.overturn("run", "jobs/small.toml"), 0, "small.h5")
+        self.assertIn("small.h5", self.files())
+
+    def test_running_again_says_so_and_changes_nothing(self):
+        self.assert_exit(self.overturn("run", "small.toml"), 0, "24 tiles", "60.0 k points")
+        before = checksum(self.folder / "small.h5")
+        for ranks in (None, 3):
+            result = self.overturn("run", "small.toml", ranks=ranks)
+            self.assert_exit(result, 0, "small.h5 is complete already")
+            self.assertEqual(checksum(self.folder / "small.h5"), before)
+
+    def test_info_tells_what_it_holds(self):
+        self.overturn("run", "small.toml")
+        result = self.overturn("info", "small.h5")
+        self.assert_exit(
+            result, 0, "A small plane", "24 of 24 done", "200 values from 0.5 to 8", "region, uint8"
+        )
+        self.assertNotIn("unfinished", result.stdout)
+
+    def test_the_sidecar_tells_each_ranks_share(self):
+        self.assert_exit(self.overturn("run", "small.toml", ranks=3), 0, "3 ranks")
+        sidecar = json.loads((self.folder / "small.h5.json").read_text())
+        self.assertEqual(len(sidecar["ranks"]), 3)
+        self.assertEqual(sum(rank["tiles"] for rank in sidecar["ranks"]), 24)
+
+
+class Check(Scratch):
+    def test_it_tells_the_plane_its_size_and_its_time_and_writes_nothing(self):
+        before = self.files()
+        result = self.overturn("check", "small.toml")
+        self.assert_exit(
+            result, 0, "A small plane", "one_sine", "60.0 k in 24 tiles", "on one rank",
+            "region, 60.0 kB", "angle, 480 kB",
+        )  # fmt: skip
+        self.assertNotIn("window", result.stdout)
+        self.assertEqual(self.files(), before)
+
+    def test_it_tells_what_the_window_cuts_off_a_ricker_wavelet(self):
+        # |f| at 2 pi, over the peak: 19 exp(-pi^2) and z (z^2 - 3) exp(-z^2/2) / 1.38, z = 2 pi/sqrt 3.
+        for pulse, cut in (("symmetric_ricker", "0.097 %"), ("antisymmetric_ricker", "3.7 %")):
+            result = self.overturn("check", "small.toml", "--set", f"scene.pulse={pulse}")
+            self.assert_exit(result, 0, pulse, cut)
+
+    def test_its_time_grows_with_the_plane(self):
+        def estimate(points):
+            counts = [f"plane.{axis}.count={points}" for axis in ("frequency", "amplitude")]
+            result = self.overturn("check", "long.toml", "--set", counts[0], "--set", counts[1])
+            text = words(result.stdout).split("about ")[1].split(" on one rank")[0]
+            seconds = {"ms": 0.001, "s": 1, "min": 60, "h": 3600}
+            parts = text.split(" ")
+            return sum(float(n) * seconds[unit] for n, unit in zip(parts[::2], parts[1::2]))
+
+        # A hundred times as many points; a busy machine is easily wrong by 2, a lost factor by more.
+        ratio = estimate(4000) / estimate(400)
+        self.assertGreater(ratio, 20)
+        self.assertLess(ratio, 500)
+
+
+class EqualJobs(Scratch):
+    def test_give_equal_bytes_on_any_number_of_ranks(self):
+        for ranks in (1, 2, 3, 5):
+            output = f"{ranks}.h5"
+            self.assert_exit(self.overturn("run", "small.toml", "-o", output, ranks=ranks), 0)
+            self.assertEqual(checksum(self.folder / output), checksum(self.folder / "1.h5"))
+
+    def test_give_equal_bytes_with_any_kernel(self):
+        self.assert_exit(self.overturn("run", "small.toml"), 0)
+        for kernel in ("double", "avx2", "avx512"):
+            output = f"{kernel}.h5"
+            result = self.overturn("run", "small.toml", "-o", output, "--kernel", kernel)
+            if result.returncode == 2:  # this machine lacks it
+                self.assert_exit(result, 2, "does not run on this processor")
+                self.assertNotEqual(kernel, "double")
+                continue
+            self.assert_exit(result, 0, f"kernel {kernel}")
+            self.assertEqual(checksum(self.folder / output), checksum(self.folder / "small.h5"))
+
+
+class AnInterruptedRun(Scratch):
+    whole = None  # checksum of the uninterrupted file
+
+    def setUp(self):
+        super().setUp()
+        if AnInterruptedRun.whole is None:
+            self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
+            AnInterruptedRun.whole = checksum(self.folder / "whole.h5")
+
+    def tiles_done(self):
+        text = words(self.overturn("info", "long.h5").stdout)
+        return int(text.split(" tiles ")[1].split(" of ")[0])
+
+    def start(self, ranks=None):
+        """Starts the long job, and returns when some of its tiles are done."""
+        command = [OVERTURN, "run", "long.toml"]
+        before = self.tiles_done() if "long.h5" in self.files() else 0
+        process = subprocess.Popen(
+            (under_mpi(ranks) if ranks else []) + command, cwd=self.folder, env=ENVIRONMENT,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        )  # fmt: skip
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + PATIENCE
+        while "long.h5" not in self.files() or self.tiles_done() < before + 3:
+            self.assertLess(time.monotonic(), deadline, "no tiles came")
+            self.assertIsNone(process.poll(), "ended before it could be interrupted")
+        return process
+
+    def rank_processes(self, launcher):
+        children = pathlib.Path(f"/proc/{launcher.pid}/task/{launcher.pid}/children")
+        return [int(pid) for pid in children.read_text().split()]
+
+    def wait_for_end(self, pids):
+        deadline = time.monotonic() + PATIENCE
+        while any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids):
+            self.assertLess(time.monotonic(), deadline, "ranks outlive their launcher")
+            time.sleep(0.05)
+
+    def assert_resumes(self, ranks):
+        """With this number of ranks: goes on, ends, and nobody can tell from the bytes."""
+        done = self.tiles_done()
+        self.assertGreaterEqual(done, 3)
+        self.assertLess(done, 243, "was interrupted too late to show anything")
+        info = self.overturn("info", "long.h5")
+        self.assert_exit(info, 0, f"{done} of 243 done", "overturn run JOB.toml -o long.h5")
+        result = self.overturn("run", "long.toml", ranks=ranks)
+        self.assert_exit(result, 0, f"going on, {done} of 243 tiles are there")
+        self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
+
+    def test_resumes_after_sigusr1_to_mpirun(self):
+        process = self.start(ranks=3)
+        process.send_signal(signal.SIGUSR1)
+        output, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 85, output)
+        self.assertIn("stopped by a signal", output)
+        self.assertIn("Run the same command again to resume", output)
+        self.assert_resumes(ranks=2)
+
+    def test_resumes_after_a_signal_to_one_rank_only(self):
+        process = self.start(ranks=3)
+        os.kill(self.rank_processes(process)[-1], signal.SIGUSR1)
+        output, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 85, output)
+        self.assert_resumes(ranks=5)
+
+    def test_stops_alone_on_each_polite_signal(self):
+        for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT):
+            process = self.start()
+            process.send_signal(polite)
+            output, _ = process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 85, output)
+        self.assert_resumes(ranks=None)
+
+    def test_resumes_after_the_death_of_mpirun(self):
+        process = self.start(ranks=2)
+        ranks = self.rank_processes(process)
+        process.kill()
+        process.communicate(timeout=PATIENCE)
+        self.wait_for_end(ranks)
+        self.assert_resumes(ranks=3)
+
+    def test_resumes_after_the_death_of_a_rank(self):
+        process = self.start(ranks=3)
+        ranks = self.rank_processes(process)
+        os.kill(ranks[1], signal.SIGKILL)
+        process.communicate(timeout=PATIENCE)
+        self.assertNotEqual(process.returncode, 0)
+        self.wait_for_end(ranks)
+        self.assert_resumes(ranks=None)
+
+    def test_resumes_after_a_rank_could_not_write(self):
+        process = self.start(ranks=2)
+        process.send_signal(signal.SIGUSR1)
+        process.communicate(timeout=PATIENCE)
+        # In blocks of 512 bytes: less than the file has already, so that its far end is out of reach.
+        for ranks in (None, 3):
+            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
+            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
+            if ranks is not None:
+                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
+        self.assert_resumes(ranks=2)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,283 @@
+"""The pictures of tools/plot_spectrum: their colours are counted, their words are read from SVG.
+
+Wants OVERTURN (the binary) and PLOT_SPECTRUM (the tool) in the environment.
+"""
+
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+from matplotlib import colors, image
+
+OVERTURN = os.environ["OVERTURN"]
+PLOT_SPECTRUM = os.environ["PLOT_SPECTRUM"]
+
+S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 4, 8, 254, 255
+
+
+def the_tool():
+    sys.dont_write_bytecode = True
+    loader = importlib.machinery.SourceFileLoader("plot_spectrum", PLOT_SPECTRUM)
+    module = importlib.util.module_from_spec(
+        importlib.util.spec_from_loader("plot_spectrum", loader))
+    loader.exec_module(module)
+    return module
+
+
+REGIONS = the_tool().REGIONS
+
+
+class Picture(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def spectrum(self, codes, frequency=None, amplitude=None, **attributes):
+        """A result file with the given codes; slenderness and restitution may be left out."""
+        codes = np.array(codes, np.uint8)
+        codes = codes.reshape((1,) * (4 - codes.ndim) + codes.shape)
+        slendernesses, restitutions, rows, columns = codes.shape
+        with h5py.File(self.folder / "spectrum.h5", "w") as file:
+            file.attrs.update({"kind": "overturning spectrum", "title": "A title",
+                               "pulse": "one_sine", "theory": "nonlinear", **attributes})
+            file["region"] = codes
+            file["slenderness"] = np.linspace(0.1, 0.2, slendernesses)
+            file["restitution"] = np.linspace(0.7, 1, restitutions)
+            file["restitution"].attrs["of"] = "maximum"
+            file["restitution_ratio"] = np.full((slendernesses, restitutions), 0.625)
+            file["frequency"] = np.arange(1.0, columns + 1) if frequency is None else frequency
+            file["amplitude"] = np.arange(1.0, rows + 1) if amplitude is None else amplitude
+            file["checksum"] = np.array([1, 0 if NOT_COMPUTED in codes else 2], np.uint64)
+
+    def plot(self, *arguments):
+        return subprocess.run([PLOT_SPECTRUM, *arguments], cwd=self.folder, timeout=100,
+                              capture_output=True, text=True)
+
+    def picture(self, *arguments):
+        run = self.plot("spectrum.h5", "-o", "picture.png", *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return np.round(255 * image.imread(self.folder / "picture.png")[..., :3]).astype(int)
+
+    def words(self, *arguments):
+        run = self.plot("spectrum.h5", "-o", "picture.svg", *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+
+
+def where(picture, code):
+    """The pixels in the colour of a region."""
+    colour = [round(255 * part) for part in colors.to_rgb(REGIONS[code][2])]
+    return (picture == colour).all(axis=2)
+
+
+def shares(picture, codes):
+    """How the pixels divide among regions. Legend boxes are a thousandth of the map."""
+    counts = np.array([np.count_nonzero(where(picture, code)) for code in codes])
+    return counts / counts.sum()
+
+
+class TestTheMap(Picture):
+    # Spines, ticks and legend boxes take some pixels: a hundredth. Cells drawn between their values
+    # instead of around them, or all equally wide, would miss by a tenth at least.
+    TOLERANCE = 0.01
+
+    def test_cells_reach_to_the_midpoints_between_values(self):
+        self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1.0, 2.0, 10.0])
+        # Edges at 0.5, 1.5, 6 and 14.
+        np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]),
+                                   np.array([1, 4.5, 8]) / 13.5, atol=self.TOLERANCE)
+
+    def test_geometric_values_are_equally_wide_on_a_logarithmic_axis(self):
+        self.spectrum([[S], [F_MINUS], [U0_MINUS]], amplitude=[0.1, 1.0, 10.0])
+        np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]), 1 / 3,
+                                   atol=self.TOLERANCE)
+
+    def test_a_short_stretch_of_equal_steps_is_not_taken_for_geometric(self):
+        self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1000.0, 1000.5, 1001.0])
+        self.assertIn("1001", self.words())  # on a logarithmic axis only 1000 has a label
+
+    def test_amplitude_grows_upward_and_frequency_to_the_right(self):
+        self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]])
+        picture = self.picture()
+        middle = {code: np.median(np.argwhere(where(picture, code)), axis=0)
+                  for code in (S, F_MINUS, U0_PLUS)}
+        self.assertGreater(middle[S][0], middle[U0_PLUS][0] + 100)  # rows count downward
+        self.assertLess(middle[S][1], middle[F_MINUS][1] - 100)
+
+    def test_more_cells_than_pixels_keep_pure_colours_and_shares(self):
+        codes = np.full((3000, 2500), S)
+        codes[:, ::7] = F_MINUS
+        self.spectrum(codes)
+        picture = self.picture()
+        # Mixed colours would leave neither.
+        np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [6 / 7, 1 / 7],
+                                   atol=self.TOLERANCE)
+        pure = np.count_nonzero(where(picture, S) | where(picture, F_MINUS))
+        self.assertGreater(pure, 0.98 * 1000 * 1000)
+
+    def test_the_kinds_of_region_differ_in_lightness(self):
+        def lightness(code):  # CIE L*
+            rgb = np.array(colors.to_rgb(REGIONS[code][2]))
+            linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+            return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
+        kinds = [[3, 4], [0], [5, 6], [7, 8], [1, 2]]  # U0, S, U1, F, S+-
+        for lighter, darker in zip(kinds, kinds[1:]):
+            gap = min(map(lightness, lighter)) - max(map(lightness, darker))
+            # About 2 is the least that an eye sees side by side; apart in a map it takes more.
+            self.assertGreater(gap, 7, (lighter, darker))
+
+
+class TestTheWords(Picture):
+    def test_the_legend_lists_the_regions_that_are_there_and_no_others(self):
+        self.spectrum([[S, S_PLUS, UNDECIDED]])
+        words = self.words()
+        legend = [word for word in words if "safe" in word or "overturns" in word
+                  or "undecided" in word or "not computed" in word]
+        self.assertEqual(legend, ["S  safe, no impact needed", "S+  safe after one impact",
+                                  "undecided: see field status"])
+
+    def test_an_unfinished_file_is_drawn_and_says_so(self):
+        self.spectrum([[S, NOT_COMPUTED]])
+        words = self.words()
+        self.assertIn("not computed yet", words)
+        self.assertIn("unfinished: 1 of 2 tiles computed", " ".join(words))
+        # Half of the map is there, and the other half in no region's colour.
+        self.assertAlmostEqual(np.count_nonzero(where(self.picture(), S)) / 1e6, 0.5, delta=0.01)
+
+    def test_a_finished_file_does_not_call_itself_unfinished(self):
+        self.spectrum([[S, F_MINUS]])
+        self.assertNotIn("unfinished", " ".join(self.words()))
+
+    def test_title_pulse_and_block_stand_above(self):
+        self.spectrum([[S]], pulse="symmetric_ricker", theory="linear")
+        words = self.words()
+        self.assertIn("A title", words)
+        self.assertIn("symmetric Ricker wavelet,  linear theory,  α = 0.1 rad,  "
+                      "r = 0.7 r_max = 0.625", words)
+
+    def test_a_title_may_hold_any_character(self):
+        self.spectrum([[S]], title="from $1 to $2_x\nin Ω")
+        self.assertIn("from $1 to $2_x in Ω", self.words())
+
+    def test_another_title_replaces_the_jobs(self):
+        self.spectrum([[S]])
+        words = self.words("--title", "Mine")
+        self.assertIn("Mine", words)
+        self.assertNotIn("A title", words)
+
+
+class TestSeveralSpectra(Picture):
+    def test_each_gets_a_panel_of_its_own(self):
+        self.spectrum([[[[S]], [[F_MINUS]], [[U0_PLUS]]], [[[S]], [[U0_PLUS]], [[U0_PLUS]]]])
+        self.assertEqual(len([word for word in self.words() if word.startswith("α = ")]), 6)
+        np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_PLUS]),
+                                   np.array([2, 1, 3]) / 6, atol=0.01)
+
+    def test_an_index_chooses_one(self):
+        self.spectrum([[[[S]], [[F_MINUS]]], [[[U0_PLUS]], [[U0_MINUS]]]])
+        picture = self.picture("--slenderness", "1", "--restitution", "0")
+        self.assertGreater(np.count_nonzero(where(picture, U0_PLUS)), 900_000)
+        self.assertEqual([np.count_nonzero(where(picture, code))
+                          for code in (S, F_MINUS, U0_MINUS)], [0, 0, 0])
+
+    def test_more_than_fit_are_refused_with_the_choice(self):
+        self.spectrum(np.zeros((1, 13, 2, 2)))
+        run = self.plot("spectrum.h5")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("--restitution (0 to 12)", run.stderr)
+
+
+class TestAComputedFile(Picture):
+    JOB = """
+        title = "Computed"
+        [scene]
+        pulse = "one_sine"
+        [plane]
+        frequency = { first = 1.0, last = 10.0, count = 40 }
+        amplitude = { first = 1.0, last = 12.0, count = 40 }
+        restitution = { values = [1.0], of = "maximum" }
+        slenderness = { values = [0.1745716] }
+        [output]
+        fields = ["%s"]
+        """
+
+    def compute(self, field):
+        (self.folder / "job.toml").write_text(self.JOB % field)
+        subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
+                       check=True, capture_output=True, timeout=100)
+
+    def test_has_each_region_of_the_one_sine_spectrum(self):
+        self.compute("region")
+        words = " ".join(self.words())
+        for region in ("S ", "S+ ", "U0+ ", "U0− ", "U1+ ", "F− "):
+            self.assertIn(region, words)
+        with h5py.File(self.folder / "spectrum.h5") as file:
+            codes = file["region"][...]
+        present = [S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS]
+        counts = np.array([np.count_nonzero(codes == code) for code in present])
+        np.testing.assert_allclose(shares(self.picture(), present), counts / counts.sum(),
+                                   atol=0.01)
+
+    def test_without_the_field_says_what_to_add(self):
+        self.compute("margin")
+        run = self.plot("spectrum.h5")
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("no field region; add it to output.fields", run.stderr)
+
+
+class TestARefusal(Picture):
+    def refuses(self, code, sentence, *arguments):
+        run = self.plot(*arguments)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+
+    def test_of_no_file_at_all(self):
+        self.refuses(74, "No such file", "nowhere.h5")
+
+    def test_of_a_text_file(self):
+        (self.folder / "text.h5").write_text("not a spectrum")
+        self.refuses(74, "not an HDF5 file", "text.h5")
+
+    def test_of_somebody_elses_hdf5_file(self):
+        with h5py.File(self.folder / "other.h5", "w") as file:
+            file["region"] = [1]
+        self.refuses(74, "not a spectrum written by overturn run", "other.h5")
+
+    def test_of_a_truncated_file(self):
+        self.spectrum(np.zeros((50, 50)))
+        whole = (self.folder / "spectrum.h5").read_bytes()
+        (self.folder / "cut.h5").write_bytes(whole[:len(whole) // 2])
+        self.refuses(74, "cannot read \"cut.h5\"", "cut.h5")
+
+    def test_of_a_file_that_lacks_an_axis(self):
+        self.spectrum([[S]])
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            del file["frequency"]
+        self.refuses(74, "is damaged", "spectrum.h5")
+
+    def test_of_an_index_out_of_range_names_the_range(self):
+        self.spectrum(np.zeros((1, 3, 2, 2)))
+        self.refuses(2, "allows 0 to 2", "spectrum.h5", "--restitution", "3")
+        self.refuses(2, "allows 0 to 0", "spectrum.h5", "--slenderness", "-1")
+
+    def test_of_a_picture_in_an_unknown_format(self):
+        self.spectrum([[S]])
+        self.refuses(2, ".png, .pdf or .svg", "spectrum.h5", "-o", "picture.jpg")
+
+    def test_of_a_picture_in_no_folder(self):
+        self.spectrum([[S]])
+        self.refuses(74, "cannot write", "spectrum.h5", "-o", "nowhere/picture.png")
+
+
+if __name__ == "__main__":
+    unittest.main()
