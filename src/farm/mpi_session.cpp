@@ -35,6 +35,9 @@ void prepare_for_one_rank()
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
+    // Ranks alone of several runs share a session folder. The default way to share file pointers,
+    // which nobody here does, leaves a file there, and runs that end take each other's away.
+    setenv("OMPI_MCA_sharedfp", "individual", keep);
 }
 
 /// A launcher of another MPI starts ranks that do not know of each other: each would compute

@@ -93,6 +93,22 @@ class EqualJobs(Scratch):
             self.assertEqual(checksum(self.folder / output), checksum(self.folder / "small.h5"))
 
 
+class SideBySide(Scratch):
+    def test_runs_alone_do_not_disturb_each_other(self):
+        runs = [
+            subprocess.Popen(
+                [OVERTURN, "run", "small.toml", "-o", f"{i}.h5"], cwd=self.folder,
+                env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            )  # fmt: skip
+            for i in range(12)
+        ]
+        for i, run in enumerate(runs):
+            _, complaints = run.communicate(timeout=PATIENCE)
+            self.assertEqual(run.returncode, 0, complaints)
+            self.assertNotIn("Error", complaints)
+            self.assertEqual(checksum(self.folder / f"{i}.h5"), checksum(self.folder / "0.h5"))
+
+
 class AnInterruptedRun(Scratch):
     whole = None  # checksum of the uninterrupted file
 
