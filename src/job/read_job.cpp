@@ -23,7 +23,8 @@ toml::table parse(const std::string& text, const std::string& path)
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
-        throw JobError(fmt::format("{}: this is not TOML: {}. Mend it here or just before.",
+        throw JobError(fmt::format("{}: this is not TOML: {}. Mend it here or just before; text "
+                                   "wants \"quotes\".",
                                    place_of(error.source()), error.description()));
     }
 }

@@ -22,8 +22,8 @@ struct scalar_number_traits {
     static T select(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
     static bool any(bool mask) { return mask; }
     static bool all(bool mask) { return mask; }
-    static T load(const T* lanes) { return *lanes; }
-    static void store(T* lanes, const T& number) { *lanes = number; }
+    static T load(const T* from) { return *from; }
+    static void store(T* to, const T& number) { *to = number; }
 };
 
 template <>

@@ -44,8 +44,8 @@ struct number_traits<xsimd::batch<double, Architecture>> {
         const pack shifted = k + pack(number_traits<double>::exponent_shifter);
         return xsimd::bitwise_cast<pack>(xsimd::bitwise_cast<integers>(shifted) << 52);
     }
-    static pack load(const double* lanes) { return pack::load_unaligned(lanes); }
-    static void store(double* lanes, const pack& number) { number.store_unaligned(lanes); }
+    static pack load(const double* from) { return pack::load_unaligned(from); }
+    static void store(double* to, const pack& number) { number.store_unaligned(to); }
     static bool any(const mask& condition) { return xsimd::any(condition); }
     static bool all(const mask& condition) { return xsimd::all(condition); }
 };
