@@ -27,8 +27,9 @@ struct FarmReport {
 ///
 /// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. compute_and_write(number) does
 /// one tile. on_progress(tiles done), on rank 0, is called between tiles and while waiting.
-/// stop_requested(), once true on a rank, stays true: every rank finishes the tile in hand and
-/// leaves. An exception leaves farm_out on its rank alone, so the caller must abort the session.
+/// stop_requested(), once true on a rank, stays true: that rank finishes the tile in hand
+/// and leaves, the others what they were given before rank 0 heard of it. An exception leaves
+/// farm_out on its rank alone, so the caller must abort the session.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                     const std::function<void(std::int64_t number)>& compute_and_write,
                     const std::function<void(std::int64_t done)>& on_progress,

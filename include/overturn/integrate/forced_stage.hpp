@@ -30,8 +30,9 @@ struct ForcedEnd {
     T steps;              ///< steps tried
 };
 
-/// Trial steps after which a point is given up: a tolerance of 1e-14 over thousands of periods of
-/// 1/p takes some 1e5, a bounce series without loss (r = 1) at most as many impacts.
+/// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
+/// over thousands of periods of 1/p. A block lifted by less than 1e-4 of the threshold makes more
+/// impacts than that if it hardly loses energy (r within 1e-5 of 1), and stays undecided.
 inline constexpr double most_steps = 1 << 20;
 
 /// Integrates one block per lane. tolerance: largest local error per step of tilt and rate, over
