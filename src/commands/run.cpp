@@ -9,6 +9,7 @@
 #include "overturn/farm/progress.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
+#include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
@@ -19,6 +20,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace overturn {
 
@@ -176,11 +178,13 @@ int run(const RunOptions& options)
 
     // Rank 0 looks first. What it finds wrong is said once, and all ranks leave with it; what goes
     // wrong on a single rank after that stops the others.
+    std::optional<SoleWriter> sole_writer;
     int verdict = go_on;
     if (session.rank() == 0) {
         try {
             kernel_of(options); // throws if it does not run here
             job = read_job(options.job.path, options.job.overrides);
+            sole_writer.emplace(path);
             verdict = prepare_output(job, path);
         } catch (const std::exception& error) {
             verdict = complain(error);

@@ -19,10 +19,11 @@ void describe_region(hid_t dataset)
     write_attribute(dataset, "flag_meanings",
                     "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus undecided "
                     "not_computed");
-    write_attribute(dataset, "comment",
-                    "S safe within the separatrix, S_plus and S_minus safe thanks to the loss at the "
-                    "first impact, U0 overturns without impact, U1 overturns after one impact, "
-                    "F overturned during the pulse");
+    write_attribute(
+        dataset, "comment",
+        "S safe within the separatrix, S_plus and S_minus safe thanks to the loss at the "
+        "first impact, U0 overturns without impact, U1 overturns after one impact, "
+        "F overturned during the pulse");
 }
 
 void describe_status(hid_t dataset)

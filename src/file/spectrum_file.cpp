@@ -124,8 +124,8 @@ void SpectrumFile::close()
         open_->file.close();
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
-            fmt::format("cannot bring all of \"{}\" to the disk: {}. Have it checked by "
-                        "overturn verify.",
+            fmt::format("cannot bring all of \"{}\" to the disk: {}. What it holds cannot "
+                        "be trusted: remove it and compute it again.",
                         open_->path, error.what()));
     }
 }

@@ -159,6 +159,15 @@ class AnInterruptedRun(Scratch):
         self.assert_exit(result, 0, f"going on, {done} of 243 tiles are there")
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
 
+    def test_is_not_disturbed_by_a_second_run_of_the_same_job(self):
+        process = self.start()
+        result = self.overturn("run", "long.toml")
+        self.assert_exit(result, 74, "being written by another run")
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
+        self.assertNotIn("long.h5.lock", self.files())
+
     def test_resumes_after_sigusr1_to_mpirun(self):
         process = self.start(ranks=3)
         process.send_signal(signal.SIGUSR1)
