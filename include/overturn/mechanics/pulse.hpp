@@ -22,15 +22,9 @@ struct Flank {
     S peak;
 };
 
-/// Type A, Eq. 48: one period of a sine.
-struct OneSine {
-    static constexpr int lobes = 2;
-
-    template <Number T>
-    static T value(const T& phase)
-    {
-        return sine_and_cosine_of_period(phase).sine;
-    }
+/// A pulse from phase 0 over a number of half turns.
+template <int half_turns>
+struct Lasting {
     template <class S>
     static S begin(const S&)
     {
@@ -39,7 +33,32 @@ struct OneSine {
     template <class S>
     static S end(const S&)
     {
-        return 2 * pi<S>();
+        return half_turns * pi<S>();
+    }
+};
+
+/// A wavelet about phase 0 without an end of its own: from -2 pi window to 2 pi window.
+struct CutByWindow {
+    template <class S>
+    static S begin(const S& window)
+    {
+        return -end(window);
+    }
+    template <class S>
+    static S end(const S& window)
+    {
+        return 2 * pi<S>() * window;
+    }
+};
+
+/// Type A, Eq. 48: one period of a sine.
+struct OneSine : Lasting<2> {
+    static constexpr int lobes = 2;
+
+    template <Number T>
+    static T value(const T& phase)
+    {
+        return sine_and_cosine_of_period(phase).sine;
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
@@ -56,39 +75,34 @@ struct OneSine {
 };
 
 /// Half a period of a sine.
-struct HalfSine : OneSine {
+struct HalfSine : Lasting<1> {
     static constexpr int lobes = 1;
 
-    template <class S>
-    static S end(const S&)
+    template <Number T>
+    static T value(const T& phase)
     {
-        return pi<S>();
+        return OneSine::value(phase);
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
     {
         return {{{S(0), pi<S>() / 2}}};
     }
+    template <class S>
+    static S phase_at(const Flank<S>& flank, const S& level)
+    {
+        return OneSine::phase_at(flank, level);
+    }
 };
 
 /// Type B, Eq. 51: one period of a cosine.
-struct OneCosine {
+struct OneCosine : Lasting<2> {
     static constexpr int lobes = 3;
 
     template <Number T>
     static T value(const T& phase)
     {
         return sine_and_cosine_of_period(phase).cosine;
-    }
-    template <class S>
-    static S begin(const S&)
-    {
-        return S(0);
-    }
-    template <class S>
-    static S end(const S&)
-    {
-        return 2 * pi<S>();
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
@@ -104,23 +118,13 @@ struct OneCosine {
 };
 
 /// A constant push.
-struct Rectangular {
+struct Rectangular : Lasting<1> {
     static constexpr int lobes = 1;
 
     template <Number T>
     static T value(const T&)
     {
         return T(1);
-    }
-    template <class S>
-    static S begin(const S&)
-    {
-        return S(0);
-    }
-    template <class S>
-    static S end(const S&)
-    {
-        return pi<S>();
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
@@ -148,7 +152,7 @@ S bracketed_phase(const Flank<S>& flank, const S& level)
 }
 
 /// Eq. 53: f = (1 - 2 x^2) exp(-x^2), x = phase / 2; phase from -2 pi window to 2 pi window.
-struct SymmetricRicker {
+struct SymmetricRicker : CutByWindow {
     static constexpr int lobes = 3;
 
     template <Number T>
@@ -157,16 +161,6 @@ struct SymmetricRicker {
         using S = scalar_t<T>;
         const T square = phase * phase * T(S(0.25));
         return (T(S(1)) - (square + square)) * exponential_decay(square);
-    }
-    template <class S>
-    static S begin(const S& window)
-    {
-        return -end(window);
-    }
-    template <class S>
-    static S end(const S& window)
-    {
-        return 2 * pi<S>() * window;
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
@@ -185,7 +179,7 @@ struct SymmetricRicker {
 
 /// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3); phase as above. The paper's
 /// 1.38 makes the peak 1.000086.
-struct AntisymmetricRicker {
+struct AntisymmetricRicker : CutByWindow {
     static constexpr int lobes = 4;
 
     template <Number T>
@@ -197,16 +191,6 @@ struct AntisymmetricRicker {
         const T square = z * z;
         const S scale = S(50) / 69; // 1 / 1.38
         return T(scale) * z * (square - T(S(3))) * exponential_decay(T(square * T(S(0.5))));
-    }
-    template <class S>
-    static S begin(const S& window)
-    {
-        return -end(window);
-    }
-    template <class S>
-    static S end(const S& window)
-    {
-        return 2 * pi<S>() * window;
     }
     template <class S>
     static std::array<Flank<S>, lobes> flanks()
