@@ -114,15 +114,14 @@ TEST(Farm, SharesUnequalTilesEvenly)
         session, tiles_on_rank_0(session, 200),
         [&](std::int64_t number) { work_for(cost(number)); }, no_progress, never);
     double most = 0;
-    double all = 0;
     for (const RankShare& rank : report.ranks) {
         most = std::max(most, rank.busy_seconds);
-        all += rank.busy_seconds;
     }
-    // On a calm machine the busiest rank has 1.1 fair shares. Equal parts of the list would give
-    // the first rank 1.6 of them on two ranks, 2.4 on three and 3.6 on five.
-    if (session.rank() == 0) {
-        EXPECT_LT(most, 1.4 * all / session.size());
+    // Equal parts of the list would give the first rank all the long tiles: 1.6 fair shares of the
+    // 580 ms on two ranks, 2.4 on three, 3.6 on five. Handed out as they are asked for, the busiest
+    // rank has 1.1 on a calm machine; on a busy one its clock may run on for half as long again.
+    if (session.rank() == 0 && session.size() > 1) {
+        EXPECT_LT(most, 20 * 0.019 + 0.001 * (200.0 / session.size() - 20));
     }
 }
 
