@@ -138,9 +138,8 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
     }
 }
 
-TEST(SweepTile, AMirroredRegionIsWhatTheMirroredSideSays)
+TEST(SweepTile, RegionsWithASignFollowTheAngleOrTheVelocity)
 {
-    // Regions with a sign follow the sign of the angle or the velocity.
     const Plane plane = small_plane();
     for (const Scene& scene : all_scenes()) {
         const TileFields fields =
