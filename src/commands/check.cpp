@@ -61,6 +61,7 @@ void print_size(const Job& job)
 
 int check(const JobSource& source)
 {
+    const Kernel kernel = widest_kernel(); // throws if this processor has none
     const Job job = read_job(source.path, source.overrides);
     if (!job.title.empty()) {
         fmt::print("{}\n\n", job.title);
@@ -68,7 +69,6 @@ int check(const JobSource& source)
     print_scene(job);
     print_plane(job.plane);
     print_size(job);
-    const Kernel kernel = widest_kernel();
     print_row("time", fmt::format("about {} on one rank with kernel {}; n ranks on n cores need "
                                   "1/n of it",
                                   human_duration(estimated_seconds(job, kernel)), name_of(kernel)));

@@ -5,7 +5,7 @@
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/kernel.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,13 +17,22 @@ namespace overturn {
 
 namespace {
 
+std::string kernel_text()
+{
+    try {
+        return fmt::format("{}, the widest that this processor runs", name_of(widest_kernel()));
+    } catch (const ProcessorError& error) {
+        return fmt::format("none: {}", error.what());
+    }
+}
+
 std::string version_text()
 {
     return fmt::format("overturn {} (commit {})\n"
-                       "kernel   {}, the widest that this processor runs\n"
+                       "kernel   {}\n"
                        "MPI      {}\n"
                        "HDF5     {}",
-                       program_version(), program_commit(), name_of(widest_kernel()), mpi_library(),
+                       program_version(), program_commit(), kernel_text(), mpi_library(),
                        hdf5_version());
 }
 

@@ -3,6 +3,7 @@
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/file_error.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/kernel.hpp"
 
 #include <cstdio>
 
@@ -20,7 +21,7 @@ bool is(const std::exception& error)
 
 int exit_code_of(const std::exception& error)
 {
-    if (is<UsageError>(error) || is<LaunchError>(error)) {
+    if (is<UsageError>(error) || is<LaunchError>(error) || is<ProcessorError>(error)) {
         return exit_code::usage;
     }
     if (is<JobError>(error)) {

@@ -20,7 +20,7 @@ T as_lanes(const mask_t<T>& mask)
     return select<T>(mask, T(1.0), T(0.0));
 }
 
-/// Stores the lanes of one pack; the last pack of a row may have fewer points than lanes.
+/// Stores the first `count` lanes of one pack.
 void store(const ForcedEnd<T>& end, PointEnd* to, int count)
 {
     const auto tilt = lanes_of(end.state.tilt);
@@ -43,45 +43,83 @@ void store(const ForcedEnd<T>& end, PointEnd* to, int count)
     }
 }
 
-template <Theory theory, Records records>
+/// Packs that take turns, step by step: while one waits for the end of a long chain of operations
+/// the processor is at work on the next. Two gain 40 % for Runge-Kutta steps and 4 % for Taylor's;
+/// four gain no more.
+constexpr int packs_in_turns = 2;
+constexpr int lanes = lanes_v<T>;
+
+/// The excitation of the points from `first` on, counted row by row; lanes beyond the tile's end
+/// repeat its last point.
+Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
+{
+    double acceleration[lanes];
+    double frequency[lanes];
+    double uplifts[Pulse::lobes][lanes];
+    const int last = points.rows * points.columns - 1;
+    for (int i = 0; i < lanes; ++i) {
+        const int point = first + i < last ? first + i : last;
+        const int row = point / points.columns;
+        acceleration[i] = points.acceleration[row];
+        frequency[i] = points.frequency[point - row * points.columns];
+        for (int lobe = 0; lobe < Pulse::lobes; ++lobe) {
+            uplifts[lobe][i] = points.uplifts[row * Pulse::lobes + lobe];
+        }
+    }
+    Excitation<Pulse, T> excitation{.acceleration = load<T>(acceleration),
+                                    .frequency = load<T>(frequency),
+                                    .uplifts = {},
+                                    .begin = points.begin,
+                                    .end = points.end};
+    for (int lobe = 0; lobe < Pulse::lobes; ++lobe) {
+        excitation.uplifts[lobe] = load<T>(uplifts[lobe]);
+    }
+    return excitation;
+}
+
+template <class Method, Theory theory, Records records>
 void sweep(const TilePoints& points, PointEnd* ends)
 {
-    constexpr int lanes = lanes_v<T>;
     const Block<T> block{T(points.slenderness), T(points.restitution)};
-    for (int row = 0; row < points.rows; ++row) {
-        Excitation<Pulse, T> excitation{.acceleration = T(points.acceleration[row]),
-                                        .frequency = T(0.0),
-                                        .uplifts = {},
-                                        .begin = points.begin,
-                                        .end = points.end};
-        for (int i = 0; i < Pulse::lobes; ++i) {
-            excitation.uplifts[i] = T(points.uplifts[row * Pulse::lobes + i]);
-        }
-        for (int column = 0; column < points.columns; column += lanes) {
-            const int count = points.columns - column < lanes ? points.columns - column : lanes;
-            double frequency[lanes];
-            for (int i = 0; i < lanes; ++i) {
-                // Lanes beyond the row's end repeat its last point.
-                frequency[i] = points.frequency[column + (i < count ? i : count - 1)];
-            }
-            excitation.frequency = load<T>(frequency);
-            const auto end =
-                run_forced_stage<Pulse, theory, records>(block, excitation, points.tolerance);
-            store(end, ends + row * points.columns + column, count);
+    const int count = points.rows * points.columns;
+    const auto stage_from = [&](int first) {
+        return ForcedStage<Method, Pulse, theory, records, T>(block, excitation_from(points, first),
+                                                              points.tolerance);
+    };
+    for (int first = 0; first < count; first += packs_in_turns * lanes) {
+        std::array stages{stage_from(first), stage_from(first + lanes)};
+        static_assert(stages.size() == packs_in_turns);
+        run_in_turns(stages);
+        for (int i = 0; i < packs_in_turns; ++i) {
+            const int from = first + i * lanes;
+            const int left = count - from;
+            store(stages[i].end(), ends + from, left < lanes ? left : lanes);
         }
     }
 }
 
-} // namespace
-
-SweepKernel OVERTURN_KERNEL(Theory theory, bool count_impacts)
+template <class Method>
+SweepKernel kernel_for(Theory theory, bool count_impacts)
 {
     constexpr Records plain{};
     constexpr Records counting{.impacts = true};
     if (theory == Theory::linear) {
-        return count_impacts ? sweep<Theory::linear, counting> : sweep<Theory::linear, plain>;
+        return count_impacts ? sweep<Method, Theory::linear, counting>
+                             : sweep<Method, Theory::linear, plain>;
     }
-    return count_impacts ? sweep<Theory::nonlinear, counting> : sweep<Theory::nonlinear, plain>;
+    return count_impacts ? sweep<Method, Theory::nonlinear, counting>
+                         : sweep<Method, Theory::nonlinear, plain>;
+}
+
+} // namespace
+
+SweepKernel OVERTURN_KERNEL(Integrator integrator, Theory theory, bool count_impacts)
+{
+    switch (integrator) {
+    case Integrator::taylor_14: return kernel_for<Taylor<14>>(theory, count_impacts);
+    case Integrator::taylor_20: return kernel_for<Taylor<20>>(theory, count_impacts);
+    default: return kernel_for<RungeKutta>(theory, count_impacts);
+    }
 }
 
 } // namespace overturn

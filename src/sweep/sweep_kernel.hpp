@@ -37,7 +37,11 @@ struct PointEnd {
 /// Fills rows x columns ends, frequency fastest.
 using SweepKernel = void (*)(const TilePoints& points, PointEnd* ends);
 
-/// What each kernel source defines: the kernel for a theory, with or without counting impacts.
-using SweepKernelChoice = SweepKernel (*)(Theory theory, bool count_impacts);
+/// The methods that the kernels are compiled for: a Taylor series is written out for its order.
+enum class Integrator { runge_kutta, taylor_14, taylor_20 };
+
+/// What each kernel source defines: the kernel for a method and a theory, with or without counting
+/// impacts.
+using SweepKernelChoice = SweepKernel (*)(Integrator integrator, Theory theory, bool count_impacts);
 
 } // namespace overturn

@@ -8,6 +8,8 @@ import subprocess
 import time
 import unittest
 
+import h5py
+
 from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, under_mpi, words
 
 
@@ -81,16 +83,35 @@ class EqualJobs(Scratch):
             self.assertEqual(checksum(self.folder / output), checksum(self.folder / "1.h5"))
 
     def test_give_equal_bytes_with_any_kernel(self):
-        self.assert_exit(self.overturn("run", "small.toml"), 0)
-        for kernel in ("double", "avx2", "avx512"):
-            output = f"{kernel}.h5"
-            result = self.overturn("run", "small.toml", "-o", output, "--kernel", kernel)
-            if result.returncode == 2:  # this machine lacks it
-                self.assert_exit(result, 2, "does not run on this processor")
-                self.assertNotEqual(kernel, "double")
-                continue
-            self.assert_exit(result, 0, f"kernel {kernel}")
-            self.assertEqual(checksum(self.folder / output), checksum(self.folder / "small.h5"))
+        for method in ("rk45", "taylor"):
+            run = ["run", "small.toml", "--set", f"numerics.method={method!r}", "-o"]
+            best = f"{method}.h5"
+            self.assert_exit(self.overturn(*run, best), 0)
+            for kernel in ("double", "avx2", "avx512"):
+                output = f"{method}_{kernel}.h5"
+                result = self.overturn(*run, output, "--kernel", kernel)
+                if result.returncode == 2:  # this machine lacks it
+                    self.assert_exit(result, 2, "does not run on this processor")
+                    self.assertEqual(kernel, "avx512")
+                    continue
+                self.assert_exit(result, 0, f"kernel {kernel}")
+                self.assertEqual(checksum(self.folder / output), checksum(self.folder / best))
+
+    def test_differ_between_methods_in_their_last_digits_only(self):
+        fields = []
+        for method in ("rk45", "taylor"):
+            output = f"{method}.h5"
+            self.assert_exit(self.overturn("run", "small.toml", "-o", output, "--set",
+                                           f"numerics.method={method!r}", "--set",
+                                           "numerics.tolerance=1e-10"), 0)
+            with h5py.File(self.folder / output) as spectrum:
+                fields.append({name: spectrum[name][...] for name in ("region", "angle", "impacts")})
+        first, second = fields
+        self.assertTrue((first["region"] == second["region"]).all())
+        self.assertTrue((first["impacts"] == second["impacts"]).all())
+        # 60,000 points, each to within some hundred steps of 1e-10 alpha; F ends at pi/2 exactly.
+        self.assertLess(abs(first["angle"] - second["angle"]).max(), 1e-7)
+        self.assertGreater(abs(first["angle"] - second["angle"]).max(), 0)
 
 
 class SideBySide(Scratch):

@@ -1,4 +1,5 @@
 // The forced stage against closed forms and against numbers published by others.
+#include "support/every_method.hpp"
 #include "support/one_point.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -6,6 +7,26 @@
 
 namespace overturn {
 namespace {
+
+template <class Method>
+class HalfSineLinear : public testing::Test {};
+TYPED_TEST_SUITE(HalfSineLinear, EveryMethod, MethodName);
+
+template <class Method>
+class OneSineLinear : public testing::Test {};
+TYPED_TEST_SUITE(OneSineLinear, EveryMethod, MethodName);
+
+template <class Method>
+class RectangularLinear : public testing::Test {};
+TYPED_TEST_SUITE(RectangularLinear, EveryMethod, MethodName);
+
+template <class Method>
+class OneSineNonlinear : public testing::Test {};
+TYPED_TEST_SUITE(OneSineNonlinear, EveryMethod, MethodName);
+
+template <class Method>
+class OneCosineNonlinear : public testing::Test {};
+TYPED_TEST_SUITE(OneCosineNonlinear, EveryMethod, MethodName);
 
 const double digits = 1e-12; // the tolerance of these runs
 
@@ -23,7 +44,7 @@ double amplitude_of(const Equation& equation)
 // order 1. A formula with a wrong sign or a missing term is off in the first digits.
 const double closed_form_error = 1e-10;
 
-TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
+TYPED_TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
 {
     for (const double frequency : {0.5, 1.5, 3.0, 6.0}) {
         // Makris & Roussos (2000), eq. 27.
@@ -31,13 +52,13 @@ TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
             return frequency * std::sin(psi) - std::cos(psi) -
                    std::exp(-(pi<double>() - psi) / frequency);
         });
-        const double ours =
-            flip<HalfSine, Theory::linear>({0.2, 0.9, frequency, 0}, 1 + 1e-9, 2 * exact, digits);
+        const double ours = flip<HalfSine, Theory::linear, TypeParam>({0.2, 0.9, frequency, 0},
+                                                                      1 + 1e-9, 2 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
 
-TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
+TYPED_TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
 {
     for (const double frequency : {3.0, 4.0, 5.0, 8.0}) {
         // Zhang & Makris (2001), eq. 47, sign mended.
@@ -45,28 +66,28 @@ TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
             return frequency * std::sin(psi) - std::cos(psi) +
                    std::exp(-(2 * pi<double>() - psi) / frequency);
         });
-        const double ours = flip<OneSine, Theory::linear>({0.25, 0.81, frequency, 0}, 0.98 * exact,
-                                                          1.02 * exact, digits);
+        const double ours = flip<OneSine, Theory::linear, TypeParam>(
+            {0.25, 0.81, frequency, 0}, 0.98 * exact, 1.02 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
 
-TEST(RectangularLinear, OverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
+TYPED_TEST(RectangularLinear, OverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
 {
     for (const double frequency : {0.7, 2.0, 5.0}) {
         // p t1 = ln(A / (A - 1)), and the pulse lasts t1 = pi / (Omega p).
         const double exact = 1 / (1 - std::exp(-pi<double>() / frequency));
-        const double ours = flip<Rectangular, Theory::linear>({0.2, 0.9, frequency, 0}, 1 + 1e-9,
-                                                              3 * exact, digits);
+        const double ours = flip<Rectangular, Theory::linear, TypeParam>(
+            {0.2, 0.9, frequency, 0}, 1 + 1e-9, 3 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
 
-TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
+TYPED_TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
 {
     // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).
     const Point<double> point{0.2, 0.9, 2.5, 1.4};
-    const auto end = forced_end<Rectangular, Theory::linear>(point, digits);
+    const auto end = forced_end<Rectangular, Theory::linear, TypeParam>(point, digits);
     const double tau = pi<double>() / point.frequency;
     EXPECT_NEAR(end.state.tilt, 0.2 * 0.4 * (std::cosh(tau) - 1), 1e-11 * 0.2);
     EXPECT_NEAR(end.state.rate, 0.2 * 0.4 * std::sinh(tau), 1e-11 * 0.2);
@@ -77,40 +98,52 @@ TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
 /// Half a unit of the last printed digit, and the error of the runs.
 const double printed = 0.5e-6 + 1e-9;
 
-TEST(OneSineLinear, HasTheSafeStripOfZhangAndMakris)
+TYPED_TEST(OneSineLinear, HasTheSafeStripOfZhangAndMakris)
 {
     // p = 2.14, alpha = 0.25, velocity ratio 0.9, Omega = 5; printed there: 3.01, 6.32, 7.18.
     const Point<double> point{0.25, 0.81, 5, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 2.9, 3.1, digits)), 3.018600, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 6.2, 6.5, digits)), 6.318071, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::linear>(point, 7.0, 7.3, digits)), 7.168129, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 2.9, 3.1, digits)), 3.018600,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 6.2, 6.5, digits)), 6.318071,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 7.0, 7.3, digits)), 7.168129,
+                printed);
 }
 
-TEST(OneSineNonlinear, HasTheBoundariesOfThePapersBlock)
+TYPED_TEST(OneSineNonlinear, HasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 1.3, 1.5, digits)), 1.382896, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.5, 3.62, digits)), 3.590936, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.62, 3.8, digits)), 3.647522, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 1.3, 1.5, digits)), 1.382896,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.5, 3.62, digits)), 3.590936,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.62, 3.8, digits)), 3.647522,
+                printed);
 }
 
-TEST(OneSineNonlinear, HasAWiderSafeStripWithLessRestitution)
+TYPED_TEST(OneSineNonlinear, HasAWiderSafeStripWithLessRestitution)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 1.4, 1.5, digits)), 1.458920, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.2, 3.4, digits)), 3.276686, printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear>(point, 3.5, 3.8, digits)), 3.647522, printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 1.4, 1.5, digits)), 1.458920,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.2, 3.4, digits)), 3.276686,
+                printed);
+    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.5, 3.8, digits)), 3.647522,
+                printed);
 }
 
-TEST(OneCosineNonlinear, HasTheBoundariesOfThePapersBlock)
+TYPED_TEST(OneCosineNonlinear, HasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 1.7, 1.9, digits)), 1.801257, printed);
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 6.7, 7.0, digits)), 6.848654, printed);
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear>(point, 11, 11.3, digits)), 11.139644, printed);
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 1.7, 1.9, digits)), 1.801257,
+                printed);
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 6.7, 7.0, digits)), 6.848654,
+                printed);
+    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 11, 11.3, digits)), 11.139644,
+                printed);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "overturn/number/digits50.hpp"
+#include "support/every_method.hpp"
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -8,22 +8,6 @@
 namespace overturn {
 namespace {
 
-/// Calls visit.template operator()<Pulse, theory>() for every pulse and theory.
-template <class Visitor>
-void for_every_scene(const Visitor& visit)
-{
-    const auto both_theories = [&]<class Pulse>() {
-        visit.template operator()<Pulse, Theory::nonlinear>();
-        visit.template operator()<Pulse, Theory::linear>();
-    };
-    both_theories.template operator()<OneSine>();
-    both_theories.template operator()<OneCosine>();
-    both_theories.template operator()<SymmetricRicker>();
-    both_theories.template operator()<AntisymmetricRicker>();
-    both_theories.template operator()<HalfSine>();
-    both_theories.template operator()<Rectangular>();
-}
-
 Point<double> random_point(std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -32,28 +16,10 @@ Point<double> random_point(std::mt19937_64& generator)
             0.5 + 9 * uniform(generator), 1.05 + 10 * uniform(generator)};
 }
 
-Point<Digits50> in_digits(const Point<double>& point)
-{
-    return {point.slenderness, point.restitution, point.frequency, point.amplitude};
-}
-
-TEST(ForcedStage, AgreesWithTheSameStageInFiftyDigits)
-{
-    std::mt19937_64 generator(5);
-    for_every_scene([&]<class Pulse, Theory theory>() {
-        for (int i = 0; i < 4; ++i) {
-            const Point<double> point = random_point(generator);
-            const auto ours = forced_end<Pulse, theory>(point, 1e-10);
-            const auto exact = forced_end<Pulse, theory>(in_digits(point), 1e-13);
-            EXPECT_EQ(ours.fell, exact.fell);
-            EXPECT_EQ(ours.impacts, double(exact.impacts));
-            EXPECT_EQ(ours.state.side, double(exact.state.side));
-            // A hundred steps of 1e-10 alpha, amplified up to 1e3-fold by the inverted pendulum.
-            EXPECT_NEAR(ours.state.tilt, double(exact.state.tilt), 1e-6 * point.slenderness);
-            EXPECT_NEAR(ours.state.rate, double(exact.state.rate), 1e-6 * point.slenderness);
-        }
-    });
-}
+/// What holds whatever the method.
+template <class Method>
+class ForcedStageByMethod : public testing::Test {};
+TYPED_TEST_SUITE(ForcedStageByMethod, EveryMethod, MethodName);
 
 TEST(ForcedStage, ErrorFallsWithTheTolerance)
 {
@@ -75,7 +41,7 @@ TEST(ForcedStage, ErrorFallsWithTheTolerance)
     EXPECT_LT(log_ratio, 3.6);
 }
 
-TEST(ForcedStage, MirroredGroundMotionGivesTheMirroredEnd)
+TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
 {
     std::mt19937_64 generator(8);
     for_every_scene([&]<class Pulse, Theory theory>() {
@@ -85,9 +51,10 @@ TEST(ForcedStage, MirroredGroundMotionGivesTheMirroredEnd)
             Excitation<Pulse, double> excitation{
                 point.amplitude * uplift_acceleration<theory>(point.slenderness), point.frequency,
                 uplift_phases<Pulse>(point.amplitude, 1.0), Pulse::begin(1.0), Pulse::end(1.0)};
-            const auto plain = run_forced_stage<Pulse, theory>(block, excitation, 1e-9);
+            const auto plain = run_forced_stage<TypeParam, Pulse, theory>(block, excitation, 1e-9);
             excitation.acceleration = -excitation.acceleration;
-            const auto mirrored = run_forced_stage<Pulse, theory>(block, excitation, 1e-9);
+            const auto mirrored =
+                run_forced_stage<TypeParam, Pulse, theory>(block, excitation, 1e-9);
             EXPECT_EQ(plain.fell, mirrored.fell);
             EXPECT_EQ(plain.state.tilt, mirrored.state.tilt);
             EXPECT_EQ(plain.state.rate, mirrored.state.rate);
@@ -128,11 +95,11 @@ State<double> dimensional_end(const Point<double>& point, double p)
     return {-theta, -velocity / p, -1};
 }
 
-TEST(ForcedStage, FrequencyParameterDropsOut)
+TYPED_TEST(ForcedStageByMethod, FrequencyParameterDropsOut)
 {
     for (const Point<double>& point :
          {Point<double>{0.17, 0.9, 5, 1.6}, Point<double>{0.3, 0.8, 6, 2.5}}) {
-        const auto ours = forced_end<HalfSine, Theory::nonlinear>(point, 1e-12);
+        const auto ours = forced_end<HalfSine, Theory::nonlinear, TypeParam>(point, 1e-12);
         ASSERT_EQ(ours.impacts, 0);
         for (const double p : {0.4, 1.130441, 4.9}) {
             const State<double> theirs = dimensional_end(point, p);
@@ -144,11 +111,12 @@ TEST(ForcedStage, FrequencyParameterDropsOut)
     }
 }
 
-TEST(ForcedStage, ABlockThatIsNotLiftedStaysAtRest)
+TYPED_TEST(ForcedStageByMethod, ABlockThatIsNotLiftedStaysAtRest)
 {
     for_every_scene([]<class Pulse, Theory theory>() {
         for (const double amplitude : {0.0, 0.4, 0.999}) {
-            const auto end = forced_end<Pulse, theory>(Point<double>{0.2, 0.8, 3, amplitude}, 1e-9);
+            const auto end =
+                forced_end<Pulse, theory, TypeParam>(Point<double>{0.2, 0.8, 3, amplitude}, 1e-9);
             EXPECT_EQ(end.state.tilt, 0);
             EXPECT_EQ(end.state.rate, 0);
             EXPECT_FALSE(end.fell);
@@ -158,13 +126,13 @@ TEST(ForcedStage, ABlockThatIsNotLiftedStaysAtRest)
     });
 }
 
-TEST(ForcedStage, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
+TYPED_TEST(ForcedStageByMethod, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
 {
     // A constant push B: u^2/2 = (work of Eq. 47 over the tilt) = cos y - cos alpha - B (sin y -
     // sin alpha) from y = alpha to y = alpha - pi/2, up to sign.
     const double alpha = 0.2;
     const double amplitude = 5;
-    const auto end = forced_end<Rectangular, Theory::nonlinear>(
+    const auto end = forced_end<Rectangular, Theory::nonlinear, TypeParam>(
         Point<double>{alpha, 0.9, 0.4, amplitude}, 1e-12);
     ASSERT_TRUE(end.fell);
     const double push = -amplitude * std::tan(alpha);
@@ -178,49 +146,51 @@ TEST(ForcedStage, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
 
 /// A block that comes down while the ground is about to push it up again: below some amplitude it
 /// touches the ground on the way, above it does not.
+template <class Method>
 ForcedEnd<double> near_graze(double amplitude, double tolerance)
 {
-    return forced_end<AntisymmetricRicker, Theory::nonlinear>(
+    return forced_end<AntisymmetricRicker, Theory::nonlinear, Method>(
         Point<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
 }
 
 /// The amplitude at which it just touches.
+template <class Method>
 double grazing_amplitude()
 {
     double low = 7.03;
     double high = 7.04;
     for (int i = 0; i < 40; ++i) {
         const double middle = (low + high) / 2;
-        (near_graze(middle, 1e-12).impacts > 0 ? low : high) = middle;
+        (near_graze<Method>(middle, 1e-12).impacts > 0 ? low : high) = middle;
     }
     return low;
 }
 
-TEST(ForcedStage, AGrazeMuchShorterThanAStepIsSeen)
+TYPED_TEST(ForcedStageByMethod, AGrazeMuchShorterThanAStepIsSeen)
 {
-    const double amplitude = grazing_amplitude();
+    const double amplitude = grazing_amplitude<TypeParam>();
     // A dip of some 1e-6 of alpha lasts 1e-3, a fiftieth of a step at the first tolerance.
     for (const double tolerance : {1e-8, 1e-9, 1e-11}) {
-        EXPECT_EQ(near_graze(amplitude * (1 - 1e-6), tolerance).impacts, 2);
-        EXPECT_EQ(near_graze(amplitude * (1 + 1e-6), tolerance).impacts, 0);
+        EXPECT_EQ(near_graze<TypeParam>(amplitude * (1 - 1e-6), tolerance).impacts, 2);
+        EXPECT_EQ(near_graze<TypeParam>(amplitude * (1 + 1e-6), tolerance).impacts, 0);
     }
 }
 
-TEST(ForcedStage, AGrazeChangesTheEndByTheRootOfItsDepth)
+TYPED_TEST(ForcedStageByMethod, AGrazeChangesTheEndByTheRootOfItsDepth)
 {
-    const double amplitude = grazing_amplitude();
-    const double free_of_it = near_graze(amplitude * (1 + 1e-9), 1e-12).state.rate;
+    const double amplitude = grazing_amplitude<TypeParam>();
+    const double free_of_it = near_graze<TypeParam>(amplitude * (1 + 1e-9), 1e-12).state.rate;
     const auto change = [&](double depth) {
-        return near_graze(amplitude * (1 - depth), 1e-12).state.rate - free_of_it;
+        return near_graze<TypeParam>(amplitude * (1 - depth), 1e-12).state.rate - free_of_it;
     };
     // Impacts as fast as the root of the depth; the next term is linear in it: 3 % at 1e-6.
     EXPECT_NEAR(change(1e-6) / change(1e-8), 10, 0.5);
 }
 
-TEST(ForcedStage, ANumberThatIsNotFiniteEndsTheLaneWithAStatus)
+TYPED_TEST(ForcedStageByMethod, ANumberThatIsNotFiniteEndsTheLaneWithAStatus)
 {
     const auto end =
-        forced_end<OneSine, Theory::nonlinear>(Point<double>{0.2, 0.8, 3, 1e200}, 1e-9);
+        forced_end<OneSine, Theory::nonlinear, TypeParam>(Point<double>{0.2, 0.8, 3, 1e200}, 1e-9);
     EXPECT_TRUE(end.not_finite);
     EXPECT_FALSE(end.fell);
 }

@@ -15,16 +15,37 @@ struct Point {
 };
 
 template <class Pulse, Theory theory, class S>
+Excitation<Pulse, S> excitation_of(const Point<S>& point, double window = 1)
+{
+    return {.acceleration = point.amplitude * uplift_acceleration<theory>(point.slenderness),
+            .frequency = point.frequency,
+            .uplifts = uplift_phases<Pulse>(point.amplitude, S(window)),
+            .begin = Pulse::begin(S(window)),
+            .end = Pulse::end(S(window))};
+}
+
+template <class Pulse, Theory theory, class Method = RungeKutta, class S>
 ForcedEnd<S> forced_end(const Point<S>& point, double tolerance, double window = 1)
 {
-    const Excitation<Pulse, S> excitation{
-        .acceleration = point.amplitude * uplift_acceleration<theory>(point.slenderness),
-        .frequency = point.frequency,
-        .uplifts = uplift_phases<Pulse>(point.amplitude, S(window)),
-        .begin = Pulse::begin(S(window)),
-        .end = Pulse::end(S(window))};
-    return run_forced_stage<Pulse, theory>(Block<S>{point.slenderness, point.restitution},
-                                           excitation, S(tolerance));
+    return run_forced_stage<Method, Pulse, theory>(Block<S>{point.slenderness, point.restitution},
+                                                   excitation_of<Pulse, theory>(point, window),
+                                                   S(tolerance));
+}
+
+/// Calls visit.template operator()<Pulse, theory>() for every pulse and theory.
+template <class Visitor>
+void for_every_scene(const Visitor& visit)
+{
+    const auto both_theories = [&]<class Pulse>() {
+        visit.template operator()<Pulse, Theory::nonlinear>();
+        visit.template operator()<Pulse, Theory::linear>();
+    };
+    both_theories.template operator()<OneSine>();
+    both_theories.template operator()<OneCosine>();
+    both_theories.template operator()<SymmetricRicker>();
+    both_theories.template operator()<AntisymmetricRicker>();
+    both_theories.template operator()<HalfSine>();
+    both_theories.template operator()<Rectangular>();
 }
 
 template <Theory theory, class S>
@@ -36,12 +57,12 @@ S margin_of(const ForcedEnd<S>& end, const Point<S>& point)
 }
 
 /// The amplitude between `low` and `high` at which the verdict flips, by halving.
-template <class Pulse, Theory theory>
+template <class Pulse, Theory theory, class Method = RungeKutta>
 double flip(Point<double> point, double low, double high, double tolerance)
 {
     const auto is_unsafe_at = [&](double amplitude) {
         point.amplitude = amplitude;
-        return margin_of<theory>(forced_end<Pulse, theory>(point, tolerance), point) < 0;
+        return margin_of<theory>(forced_end<Pulse, theory, Method>(point, tolerance), point) < 0;
     };
     const bool below = is_unsafe_at(low);
     for (int i = 0; i < 60; ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/step.hpp"
+#include "overturn/number/elementary.hpp"
 
 #include <limits>
 
@@ -37,6 +38,24 @@ Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
         }
     }
     return c;
+}
+
+/// The room between a tilt [rad] and pi/2.
+template <Number T>
+Quintic<T> room_above(Quintic<T> tilt)
+{
+    for (T& c : tilt) {
+        c = T(pi<scalar_t<T>>() / 2) - c;
+    }
+    return tilt;
+}
+
+/// A dip that the round-off of an acceleration of order alpha can make within a step h is none.
+template <Number T>
+T dip_of_round_off(const T& slenderness, const T& h)
+{
+    using S = scalar_t<T>;
+    return slenderness * h * h * T(8 * std::numeric_limits<S>::epsilon());
 }
 
 /// The root of a polynomial that falls all along from zero or above to below it, to within `enough`

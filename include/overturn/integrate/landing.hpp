@@ -1,7 +1,8 @@
 // The last correction of a step that was made to end at an event.
 #pragma once
 
-#include "overturn/number/number.hpp"
+#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/mechanics/excitation.hpp"
 
 #include <cmath>
 
@@ -32,6 +33,29 @@ Landing<T> land(const T& gap, const T& rate, const T& acceleration)
     const T denominator = closing - rate;
     const T delay = (gap + gap) / select<T>(denominator > zero, denominator, one);
     return {select<T>(denominator > zero, delay, zero), closing, square >= zero || gap <= zero};
+}
+
+/// Moves a step's end onto the event beside it: the ground in the lanes that strike it, pi/2 in
+/// those that fall. acceleration: d^2|theta| / d tau^2 at the step's end.
+template <class Pulse, Number T>
+void land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
+                   const T& acceleration, const Excitation<Pulse, T>& excitation)
+{
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const T quarter_turn(pi<S>() / 2);
+    const T gap = select<T>(falls, quarter_turn - end.tilt, end.tilt);
+    const T gap_rate = select<T>(falls, -end.rate, end.rate);
+    const T gap_acceleration = select<T>(falls, -acceleration, acceleration);
+    const Landing<T> landing = land(gap, gap_rate, gap_acceleration);
+    end.strikes = strikes && landing.hits;
+    end.falls = falls && landing.hits;
+    const mask_t<T> hits = end.strikes || end.falls;
+    const T last(excitation.end);
+    const T delayed = end.phase + excitation.frequency * landing.delay;
+    end.phase = select<T>(hits, select<T>(delayed < last, delayed, last), end.phase);
+    end.tilt = select<T>(hits, select<T>(falls, quarter_turn, zero), end.tilt);
+    end.rate = select<T>(hits, select<T>(falls, landing.closing, -landing.closing), end.rate);
 }
 
 } // namespace overturn

@@ -119,6 +119,38 @@ T exponential_decay(const T& x)
     }
 }
 
+/// log2 x for x > 0, to within 1e-3: for choices, such as of a step size, not for results. Of 0 and
+/// of what is not finite some number below -1022 or above 1023.
+template <Number T>
+T rough_log2(const T& x)
+{
+    if constexpr (std::same_as<scalar_t<T>, double>) {
+        // Interpolated at the Chebyshev nodes of [1, 2].
+        constexpr std::array<double, 4> cubic{-2.13623207, 3.01116215, -1.02680491, 0.15270028};
+        const auto [mantissa, exponent] = number_traits<T>::split(x);
+        return polynomial(cubic, mantissa) + exponent;
+    } else {
+        using std::log2;
+        return log2(x);
+    }
+}
+
+/// 2^x for |x| < 1000, to within one part in 10^4; see rough_log2().
+template <Number T>
+T rough_power_of_two(const T& x)
+{
+    if constexpr (std::same_as<scalar_t<T>, double>) {
+        // Interpolated at the Chebyshev nodes of [-1/2, 1/2].
+        constexpr std::array<double, 4> cubic{0.99992456, 0.69313673, 0.24263948, 0.05583828};
+        constexpr double rounder = 0x1.8p+52;
+        const T k = (x + T(rounder)) - T(rounder);
+        return polynomial(cubic, T(x - k)) * number_traits<T>::power_of_two(k);
+    } else {
+        using std::pow;
+        return pow(T(2), x);
+    }
+}
+
 /// pi in the scalar type.
 template <class S>
 S pi()

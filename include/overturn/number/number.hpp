@@ -24,6 +24,18 @@ struct scalar_number_traits {
     static bool all(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
+    template <class Body>
+    static auto straight_line(const Body& body)
+    {
+        return body();
+    }
+};
+
+/// A positive number is mantissa * 2^exponent.
+template <class T>
+struct SplitNumber {
+    T mantissa;
+    T exponent;
 };
 
 template <>
@@ -35,6 +47,24 @@ struct number_traits<double> : scalar_number_traits<double> {
     }
     /// Adding it leaves k + 1023, a double's biased exponent, in the lowest bits.
     static constexpr double exponent_shifter = 0x1p+52 + 1023;
+
+    /// x > 0 as mantissa * 2^exponent, 1 <= mantissa < 2; a subnormal x counts as 2^-1023.
+    static SplitNumber<double> split(double x)
+    {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        return {std::bit_cast<double>((bits & mantissa_bits) | one_bits),
+                std::bit_cast<double>((bits >> 52) | two_to_52_bits) - exponent_shifter};
+    }
+
+    template <class Body>
+    [[gnu::flatten]] static auto straight_line(const Body& body)
+    {
+        return body();
+    }
+
+    static constexpr std::uint64_t mantissa_bits = 0x000fffffffffffff;
+    static constexpr std::uint64_t one_bits = 0x3ff0000000000000;       // of 1.0
+    static constexpr std::uint64_t two_to_52_bits = 0x4330000000000000; // of 2^52
 };
 
 /// The type of one lane.
@@ -79,6 +109,14 @@ template <Number T>
 T select(const mask_t<T>& mask, const T& yes, const T& no)
 {
     return number_traits<T>::select(mask, yes, no);
+}
+
+/// body(), with all that it calls written out in one straight line where a number is a register:
+/// calls would pass registers through memory, and end what the processor can see ahead.
+template <Number T, class Body>
+auto straight_line(const Body& body)
+{
+    return number_traits<T>::straight_line(body);
 }
 
 /// Whether the mask holds in at least one lane; T cannot be deduced: any<T>(mask).

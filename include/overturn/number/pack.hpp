@@ -44,6 +44,21 @@ struct number_traits<xsimd::batch<double, Architecture>> {
         const pack shifted = k + pack(number_traits<double>::exponent_shifter);
         return xsimd::bitwise_cast<pack>(xsimd::bitwise_cast<integers>(shifted) << 52);
     }
+    /// See number_traits<double>.
+    static SplitNumber<pack> split(const pack& x)
+    {
+        using Lane = number_traits<double>;
+        const integers bits = xsimd::bitwise_cast<integers>(x);
+        const integers mantissa = (bits & integers(Lane::mantissa_bits)) | integers(Lane::one_bits);
+        const integers exponent = (bits >> 52) | integers(Lane::two_to_52_bits);
+        return {xsimd::bitwise_cast<pack>(mantissa),
+                xsimd::bitwise_cast<pack>(exponent) - pack(Lane::exponent_shifter)};
+    }
+    template <class Body>
+    [[gnu::flatten]] static auto straight_line(const Body& body)
+    {
+        return body();
+    }
     static pack load(const double* from) { return pack::load_unaligned(from); }
     static void store(double* to, const pack& number) { number.store_unaligned(to); }
     static bool any(const mask& condition) { return xsimd::any(condition); }

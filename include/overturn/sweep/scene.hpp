@@ -20,7 +20,7 @@ enum class PulseKind {
 
 enum class RestitutionOf { absolute, maximum };
 
-enum class Method { rk45 };
+enum class Method { rk45, taylor };
 
 /// Names as they stand in job files and result files, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 6> pulse_names{
@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 6> pulse_names{
     "half_sine", "rectangular"};
 inline constexpr std::array<std::string_view, 2> theory_names{"nonlinear", "linear"};
 inline constexpr std::array<std::string_view, 2> restitution_of_names{"absolute", "maximum"};
-inline constexpr std::array<std::string_view, 1> method_names{"rk45"};
+inline constexpr std::array<std::string_view, 2> method_names{"rk45", "taylor"};
 
 constexpr std::string_view name_of(PulseKind pulse)
 {

@@ -1,0 +1,95 @@
+// Values and bounds of power series within their first step. They know nothing of rocking.
+#pragma once
+
+#include "overturn/integrate/step.hpp"
+#include "overturn/number/unrolled.hpp"
+
+namespace overturn {
+
+/// c[first] + c[first + 1] t + c[first + 2] t^2 + ..., the even and the odd powers apart: two short
+/// chains instead of a long one. term(k) is what to add for c[k].
+template <int first, int count, Number T, class Term>
+T sum_of_powers(const T& t, const Term& term)
+{
+    using std::fma;
+    const T square = t * t;
+    constexpr int last = first + count - 1;
+    T upper = term.template operator()<last>();
+    T lower = term.template operator()<last - 1>();
+    unrolled<count - 2>([&]<int i>() {
+        constexpr int k = last - 2 - i;
+        T& sum = i % 2 == 0 ? upper : lower;
+        sum = fma(sum, square, term.template operator()<k>());
+    });
+    return count % 2 == 1 ? fma(lower, t, upper) : fma(upper, t, lower);
+}
+
+/// The value at t.
+template <Number T, std::size_t count>
+T value_of_series(const std::array<T, count>& c, const T& t)
+{
+    return sum_of_powers<0, int(count)>(t, [&]<int k>() -> const T& { return c[k]; });
+}
+
+/// The value of the derivative at t.
+template <Number T, std::size_t count>
+T slope_of_series(const std::array<T, count>& c, const T& t)
+{
+    return sum_of_powers<1, int(count) - 1>(t,
+                                            [&]<int k>() -> T { return c[k] * T(scalar_t<T>(k)); });
+}
+
+/// A bound of the derivative's absolute value over [0, t], t >= 0.
+template <Number T, std::size_t count>
+T steepest(const std::array<T, count>& c, const T& t)
+{
+    using std::abs;
+    return sum_of_powers<1, int(count) - 1>(
+        t, [&]<int k>() -> T { return abs(c[k]) * T(scalar_t<T>(k)); });
+}
+
+/// A series over [0, t], t >= 0, lies between `center` - slack s^5 and `center` + slack s^5, where
+/// s runs from 0 to 1.
+template <Number T>
+struct Enclosure {
+    Quintic<T> center;
+    T slack;
+
+    Quintic<T> lower() const
+    {
+        Quintic<T> bound = center;
+        bound[5] = bound[5] - slack;
+        return bound;
+    }
+    Quintic<T> upper() const
+    {
+        Quintic<T> bound = center;
+        bound[5] = bound[5] + slack;
+        return bound;
+    }
+};
+
+/// Its terms below t^5, as Bernstein coefficients, and the absolute sum of all others.
+template <Number T, std::size_t count>
+Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
+{
+    using std::abs;
+    using S = scalar_t<T>;
+    const T square = t * t;
+    const T fourth = square * square;
+    Quintic<T> b{c[0],
+                 c[1] * (t * T(value_of<S, Ratio{1, 5}>())),
+                 c[2] * (square * T(value_of<S, Ratio{1, 10}>())),
+                 c[3] * (square * t * T(value_of<S, Ratio{1, 10}>())),
+                 c[4] * (fourth * T(value_of<S, Ratio{1, 5}>())),
+                 T(S(0))};
+    for (std::size_t level = 0; level < 5; ++level) {
+        for (std::size_t i = 5; i > level; --i) {
+            b[i] = b[i] + b[i - 1];
+        }
+    }
+    const T rest = sum_of_powers<5, int(count) - 5>(t, [&]<int k>() -> T { return abs(c[k]); });
+    return {b, rest * (fourth * t)};
+}
+
+} // namespace overturn

@@ -1,0 +1,189 @@
+// Steps along the Taylor series of the motion of a rocking block (Eq. 47). Its last two
+// coefficients say how far it holds; an event on the way is a root of the series itself, and ends
+// the step there. Nothing is tried twice.
+#pragma once
+
+#include "overturn/integrate/crossing.hpp"
+#include "overturn/integrate/landing.hpp"
+#include "overturn/integrate/power_series.hpp"
+#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/rocking_series.hpp"
+
+namespace overturn {
+
+/// order: of the series of the rate. tolerance: its last terms at the end of a step, over the size
+/// of the motion [1].
+template <int order, class Pulse, Theory theory, Number T>
+class TaylorStepper {
+    using S = scalar_t<T>;
+    using Mask = mask_t<T>;
+    using Series = RockingSeries<order, T>;
+
+public:
+    TaylorStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
+        : slenderness_(block.slenderness), excitation_(excitation), end_(excitation.end)
+    {
+        const T one(S(1));
+        const T frequency = excitation.frequency;
+        fastest_ = select<T>(frequency > one, frequency, one);
+        unit_ = one / fastest_;
+        phase_per_unit_ = frequency * unit_;
+        tolerance_ = T(tolerance);
+        log2_tolerance_ = rough_log2(tolerance_);
+        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
+    }
+
+    void lift(const Rocking<T>&, const Mask&) {}
+    void turn(const Rocking<T>&, const Mask&) {}
+
+    /// One step in every lane; what the lanes that are not active do means nothing.
+    StepEnd<T> step(const Rocking<T>& now, const Mask& active) const
+    {
+        const auto push = pulse_series<Pulse, order>(T(now.side * excitation_.acceleration),
+                                                     now.phase, phase_per_unit_);
+        const Series series =
+            rocking_series<theory, order>(now.tilt, T(now.rate * unit_), slenderness_, push, unit_);
+        const T dared = longest_step(now, series);
+        const T left = (end_ - now.phase) / phase_per_unit_;
+        Mask last = dared >= left;
+        T h = select<T>(last, left, dared);
+
+        const Mask none = active && !active;
+        Event event{h, none, none};
+        const Mask suspect = active && may_meet(series, h);
+        if (any<T>(suspect)) {
+            event = first_event(series, h, suspect);
+            last = last && event.time == h;
+            h = event.time;
+        }
+        const T zero(S(0));
+        const T tilt = value_of_series(series.tilt, h);
+        const T rate = value_of_series(series.rate, h) * fastest_;
+        StepEnd<T> end{.phase = select<T>(last, end_, now.phase + h * phase_per_unit_),
+                       .tilt = select<T>(tilt < zero, zero, tilt),
+                       .rate = rate,
+                       .moved = active,
+                       .strikes = none,
+                       .falls = none,
+                       .broken = active && !((tilt - tilt) + (rate - rate) == zero)};
+        if (any<T>(event.strikes || event.falls)) {
+            end.tilt = tilt;
+            const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
+            land_on_event(end, event.strikes, event.falls, acceleration, excitation_);
+        }
+        return end;
+    }
+
+private:
+    struct Event {
+        T time; ///< the end of the step: at the event, or before one that is not certain yet
+        Mask strikes;
+        Mask falls;
+    };
+
+    /// How far the series holds, in units: rate[n] h^n, for its last two n, is at most the
+    /// tolerance times the size of the motion, that is, times tilt + |rate| at the beginning or at
+    /// the end, whichever is more, but alpha at most; see RungeKuttaStepper.
+    T longest_step(const Rocking<T>& now, const Series& series) const
+    {
+        using std::abs;
+        const T start = now.tilt + abs(now.rate);
+        const T allowed = rough_log2(T(tolerance_ * unit_ * start));
+        // From rest the rate grows to rate[1] h + rate[2] h^2, and h < 1.
+        const T growth = abs(series.rate[1]) + abs(series.rate[2]);
+        const T allowed_growing = log2_tolerance_ + rough_log2(growth);
+        const auto log2_longest = [&]<int n>() -> T {
+            const T last = rough_log2(T(abs(series.rate[n])));
+            const T at_start = (allowed - last) * T(S(1) / n);
+            const T growing = (allowed_growing - last) * T(S(1) / (n - 2));
+            const T at_most = (log2_most_allowed_ - last) * T(S(1) / n);
+            const T wanted = select<T>(growing > at_start, growing, at_start);
+            return select<T>(wanted < at_most, wanted, at_most);
+        };
+        const T by_last = log2_longest.template operator()<order>();
+        const T by_last_but_one = log2_longest.template operator()<order - 1>();
+        return rough_power_of_two(
+            T(select<T>(by_last < by_last_but_one, by_last, by_last_but_one)));
+    }
+
+    struct Gap {
+        T width; // [rad]
+        T rate;  // [rad per unit]
+    };
+
+    /// The gap to the ground, or to pi/2 in the lanes that fall.
+    static Gap gap_at(const Series& series, const T& time, const Mask& falls)
+    {
+        const T tilt = value_of_series(series.tilt, time);
+        const T rate = value_of_series(series.rate, time);
+        return {select<T>(falls, T(pi<S>() / 2) - tilt, tilt), select<T>(falls, -rate, rate)};
+    }
+
+    T noise(const T& h) const { return dip_of_round_off(slenderness_, T(h * unit_)); }
+
+    /// Lanes in which the block may touch the ground or fall flat within the step.
+    Mask may_meet(const Series& series, const T& h) const
+    {
+        const Enclosure<T> tilt = enclosure(series.tilt, h);
+        const T noise = this->noise(h);
+        return lower_bound(tilt.lower()) < -noise || lower_bound(room_above(tilt.upper())) < -noise;
+    }
+
+    /// The first impact or fall within the step. Up to the first zero of the enclosure's bound
+    /// there is none. From there, at a gap g that closes at speed v while |acceleration| <= M, the
+    /// gap closes for sure, and only once, if v^2 > 2 M g; if that is not clear the step ends here,
+    /// and the next one will see more sharply.
+    [[gnu::noinline]] Event first_event(const Series& series, const T& h, const Mask& suspect) const
+    {
+        const T zero(S(0));
+        const T one(S(1));
+        const Enclosure<T> tilt_bounds = enclosure(series.tilt, h);
+        const T noise = this->noise(h);
+        const T ground = first_fall_below_zero(tilt_bounds.lower(), noise, suspect);
+        const Quintic<T> room = room_above(tilt_bounds.upper());
+        const Mask may_fall = suspect && lower_bound(room) < -noise;
+        T flat = one + one;
+        if (any<T>(may_fall)) {
+            flat = first_fall_below_zero(room, noise, may_fall);
+        }
+        const Mask falls = flat < ground;
+        const T share = select<T>(falls, flat, ground);
+        const Mask near = suspect && share <= one;
+        const T time = h * share;
+
+        const Gap here = gap_at(series, time, falls);
+        const T slope = slope_of_series(series.rate, time);
+        const T acceleration = select<T>(falls, -slope, slope);
+        const T most = steepest(series.rate, h);
+        const Mask stuck = share < T(S(0x1p-40));
+        const Mask closes =
+            here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
+        // To third order, and once more. The landing at the end of the step is the third time.
+        const T close = time + land(here.width, here.rate, acceleration).delay;
+        const Gap there = gap_at(series, close, falls);
+        const T landing_time = close + land(there.width, there.rate, acceleration).delay;
+        const Mask sure = near && closes && landing_time <= h;
+        const T end = select<T>(near, time, h);
+        return {select<T>(sure, landing_time, end), sure && !falls, sure && falls};
+    }
+
+    const T slenderness_;
+    const Excitation<Pulse, T> excitation_;
+    const T end_;
+    T unit_;           // of time: 1/p, or the pulse's 1/omega_p if that is shorter [1/p]
+    T fastest_;        // its reciprocal
+    T phase_per_unit_; // [rad]
+    T tolerance_;
+    T log2_tolerance_;
+    T log2_most_allowed_;
+};
+
+/// The method as a choice.
+template <int order>
+struct Taylor {
+    template <class Pulse, Theory theory, Number T>
+    using Stepper = TaylorStepper<order, Pulse, theory, T>;
+};
+
+} // namespace overturn

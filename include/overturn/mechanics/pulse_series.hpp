@@ -1,0 +1,95 @@
+// Taylor coefficients of the pulses, by the recurrences of their equations: a phase that advances
+// evenly makes f(phase + rate t) a power series in t. Compare with the values in pulse.hpp.
+#pragma once
+
+#include "overturn/mechanics/pulse.hpp"
+#include "overturn/number/unrolled.hpp"
+
+namespace overturn {
+
+template <int count, Number T>
+using Coefficients = std::array<T, std::size_t(count)>;
+
+/// The solution of f'' = -rate^2 f with f and f' at t = 0.
+template <int count, Number T>
+Coefficients<count, T> harmonic_series(const T& value, const T& slope, const T& rate)
+{
+    using S = scalar_t<T>;
+    const T curvature = -(rate * rate);
+    Coefficients<count, T> f{value, slope};
+    unrolled<count - 2>(
+        [&]<int k>() { f[k + 2] = f[k] * (curvature * T(S(1) / ((k + 1) * (k + 2)))); });
+    return f;
+}
+
+/// scale exp(-(z + slope t)^2 / 2), from g' = -slope (z + slope t) g.
+template <int count, Number T>
+Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slope)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    const T linear = -(slope * z);
+    const T quadratic = -(slope * slope);
+    Coefficients<count, T> g{scale * exponential_decay(T(z * z * T(S(0.5))))};
+    g[1] = linear * g[0];
+    unrolled<count - 2>(
+        [&]<int k>() { g[k + 2] = fma(linear, g[k + 1], quadratic * g[k]) * T(S(1) / (k + 2)); });
+    return g;
+}
+
+/// The product with a polynomial of few terms.
+template <std::size_t count, std::size_t terms, Number T>
+std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, count>& g)
+{
+    using std::fma;
+    std::array<T, count> f;
+    for (std::size_t k = 0; k < count; ++k) {
+        f[k] = p[0] * g[k];
+        for (std::size_t i = 1; i < terms && i <= k; ++i) {
+            f[k] = fma(p[i], g[k - i], f[k]);
+        }
+    }
+    return f;
+}
+
+/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f the pulse; scale [1],
+/// phase [rad], rate [rad per unit of t].
+template <class Pulse, int count, Number T>
+Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rate)
+{
+    using std::fma;
+    using std::sqrt;
+    using S = scalar_t<T>;
+    if constexpr (std::same_as<Pulse, Rectangular>) {
+        Coefficients<count, T> f;
+        f.fill(T(S(0)));
+        f[0] = scale;
+        return f;
+    } else if constexpr (std::same_as<Pulse, SymmetricRicker>) {
+        // z = phase / sqrt 2 has x^2 = z^2 / 2; 1 - 2 x^2 = 1 - z^2.
+        const T to_z(sqrt(S(2)) / 2);
+        const T z = phase * to_z;
+        const T slope = rate * to_z;
+        const std::array<T, 3> p{fma(-z, z, T(S(1))), z * slope * T(S(-2)), -(slope * slope)};
+        return product(p, gaussian_series<count>(scale, z, slope));
+    } else if constexpr (std::same_as<Pulse, AntisymmetricRicker>) {
+        // z (z^2 - 3) about z: 3 (z^2 - 1) slope t + 3 z slope^2 t^2 + slope^3 t^3 on top.
+        const T to_z(sqrt(S(3)) / 3);
+        const T z = phase * to_z;
+        const T slope = rate * to_z;
+        const T three(S(3));
+        const T square = z * z;
+        const std::array<T, 4> p{z * (square - three), three * slope * (square - T(S(1))),
+                                 three * z * slope * slope, slope * slope * slope};
+        return product(p, gaussian_series<count>(T(scale * T(S(50) / 69)), z, slope));
+    } else {
+        const auto [sine, cosine] = sine_and_cosine_of_period(phase);
+        if constexpr (std::same_as<Pulse, OneCosine>) {
+            return harmonic_series<count>(T(scale * cosine), T(-(scale * rate * sine)), rate);
+        } else {
+            return harmonic_series<count>(T(scale * sine), T(scale * rate * cosine), rate);
+        }
+    }
+}
+
+} // namespace overturn

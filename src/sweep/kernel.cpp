@@ -1,0 +1,33 @@
+#include "overturn/sweep/kernel.hpp"
+
+namespace overturn {
+
+bool runs_here(Kernel kernel)
+{
+#ifdef __x86_64__
+    // The kernels are compiled for x86-64-v3 and v4, of which these are the telling parts.
+    const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                       __builtin_cpu_supports("bmi2");
+    if (kernel != Kernel::avx512) {
+        return is_v3;
+    }
+    return is_v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+#else
+    return kernel == Kernel::one_lane;
+#endif
+}
+
+Kernel widest_kernel()
+{
+    for (const Kernel kernel : {Kernel::avx512, Kernel::avx2, Kernel::one_lane}) {
+        if (runs_here(kernel)) {
+            return kernel;
+        }
+    }
+    throw ProcessorError("this processor has neither AVX2 with FMA nor AVX-512. Overturn needs one "
+                         "of them: Intel processors have them since 2013, AMD's since 2015.");
+}
+
+} // namespace overturn

@@ -1,0 +1,202 @@
+// The two methods against each other and against 50 digits, where they are hardest to keep right.
+#include "overturn/number/digits50.hpp"
+#include "support/one_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace overturn {
+namespace {
+
+using Reference = Taylor<30>;
+constexpr double reference_tolerance = 1e-25;
+
+Point<double> random_point(std::mt19937_64& generator)
+{
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double slenderness = 0.08 + 0.37 * uniform(generator);
+    return {slenderness, largest_restitution(slenderness) * (0.55 + 0.45 * uniform(generator)),
+            0.5 + 9 * uniform(generator), 1.05 + 10 * uniform(generator)};
+}
+
+Point<Digits50> in_digits(const Point<double>& point)
+{
+    return {point.slenderness, point.restitution, point.frequency, point.amplitude};
+}
+
+template <class S>
+Digits50 difference(const ForcedEnd<Digits50>& exact, const ForcedEnd<S>& end)
+{
+    const Digits50 angle = exact.state.side * exact.state.tilt - end.state.side * end.state.tilt;
+    const Digits50 rate = exact.state.side * exact.state.rate - end.state.side * end.state.rate;
+    return std::max(Digits50(abs(angle)), Digits50(abs(rate)));
+}
+
+/// How much of a small relative change in the ground motion arrives at the end, over alpha.
+template <class Pulse, Theory theory>
+double sensitivity(const Point<double>& point, const ForcedEnd<Digits50>& exact)
+{
+    const Digits50 change = 1e-15;
+    double sum = 0;
+    for (const auto coordinate : {&Point<Digits50>::frequency, &Point<Digits50>::amplitude}) {
+        Point<Digits50> beside = in_digits(point);
+        beside.*coordinate *= 1 + change;
+        const auto end = forced_end<Pulse, theory, Reference>(beside, reference_tolerance);
+        sum += double(difference(exact, end) / change) / point.slenderness;
+    }
+    return sum;
+}
+
+template <class Pulse, Theory theory, class Method>
+void expect_what_the_tolerance_promises(const Point<double>& point,
+                                        const ForcedEnd<Digits50>& exact, double amplification,
+                                        double tolerance)
+{
+    const auto end = forced_end<Pulse, theory, Method>(point, tolerance);
+    EXPECT_EQ(end.fell, exact.fell);
+    EXPECT_EQ(end.impacts, double(exact.impacts));
+    EXPECT_EQ(end.state.side, double(exact.state.side));
+    // Each step may be off by the tolerance times alpha, and passes it on like any other small
+    // change. A few rounding errors per step come on top. A missed impact is off by alpha.
+    const double per_step = tolerance + 4 * std::numeric_limits<double>::epsilon();
+    EXPECT_LE(double(difference(exact, end)),
+              per_step * end.steps * amplification * point.slenderness)
+        << "tolerance " << tolerance << ", alpha " << point.slenderness << ", r "
+        << point.restitution << ", Omega " << point.frequency << ", a " << point.amplitude;
+}
+
+TEST(Methods, AgreeWithFiftyDigitsToWhatTheirTolerancesPromise)
+{
+    std::mt19937_64 generator(5);
+    for_every_scene([&]<class Pulse, Theory theory>() {
+        for (int i = 0; i < 40; ++i) {
+            const Point<double> point = random_point(generator);
+            const auto exact =
+                forced_end<Pulse, theory, Reference>(in_digits(point), reference_tolerance);
+            const double amplification = 1 + sensitivity<Pulse, theory>(point, exact);
+            const auto check = [&]<class Method>(std::initializer_list<double> tolerances) {
+                for (const double tolerance : tolerances) {
+                    expect_what_the_tolerance_promises<Pulse, theory, Method>(
+                        point, exact, amplification, tolerance);
+                }
+            };
+            check.template operator()<RungeKutta>({1e-6, 1e-9, 1e-12});
+            check.template operator()<Taylor<14>>({1e-6, 1e-7});
+            check.template operator()<Taylor<20>>({1e-9, 1e-12, 1e-14});
+        }
+    });
+}
+
+TEST(Methods, AgreeWithEachOtherInFiftyDigits)
+{
+    // So the reference above is not one method's own mistake.
+    std::mt19937_64 generator(6);
+    for_every_scene([&]<class Pulse, Theory theory>() {
+        const Point<double> point = random_point(generator);
+        const auto exact =
+            forced_end<Pulse, theory, Reference>(in_digits(point), reference_tolerance);
+        const auto other = forced_end<Pulse, theory, RungeKutta>(in_digits(point), 1e-13);
+        const double amplification = 1 + sensitivity<Pulse, theory>(point, exact);
+        EXPECT_EQ(exact.impacts, other.impacts);
+        EXPECT_LE(double(difference(exact, other)),
+                  1e-13 * double(other.steps) * amplification * point.slenderness);
+    });
+}
+
+TEST(TaylorMethod, ErrorFallsWithTheTolerance)
+{
+    std::mt19937_64 generator(7);
+    double log_ratio = 0;
+    const int points = 100;
+    for (int i = 0; i < points; ++i) {
+        const Point<double> point = random_point(generator);
+        const auto exact = forced_end<OneSine, Theory::nonlinear, Reference>(in_digits(point),
+                                                                             reference_tolerance);
+        const auto error = [&](double tolerance) {
+            const auto end = forced_end<OneSine, Theory::nonlinear, Taylor<20>>(point, tolerance);
+            return double(difference(exact, end)) + 1e-16;
+        };
+        log_ratio += std::log10(error(1e-7) / error(1e-11)) / points;
+    }
+    // On average four decades, as the tolerance does. Without step control: none.
+    EXPECT_NEAR(log_ratio, 4, 0.6);
+}
+
+/// A line of amplitudes along which the number of impacts changes between two neighbours.
+struct Graze {
+    Point<double> point;
+    double low, high; ///< amplitudes beside the change, a relative 1e-13 apart
+};
+
+/// Along random lines, changes of the number of impacts: a block that just touches the ground on
+/// its way, or strikes it just before the pulse ends.
+template <class Pulse, Theory theory>
+std::vector<Graze> grazes(std::mt19937_64& generator, std::size_t wanted)
+{
+    std::vector<Graze> found;
+    while (found.size() < wanted) {
+        Point<double> point = random_point(generator);
+        const auto impacts_at = [&](double amplitude) {
+            point.amplitude = amplitude;
+            const auto end = forced_end<Pulse, theory, Taylor<20>>(point, 1e-13);
+            return end.rested || end.fell ? -1 : end.impacts;
+        };
+        double low = 1.02;
+        for (double high = low * 1.02; high < 15 && found.size() < wanted; high *= 1.02) {
+            const double below = impacts_at(low);
+            const double above = impacts_at(high);
+            if (below >= 0 && above >= 0 && below != above) {
+                double left = low;
+                double right = high;
+                while (right - left > 1e-13 * right) {
+                    const double middle = (left + right) / 2;
+                    (impacts_at(middle) == below ? left : right) = middle;
+                }
+                found.push_back({point, left, right});
+            }
+            low = high;
+        }
+    }
+    return found;
+}
+
+template <class Pulse, Theory theory, class Method>
+void expect_impacts_of_fifty_digits(const Point<double>& point, double exact, double tolerance)
+{
+    EXPECT_EQ((forced_end<Pulse, theory, Method>(point, tolerance).impacts), exact)
+        << "Omega " << point.frequency << ", a " << point.amplitude << ", alpha "
+        << point.slenderness << ", tolerance " << tolerance;
+}
+
+TEST(Methods, MissNoImpactBesideAGraze)
+{
+    std::mt19937_64 generator(11);
+    for_every_scene([&]<class Pulse, Theory theory>() {
+        if (std::same_as<Pulse, HalfSine> || std::same_as<Pulse, Rectangular>) {
+            return; // a push to one side alone: no block comes down before it ends
+        }
+        for (const Graze& graze : grazes<Pulse, theory>(generator, 6)) {
+            for (const double offset : {1e-3, 1e-5, 1e-7}) {
+                for (const double amplitude :
+                     {graze.low * (1 - offset), graze.high * (1 + offset)}) {
+                    Point<double> point = graze.point;
+                    point.amplitude = amplitude;
+                    const double exact = double(
+                        forced_end<Pulse, theory, Reference>(in_digits(point), 1e-20).impacts);
+                    // The graze itself moves by the error of a run: far less than the offset.
+                    expect_impacts_of_fifty_digits<Pulse, theory, RungeKutta>(point, exact,
+                                                                              1e-4 * offset);
+                    expect_impacts_of_fifty_digits<Pulse, theory, Taylor<14>>(point, exact,
+                                                                              1e-4 * offset);
+                    expect_impacts_of_fifty_digits<Pulse, theory, Taylor<20>>(point, exact,
+                                                                              1e-4 * offset);
+                }
+            }
+        }
+    });
+}
+
+} // namespace
+} // namespace overturn
