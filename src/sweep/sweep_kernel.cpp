@@ -15,31 +15,35 @@ namespace {
 using T = OVERTURN_NUMBER;
 using Pulse = OVERTURN_PULSE;
 
-T as_lanes(const mask_t<T>& mask)
+constexpr int lanes = lanes_v<T>;
+
+/// The flag in the lanes of the mask, 0 elsewhere.
+T flagged(const mask_t<T>& mask, std::uint8_t flag)
 {
-    return select<T>(mask, T(1.0), T(0.0));
+    return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-/// Stores the first `count` lanes of one pack.
-void store(const ForcedEnd<T>& end, PointEnd* to, int count)
+/// Stores the lanes of one pack, as many as there are points left.
+template <Records records>
+void store(const ForcedEnd<T>& end, const PointEnds& to, int first, int points_left)
 {
-    const auto tilt = lanes_of(end.state.tilt);
-    const auto rate = lanes_of(end.state.rate);
-    const auto side = lanes_of(end.state.side);
-    const auto impacts = lanes_of(end.impacts);
-    const auto fell = lanes_of(as_lanes(end.fell));
-    const auto rested = lanes_of(as_lanes(end.rested));
-    const auto capped = lanes_of(as_lanes(end.capped));
-    const auto not_finite = lanes_of(as_lanes(end.not_finite));
-    for (int i = 0; i < count; ++i) {
-        to[i] = {.tilt = tilt[i],
-                 .rate = rate[i],
-                 .impacts = impacts[i],
-                 .plus = side[i] > 0,
-                 .fell = fell[i] > 0,
-                 .rested = rested[i] > 0,
-                 .capped = capped[i] > 0,
-                 .not_finite = not_finite[i] > 0};
+    const auto put = [&](const T& number, double* array) {
+        const auto values = lanes_of(number);
+        for (int i = 0; i < lanes && i < points_left; ++i) {
+            array[first + i] = values[i];
+        }
+    };
+    put(end.state.tilt, to.tilt);
+    put(end.state.rate, to.rate);
+    put(end.state.side, to.side);
+    if constexpr (records.impacts) {
+        put(end.impacts, to.impacts);
+    }
+    const auto flags = lanes_of(
+        flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
+        flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite));
+    for (int i = 0; i < lanes && i < points_left; ++i) {
+        to.flags[first + i] = std::uint8_t(flags[i]);
     }
 }
 
@@ -47,7 +51,6 @@ void store(const ForcedEnd<T>& end, PointEnd* to, int count)
 /// the processor is at work on the next. Two gain 40 % for Runge-Kutta steps and 4 % for Taylor's;
 /// four gain no more.
 constexpr int packs_in_turns = 2;
-constexpr int lanes = lanes_v<T>;
 
 /// The excitation of the points from `first` on, counted row by row; lanes beyond the tile's end
 /// repeat its last point.
@@ -78,7 +81,7 @@ Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
 }
 
 template <class Method, Theory theory, Records records>
-void sweep(const TilePoints& points, PointEnd* ends)
+void sweep(const TilePoints& points, const PointEnds& ends)
 {
     const Block<T> block{T(points.slenderness), T(points.restitution)};
     const int count = points.rows * points.columns;
@@ -92,8 +95,7 @@ void sweep(const TilePoints& points, PointEnd* ends)
         run_in_turns(stages);
         for (int i = 0; i < packs_in_turns; ++i) {
             const int from = first + i * lanes;
-            const int left = count - from;
-            store(stages[i].end(), ends + from, left < lanes ? left : lanes);
+            store<records>(stages[i].end(), ends, from, count - from);
         }
     }
 }

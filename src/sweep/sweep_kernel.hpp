@@ -22,20 +22,25 @@ struct TilePoints {
     double tolerance; ///< see Numerics
 };
 
-/// How one point left the forced stage.
-struct PointEnd {
-    double tilt;    ///< |theta| [rad]
-    double rate;    ///< d|theta| / d tau [rad]
-    double impacts; ///< as counted
-    bool plus;      ///< theta is positive
-    bool fell;
-    bool rested;
-    bool capped;
-    bool not_finite;
+/// How a point left the forced stage, in the bits of PointEnds::flags.
+namespace end_flag {
+inline constexpr std::uint8_t fell = 1;
+inline constexpr std::uint8_t rested = 2;
+inline constexpr std::uint8_t capped = 4;
+inline constexpr std::uint8_t not_finite = 8;
+inline constexpr std::uint8_t undecided = capped | not_finite;
+} // namespace end_flag
+
+/// Where the points of a tile left the forced stage: rows x columns values each, frequency fastest.
+struct PointEnds {
+    double* tilt;        ///< |theta| [rad]
+    double* rate;        ///< d|theta| / d tau [rad]
+    double* side;        ///< +1 or -1: the sign of theta
+    std::uint8_t* flags; ///< see end_flag
+    double* impacts;     ///< as counted; untouched by a kernel that does not count
 };
 
-/// Fills rows x columns ends, frequency fastest.
-using SweepKernel = void (*)(const TilePoints& points, PointEnd* ends);
+using SweepKernel = void (*)(const TilePoints& points, const PointEnds& ends);
 
 /// The methods that the kernels are compiled for: a Taylor series is written out for its order.
 enum class Integrator { runge_kutta, taylor_14, taylor_20 };
@@ -43,5 +48,12 @@ enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 /// What each kernel source defines: the kernel for a method and a theory, with or without counting
 /// impacts.
 using SweepKernelChoice = SweepKernel (*)(Integrator integrator, Theory theory, bool count_impacts);
+
+/// The fields that take some computing, from the ends of the forced stage. Compiled for each
+/// instruction set, see field_kernel.cpp.
+struct FieldKernels {
+    void (*regions)(Theory, const Block<double>&, const PointEnds&, int points, std::uint8_t* to);
+    void (*margins)(Theory, const Block<double>&, const PointEnds&, int points, double* to);
+};
 
 } // namespace overturn

@@ -3,10 +3,8 @@
 #include "sweep_kernel.hpp"
 
 #include "overturn/mechanics/pulse.hpp"
-#include "overturn/mechanics/region.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -23,7 +21,10 @@ namespace overturn {
 #define OVERTURN_LIST(isa, pulse) sweep_kernel_##isa##_##pulse,
 
 OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, double)
+extern const FieldKernels field_kernels_double;
 #ifdef __x86_64__
+extern const FieldKernels field_kernels_avx2;
+extern const FieldKernels field_kernels_avx512;
 OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, avx2)
 OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, avx512)
 #endif
@@ -38,6 +39,16 @@ constexpr SweepKernelChoice kernels[][pulse_names.size()] = {
     {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST, avx512)},
 #endif
 };
+
+const FieldKernels& field_kernels(Kernel kernel)
+{
+#ifdef __x86_64__
+    if (kernel != Kernel::one_lane) {
+        return kernel == Kernel::avx512 ? field_kernels_avx512 : field_kernels_avx2;
+    }
+#endif
+    return field_kernels_double;
+}
 
 /// Where the orders cost the same: on the paper's one-sine spectrum 14 is a fifth cheaper than 20
 /// at 1e-5, and a third dearer at 1e-11; no third order gains more than a twentieth anywhere.
@@ -74,10 +85,27 @@ auto with_theory(Theory theory, const Visitor& visit)
                                     : visit.template operator()<Theory::nonlinear>();
 }
 
+/// The arrays behind PointEnds.
+struct Ends {
+    Ends(std::size_t points, bool with_impacts)
+        : tilt(points), rate(points), side(points), flags(points),
+          impacts(with_impacts ? points : 0)
+    {}
+
+    PointEnds pointers()
+    {
+        return {tilt.data(), rate.data(), side.data(), flags.data(), impacts.data()};
+    }
+
+    std::vector<double> tilt, rate, side;
+    std::vector<std::uint8_t> flags;
+    std::vector<double> impacts; // empty unless they are counted
+};
+
 /// The forced stage of every point of the tile.
 template <class Pulse>
-std::vector<PointEnd> run_kernel(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                                 const Tile& tile, bool count_impacts, Kernel kernel)
+void run_kernel(const Scene& scene, const Numerics& numerics, const Plane& plane, const Tile& tile,
+                Kernel kernel, Ends& ends)
 {
     const double slenderness = plane.slenderness[tile.slenderness];
     const double threshold = with_theory(
@@ -103,89 +131,69 @@ std::vector<PointEnd> run_kernel(const Scene& scene, const Numerics& numerics, c
                             .begin = Pulse::begin(scene.window),
                             .end = Pulse::end(scene.window),
                             .tolerance = numerics.tolerance};
-    std::vector<PointEnd> ends(std::size_t(tile.points()));
     const SweepKernelChoice choice = kernels[std::size_t(kernel)][std::size_t(scene.pulse)];
-    choice(integrator_of(numerics), scene.theory, count_impacts)(points, ends.data());
-    return ends;
+    const SweepKernel sweep = choice(integrator_of(numerics), scene.theory, !ends.impacts.empty());
+    sweep(points, ends.pointers());
 }
 
-bool is_undecided(const PointEnd& end)
+/// An angle or a velocity with its sign; not a number where the point is undecided.
+std::vector<double> with_sign(const std::vector<double>& values, const Ends& ends)
 {
-    return end.capped || end.not_finite;
-}
-
-template <Theory theory>
-Region region_of(const PointEnd& end, const Block<double>& block)
-{
-    if (is_undecided(end)) {
-        return Region::undecided;
+    std::vector<double> result(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double value = ends.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
+        result[i] =
+            ends.flags[i] & end_flag::undecided ? std::numeric_limits<double>::quiet_NaN() : value;
     }
-    if (end.fell) {
-        return end.plus ? Region::F_plus : Region::F_minus;
+    return result;
+}
+
+std::vector<std::uint16_t> stored_impacts(const Ends& ends)
+{
+    std::vector<std::uint16_t> result(ends.impacts.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double counted = std::min(ends.impacts[i], double(impact_count::largest));
+        result[i] =
+            ends.flags[i] & end_flag::rested ? impact_count::bounce_series : std::uint16_t(counted);
     }
-    return region_after_pulse<theory>(State<double>{end.tilt, end.rate, end.plus ? 1.0 : -1.0},
-                                      block);
+    return result;
 }
 
-template <Theory theory>
-double margin_of(const PointEnd& end, const Block<double>& block)
+std::vector<std::uint8_t> stored_status(const Ends& ends)
 {
-    return end.fell ? margin_of_fall<theory>(end.rate, block)
-                    : margin_after_pulse<theory>(State<double>{end.tilt, end.rate, 1.0}, block);
-}
-
-std::uint16_t impacts_of(const PointEnd& end)
-{
-    if (end.rested) {
-        return impact_count::bounce_series;
+    std::vector<std::uint8_t> result(ends.flags.size());
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const auto flag = [&](std::uint8_t in, std::uint8_t out) {
+            return ends.flags[i] & in ? out : 0;
+        };
+        result[i] = std::uint8_t(flag(end_flag::rested, status::came_to_rest) |
+                                 flag(end_flag::capped, status::cap_was_hit) |
+                                 flag(end_flag::not_finite, status::not_finite));
     }
-    return std::uint16_t(std::min(end.impacts, double(impact_count::largest)));
+    return result;
 }
 
-std::uint8_t status_of(const PointEnd& end)
+FieldValues field_values(Field field, Theory theory, const Block<double>& block, Ends& ends,
+                         Kernel kernel)
 {
-    return std::uint8_t((end.rested ? status::came_to_rest : 0) |
-                        (end.capped ? status::cap_was_hit : 0) |
-                        (end.not_finite ? status::not_finite : 0));
-}
-
-/// The value of a number in a point whose outcome may be undecided.
-double decided(const PointEnd& end, double value)
-{
-    return is_undecided(end) ? std::numeric_limits<double>::quiet_NaN() : value;
-}
-
-template <class Value, class Function>
-FieldValues values_of(const std::vector<PointEnd>& ends, const Function& function)
-{
-    std::vector<Value> values(ends.size());
-    std::transform(ends.begin(), ends.end(), values.begin(), function);
-    return values;
-}
-
-template <Theory theory>
-FieldValues field_values(Field field, const std::vector<PointEnd>& ends, const Block<double>& block)
-{
-    const auto signed_by_side = [](const PointEnd& end, double value) {
-        return decided(end, end.plus ? value : 0.0 - value); // 0 - 0 is +0
-    };
+    const int points = int(ends.tilt.size());
     switch (field) {
-    case Field::region:
-        return values_of<std::uint8_t>(
-            ends, [&](const PointEnd& end) { return std::uint8_t(region_of<theory>(end, block)); });
-    case Field::angle:
-        return values_of<double>(
-            ends, [&](const PointEnd& end) { return signed_by_side(end, end.tilt); });
-    case Field::velocity:
-        return values_of<double>(
-            ends, [&](const PointEnd& end) { return signed_by_side(end, end.rate); });
-    case Field::margin:
-        return values_of<double>(
-            ends, [&](const PointEnd& end) { return decided(end, margin_of<theory>(end, block)); });
-    case Field::impacts: return values_of<std::uint16_t>(ends, impacts_of);
+    case Field::region: {
+        std::vector<std::uint8_t> codes(ends.tilt.size());
+        field_kernels(kernel).regions(theory, block, ends.pointers(), points, codes.data());
+        return codes;
+    }
+    case Field::angle: return with_sign(ends.tilt, ends);
+    case Field::velocity: return with_sign(ends.rate, ends);
+    case Field::margin: {
+        std::vector<double> values(ends.tilt.size());
+        field_kernels(kernel).margins(theory, block, ends.pointers(), points, values.data());
+        return values;
+    }
+    case Field::impacts: return stored_impacts(ends);
     case Field::status: break;
     }
-    return values_of<std::uint8_t>(ends, status_of);
+    return stored_status(ends);
 }
 
 } // namespace
@@ -195,16 +203,15 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
 {
     const bool count_impacts =
         std::find(fields.begin(), fields.end(), Field::impacts) != fields.end();
-    const std::vector<PointEnd> ends = with_pulse(scene.pulse, [&]<class Pulse>() {
-        return run_kernel<Pulse>(scene, numerics, plane, tile, count_impacts, kernel);
+    Ends ends(std::size_t(tile.points()), count_impacts);
+    with_pulse(scene.pulse, [&]<class Pulse>() {
+        run_kernel<Pulse>(scene, numerics, plane, tile, kernel, ends);
     });
     const Block<double> block{plane.slenderness[tile.slenderness],
                               plane.restitution_ratio(tile.slenderness, tile.restitution)};
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(with_theory(scene.theory, [&]<Theory theory>() {
-            return field_values<theory>(field, ends, block);
-        }));
+        result.values.push_back(field_values(field, scene.theory, block, ends, kernel));
     }
     return result;
 }

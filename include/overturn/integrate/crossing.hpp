@@ -110,9 +110,10 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
     T width = one;
     mask_t<T> searching = wanted;
     mask_t<T> found = wanted && !wanted;
-    while (any<T>(searching)) {
+    Quintic<T> piece = c;
+    Quintic<T> found_piece = c;
+    while (true) {
         const T right = left + width;
-        const Quintic<T> piece = restricted(c, left, right);
         const auto clear = lower_bound(piece) >= -noise;
         auto falls = piece[0] >= piece[1];
         for (std::size_t i = 2; i < piece.size(); ++i) {
@@ -123,11 +124,18 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
         const auto hit = searching && !clear && below && (falls || narrow);
         const auto pass = searching && !hit && (clear || narrow);
         found = found || hit;
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            found_piece[i] = select<T>(hit, piece[i], found_piece[i]);
+        }
         left = select<T>(pass, right, left);
         width = select<T>(pass, select<T>(width + width < one - left, width + width, one - left),
                           select<T>(searching && !hit, width * half, width));
         // Negated so that lanes full of NaN leave as well.
         searching = searching && !hit && left < one && piece.back() == piece.back();
+        if (!any<T>(searching)) {
+            break;
+        }
+        piece = restricted(c, left, left + width);
     }
     if (!any<T>(found)) {
         return one + one;
@@ -135,7 +143,7 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
     // Whoever uses the root corrects it to second order, so a third of the digits is enough.
     using std::cbrt;
     const T enough(cbrt(std::numeric_limits<S>::epsilon()));
-    const T s = root_of_falling(restricted(c, left, left + width), enough, found);
+    const T s = root_of_falling(found_piece, enough, found);
     return select<T>(found, fma(width, s, left), one + one);
 }
 

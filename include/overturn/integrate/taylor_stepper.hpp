@@ -53,7 +53,7 @@ public:
         Event event{h, none, none};
         const Mask suspect = active && may_meet(series, h);
         if (any<T>(suspect)) {
-            event = first_event(series, h, suspect);
+            event = seldom_first_event(series, h, suspect);
             last = last && event.time == h;
             h = event.time;
         }
@@ -134,19 +134,18 @@ private:
     /// there is none. From there, at a gap g that closes at speed v while |acceleration| <= M, the
     /// gap closes for sure, and only once, if v^2 > 2 M g; if that is not clear the step ends here,
     /// and the next one will see more sharply.
-    [[gnu::noinline]] Event first_event(const Series& series, const T& h, const Mask& suspect) const
+    Event first_event(const Series& series, const T& h, const Mask& suspect) const
     {
         const T zero(S(0));
         const T one(S(1));
         const Enclosure<T> tilt_bounds = enclosure(series.tilt, h);
         const T noise = this->noise(h);
-        const T ground = first_fall_below_zero(tilt_bounds.lower(), noise, suspect);
-        const Quintic<T> room = room_above(tilt_bounds.upper());
-        const Mask may_fall = suspect && lower_bound(room) < -noise;
-        T flat = one + one;
-        if (any<T>(may_fall)) {
-            flat = first_fall_below_zero(room, noise, may_fall);
-        }
+        const auto first_fall = [&](const Quintic<T>& gap) -> T {
+            const Mask may_close = suspect && lower_bound(gap) < -noise;
+            return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : one + one;
+        };
+        const T ground = first_fall(tilt_bounds.lower());
+        const T flat = first_fall(room_above(tilt_bounds.upper()));
         const Mask falls = flat < ground;
         const T share = select<T>(falls, flat, ground);
         const Mask near = suspect && share <= one;
@@ -166,6 +165,12 @@ private:
         const Mask sure = near && closes && landing_time <= h;
         const T end = select<T>(near, time, h);
         return {select<T>(sure, landing_time, end), sure && !falls, sure && falls};
+    }
+
+    [[gnu::noinline]] Event seldom_first_event(const Series& series, const T& h,
+                                               const Mask& suspect) const
+    {
+        return straight_line<T>([&] { return first_event(series, h, suspect); });
     }
 
     const T slenderness_;

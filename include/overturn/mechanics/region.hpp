@@ -90,24 +90,27 @@ T margin_of_fall(const T& rate, const Block<T>& block)
     return -(ratio * ratio);
 }
 
-/// The region of a block that the pulse left standing (Eq. 20). q0 = (c - u)(c + u) is never
-/// formed: its sign is that of c - |u| where c >= 0.
+/// The code of the region, as a number, of a block that the pulse left standing (Eq. 20).
+/// q0 = (c - u)(c + u) is never formed: its sign is that of c - |u| where c >= 0.
+template <Theory theory, Number T>
+T region_code_after_pulse(const State<T>& state, const Block<T>& block)
+{
+    const auto code = [](Region region) { return T(scalar_t<T>(int(region))); };
+    const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
+    const mask_t<T> plus = state.side > T(scalar_t<T>(0));
+    const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
+    const T beyond_impact = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
+    const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
+    // Below, -inward <= u <= c. Beyond the top c < 0, and u <= c alone puts the block in a blade.
+    const T safely = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
+    const T standing = select<T>(state.rate < -safe.inward, beyond_impact, safely);
+    return select<T>(state.rate > safe.outward, beyond_top, standing);
+}
+
 template <Theory theory, Number T>
 requires(lanes_v<T> == 1) Region region_after_pulse(const State<T>& state, const Block<T>& block)
 {
-    const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
-    const bool plus = state.side > 0;
-    if (state.rate > safe.outward) {
-        return plus ? Region::U0_plus : Region::U0_minus;
-    }
-    if (state.rate < -safe.inward) {
-        return plus ? Region::U1_minus : Region::U1_plus;
-    }
-    // Here -inward <= u <= c. Beyond the top c < 0, and u <= c alone puts the block in a blade.
-    if (state.rate >= -safe.outward) {
-        return Region::S;
-    }
-    return plus ? Region::S_minus : Region::S_plus;
+    return Region(int(region_code_after_pulse<theory>(state, block)));
 }
 
 } // namespace overturn
