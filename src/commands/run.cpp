@@ -37,6 +37,7 @@ struct Task {
     const Tiling tiling;
     const std::string path;
     const Kernel kernel;
+    const Clock::time_point start; ///< of the program
 
     bool leads() const { return session.rank() == 0; }
     std::int64_t points(std::int64_t tiles) const
@@ -98,11 +99,21 @@ std::string beginning(const Task& task, std::int64_t tiles_before)
                        task.session.size() == 1 ? "" : "s", name_of(task.kernel));
 }
 
+/// What was done, and where the ranks' time went.
 std::string ending(const Task& task, const FarmReport& report, double seconds)
 {
     const auto points = double(task.points(report.tiles));
-    return fmt::format("computed {} points in {}, {} points/s", human_count(points),
-                       human_duration(seconds), human_count(points / seconds));
+    double computing = 0;
+    double writing = 0;
+    for (const RankShare& rank : report.ranks) {
+        computing += rank.compute_seconds;
+        writing += rank.write_seconds;
+    }
+    const double percent = 100 / (seconds * task.session.size());
+    return fmt::format("computed {} points in {}, {} points/s; {:.0f} % of the time in the kernel, "
+                       "{:.0f} % writing",
+                       human_count(points), human_duration(seconds), human_count(points / seconds),
+                       percent * computing, percent * writing);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
@@ -111,28 +122,33 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
     const Job& job = task.job;
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
     Progress progress(task.points(tiles_before), job.plane.points());
+    TileFields fields;
+    const TileWork tile_work{
+        .compute =
+            [&](std::int64_t number) {
+                fields = sweep_tile(job.scene, job.numerics, job.plane, task.tiling[number],
+                                    job.fields, task.kernel);
+            },
+        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
     return farm_out(
-        task.session, missing,
-        [&](std::int64_t number) {
-            const Tile tile = task.tiling[number];
-            file.write(tile, sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
-                                        task.kernel));
-        },
+        task.session, missing, tile_work,
         [&](std::int64_t done) { progress.update(task.points(tiles_before + done)); },
         StopSignals::requested);
 }
 
-void write_record(const Task& task, const FarmReport& report, Clock::time_point start,
-                  double seconds)
+void write_record(const Task& task, const FarmReport& report, double seconds)
 {
     RunRecord record;
-    record.start = start;
+    record.start = task.start;
     record.wall_seconds = seconds;
     record.kernel = name_of(task.kernel);
+    record.requests = report.dealing.requests;
+    record.dealing_seconds = report.dealing.seconds;
     const std::vector<std::string> hosts = task.session.host_names();
     for (std::size_t rank = 0; rank < hosts.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
-        record.ranks.push_back({hosts[rank], share.tiles, share.busy_seconds});
+        record.ranks.push_back(
+            {hosts[rank], share.tiles, share.compute_seconds, share.write_seconds});
     }
     if (task.leads()) {
         write_sidecar(task.path, record);
@@ -141,7 +157,6 @@ void write_record(const Task& task, const FarmReport& report, Clock::time_point 
 
 int compute_what_is_missing(const Task& task)
 {
-    const auto start = Clock::now();
     SpectrumFile file(task.path, task.session.communicator(), task.job);
     std::vector<std::int64_t> missing;
     if (task.leads()) {
@@ -151,8 +166,8 @@ int compute_what_is_missing(const Task& task)
     const FarmReport report = compute_tiles(task, missing, file);
     file.close();
 
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    write_record(task, report, start, seconds);
+    const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
+    write_record(task, report, seconds);
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (report.stopped) {
@@ -169,6 +184,7 @@ int compute_what_is_missing(const Task& task)
 
 int run(const RunOptions& options)
 {
+    const auto start = Clock::now();
     const StopSignals signals;
     start_hdf5();
     const MpiSession session;
@@ -201,7 +217,8 @@ int run(const RunOptions& options)
         if (session.from_rank_0(job.resolved) != job.resolved) {
             throw JobError(options.job.path + " is another job here than on rank 0.");
         }
-        return compute_what_is_missing({session, job, Tiling(job.plane), path, kernel_of(options)});
+        return compute_what_is_missing(
+            {session, job, Tiling(job.plane), path, kernel_of(options), start});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

@@ -10,7 +10,7 @@ namespace overturn {
 
 namespace {
 
-using ComputeTile = std::function<void(std::int64_t)>;
+using Clock = std::chrono::steady_clock;
 using StopRequested = std::function<bool()>;
 
 constexpr int request_tag = 1;
@@ -39,12 +39,19 @@ void wait_for(MPI_Request& request)
     }
 }
 
-void do_tile(std::int64_t number, const ComputeTile& compute_and_write, RankShare& share)
+double seconds_since(Clock::time_point start)
 {
-    const auto start = std::chrono::steady_clock::now();
-    compute_and_write(number);
-    share.busy_seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void do_tile(std::int64_t number, const TileWork& tile_work, RankShare& share)
+{
+    const auto start = Clock::now();
+    tile_work.compute(number);
+    const auto computed = Clock::now();
+    tile_work.write(number);
+    share.compute_seconds += std::chrono::duration<double>(computed - start).count();
+    share.write_seconds += seconds_since(computed);
     ++share.tiles;
 }
 
@@ -81,7 +88,7 @@ private:
     TileRange range_;
 };
 
-RankShare work(const MpiSession& session, const ComputeTile& compute_and_write,
+RankShare work(const MpiSession& session, const TileWork& tile_work,
                const StopRequested& stop_requested)
 {
     RankShare share;
@@ -100,7 +107,7 @@ RankShare work(const MpiSession& session, const ComputeTile& compute_and_write,
         }
         rank_0.ask(news()); // one range ahead
         for (std::int64_t number = range.begin; number < range.end && !stop_requested(); ++number) {
-            do_tile(number, compute_and_write, share);
+            do_tile(number, tile_work, share);
         }
     }
     rank_0.leave(news());
@@ -109,9 +116,9 @@ RankShare work(const MpiSession& session, const ComputeTile& compute_and_write,
 
 /// Rank 0: answers every request that has come, then does one tile of its own, until nothing is
 /// left and every worker has said its last word.
-RankShare lead(const MpiSession& session, TileDealer dealer, const ComputeTile& compute_and_write,
+RankShare lead(const MpiSession& session, TileDealer dealer, const TileWork& tile_work,
                const std::function<void(std::int64_t)>& on_progress,
-               const StopRequested& stop_requested)
+               const StopRequested& stop_requested, DealingShare& dealing)
 {
     const MPI_Comm communicator = session.communicator();
     RankShare share;
@@ -119,6 +126,7 @@ RankShare lead(const MpiSession& session, TileDealer dealer, const ComputeTile& 
     std::int64_t done_by_workers = 0;
 
     const auto answer = [&](int worker) {
+        const auto start = Clock::now();
         Request request;
         MPI_Recv(&request, request_words, MPI_INT64_T, worker, request_tag, communicator,
                  MPI_STATUS_IGNORE);
@@ -132,6 +140,8 @@ RankShare lead(const MpiSession& session, TileDealer dealer, const ComputeTile& 
         }
         const TileRange range = dealer.deal();
         MPI_Send(&range, range_words, MPI_INT64_T, worker, range_tag, communicator);
+        ++dealing.requests;
+        dealing.seconds += seconds_since(start);
     };
     // In Open MPI 4.1 a look that finds nothing fetches what has come, and only the next one sees
     // it. With single looks, workers on tiles as long as rank 0's waited half of the time.
@@ -154,7 +164,7 @@ RankShare lead(const MpiSession& session, TileDealer dealer, const ComputeTile& 
         answer_all();
         const TileRange own = dealer.deal_one();
         if (!own.empty()) {
-            do_tile(own.begin, compute_and_write, share);
+            do_tile(own.begin, tile_work, share);
         } else if (workers > 0) {
             std::this_thread::sleep_for(between_looks);
         }
@@ -190,16 +200,14 @@ std::array<std::int64_t, 2> from_rank_0(const MpiSession& session,
 } // namespace
 
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-                    const ComputeTile& compute_and_write,
-                    const std::function<void(std::int64_t)>& on_progress,
+                    const TileWork& tile_work, const std::function<void(std::int64_t)>& on_progress,
                     const StopRequested& stop_requested)
 {
-    const RankShare share = session.rank() == 0
-                                ? lead(session, TileDealer(tiles, session.size()),
-                                       compute_and_write, on_progress, stop_requested)
-                                : work(session, compute_and_write, stop_requested);
-
     FarmReport report;
+    const RankShare share = session.rank() == 0
+                                ? lead(session, TileDealer(tiles, session.size()), tile_work,
+                                       on_progress, stop_requested, report.dealing)
+                                : work(session, tile_work, stop_requested);
     report.ranks = gather_on_rank_0(session, share);
     std::int64_t done = 0;
     for (const RankShare& rank : report.ranks) {

@@ -62,11 +62,15 @@ std::string as_json(const RunRecord& record)
     text += fmt::format("  \"compiler\": {},\n", quoted(compiler_version()));
     text += fmt::format("  \"hdf5\": {},\n", quoted(hdf5_version()));
     text += fmt::format("  \"mpi\": {},\n", quoted(mpi_version()));
+    text += fmt::format("  \"requests\": {},\n", record.requests);
+    text += fmt::format("  \"dealing_seconds\": {},\n", record.dealing_seconds);
     text += "  \"ranks\": [";
     const char* separator = "\n";
     for (const RankRecord& rank : record.ranks) {
-        text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"busy_seconds\": {}}}",
-                            separator, quoted(rank.host), rank.tiles, rank.busy_seconds);
+        text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"compute_seconds\": {}, "
+                            "\"write_seconds\": {}}}",
+                            separator, quoted(rank.host), rank.tiles, rank.compute_seconds,
+                            rank.write_seconds);
         separator = ",\n";
     }
     return text + "\n  ]\n}\n";

@@ -15,7 +15,16 @@ namespace {
 const auto never = [] { return false; };
 const auto no_progress = [](std::int64_t) {};
 
-/// Every `stride`-th number from 0, on rank 0; nothing elsewhere, as farm_out wants it.
+/// The farm without anything to write.
+FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t>& tiles,
+                       const std::function<void(std::int64_t)>& compute,
+                       const std::function<void(std::int64_t)>& on_progress,
+                       const std::function<bool()>& stop_requested)
+{
+    return farm_out(session, tiles, {compute, [](std::int64_t) {}}, on_progress, stop_requested);
+}
+
+/// Every `stride`-th number from 0, on rank 0; nothing elsewhere, as the farm wants it.
 std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_t count,
                                           std::int64_t stride = 1)
 {
@@ -44,7 +53,7 @@ TEST(Farm, ComputesEachTileOnceOnSomeRank)
     const MpiSession session;
     for (const int count : {0, 1, 2, 3, 4, 7, 50, 1000}) {
         std::vector<int> times(std::size_t(count), 0);
-        const FarmReport report = farm_out(
+        const FarmReport report = compute_all(
             session, tiles_on_rank_0(session, count),
             [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
         EXPECT_EQ(over_all_ranks(session, times), std::vector<int>(std::size_t(count), 1));
@@ -57,7 +66,7 @@ TEST(Farm, ComputesOnlyTheTilesOfTheList)
 {
     const MpiSession session;
     std::vector<int> times(300, 0);
-    farm_out(
+    compute_all(
         session, tiles_on_rank_0(session, 100, 3),
         [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
     times = over_all_ranks(session, times);
@@ -70,13 +79,15 @@ TEST(Farm, ReportsWhatEachRankDid)
 {
     const MpiSession session;
     std::int64_t own = 0;
-    const FarmReport report = farm_out(
-        session, tiles_on_rank_0(session, 60),
-        [&](std::int64_t) {
-            work_for(std::chrono::milliseconds(1));
-            ++own;
-        },
-        no_progress, never);
+    const TileWork tile_work{
+        .compute = [](std::int64_t) { work_for(std::chrono::milliseconds(2)); },
+        .write =
+            [&](std::int64_t) {
+                work_for(std::chrono::milliseconds(1));
+                ++own;
+            }};
+    const FarmReport report =
+        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_progress, never);
 
     std::vector<std::int64_t> counted(std::size_t(session.size()));
     MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
@@ -87,15 +98,19 @@ TEST(Farm, ReportsWhatEachRankDid)
     ASSERT_EQ(report.ranks.size(), counted.size());
     for (std::size_t rank = 0; rank < counted.size(); ++rank) {
         EXPECT_EQ(report.ranks[rank].tiles, counted[rank]);
-        EXPECT_GE(report.ranks[rank].busy_seconds, 0.001 * double(counted[rank]));
+        EXPECT_GE(report.ranks[rank].compute_seconds, 0.002 * double(counted[rank]));
+        EXPECT_GE(report.ranks[rank].write_seconds, 0.001 * double(counted[rank]));
     }
+    // Every worker asks for its first range, one ahead of each, and once in vain.
+    EXPECT_GE(report.dealing.requests, 2 * (session.size() - 1));
+    EXPECT_EQ(report.dealing.seconds > 0, session.size() > 1);
 }
 
 TEST(Farm, ProgressGrowsToTheNumberOfTiles)
 {
     const MpiSession session;
     std::vector<std::int64_t> seen{0};
-    farm_out(
+    compute_all(
         session, tiles_on_rank_0(session, 200),
         [&](std::int64_t) { work_for(std::chrono::microseconds(100)); },
         [&](std::int64_t done) { seen.push_back(done); }, never);
@@ -110,12 +125,12 @@ TEST(Farm, SharesUnequalTilesEvenly)
     const auto cost = [](std::int64_t number) {
         return std::chrono::microseconds(number < 20 ? 19000 : 1000);
     };
-    const FarmReport report = farm_out(
+    const FarmReport report = compute_all(
         session, tiles_on_rank_0(session, 200),
         [&](std::int64_t number) { work_for(cost(number)); }, no_progress, never);
     double most = 0;
     for (const RankShare& rank : report.ranks) {
-        most = std::max(most, rank.busy_seconds);
+        most = std::max(most, rank.compute_seconds);
     }
     // Equal parts of the list would give the first rank all the long tiles: 1.6 fair shares of the
     // 580 ms on two ranks, 2.4 on three, 3.6 on five. Handed out as they are asked for, the busiest
@@ -132,7 +147,7 @@ TEST(Farm, AStopOfAnyRankLeavesTheRestUndone)
         constexpr int count = 2000;
         std::vector<int> times(count, 0);
         int own = 0;
-        const FarmReport report = farm_out(
+        const FarmReport report = compute_all(
             session, tiles_on_rank_0(session, count),
             [&](std::int64_t number) {
                 work_for(std::chrono::microseconds(100));
@@ -157,7 +172,7 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
 {
     const MpiSession session;
     int own = 0;
-    const FarmReport report = farm_out(
+    const FarmReport report = compute_all(
         session, tiles_on_rank_0(session, 100), [&](std::int64_t) { ++own; }, no_progress,
         [] { return true; });
     EXPECT_EQ(own, 0);
@@ -168,7 +183,7 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
 TEST(Farm, AStopAfterTheLastTileIsNoStop)
 {
     const MpiSession session;
-    const FarmReport report = farm_out(
+    const FarmReport report = compute_all(
         session, tiles_on_rank_0(session, 0), [](std::int64_t) {}, no_progress,
         [] { return true; });
     EXPECT_FALSE(report.stopped);

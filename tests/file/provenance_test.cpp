@@ -36,7 +36,10 @@ TEST(Sidecar, TellsWhenAndWhereTheRunWas)
     // `date -u -d @1600000000`
     EXPECT_THAT(text, HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
     EXPECT_THAT(text, HasSubstr("\"wall_seconds\": 12.5,"));
-    EXPECT_THAT(text, HasSubstr("{\"host\": \"node2\", \"tiles\": 0, \"busy_seconds\": 0}"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "{\"host\": \"node2\", \"tiles\": 0, \"compute_seconds\": 0, \"write_seconds\": 0}"));
 }
 
 TEST(Sidecar, EscapesWhatJsonReserves)

@@ -26,14 +26,17 @@ std::string hdf5_version();
 struct RankRecord {
     std::string host;
     std::int64_t tiles = 0; ///< computed in this run
-    double busy_seconds = 0;
+    double compute_seconds = 0;
+    double write_seconds = 0;
 };
 
 /// One run, or the part of it since it was last resumed.
 struct RunRecord {
     std::chrono::system_clock::time_point start;
-    double wall_seconds = 0;
+    double wall_seconds = 0; ///< from the program's start
     std::string kernel;
+    std::int64_t requests = 0;     ///< for tiles, from the other ranks to rank 0
+    double dealing_seconds = 0;    ///< that rank 0 took to answer them
     std::vector<RankRecord> ranks; ///< by rank number
 };
 
