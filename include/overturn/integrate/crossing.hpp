@@ -13,11 +13,16 @@ namespace overturn {
 template <Number T>
 T lower_bound(const Quintic<T>& c)
 {
-    T least = c[0];
-    for (std::size_t i = 1; i < c.size(); ++i) {
-        least = select<T>(c[i] < least, c[i], least);
-    }
-    return least;
+    return lesser<T>(lesser<T>(lesser<T>(c[0], c[1]), lesser<T>(c[2], c[3])),
+                     lesser<T>(c[4], c[5]));
+}
+
+/// The largest one: an upper bound.
+template <Number T>
+T upper_bound(const Quintic<T>& c)
+{
+    return greater<T>(greater<T>(greater<T>(c[0], c[1]), greater<T>(c[2], c[3])),
+                      greater<T>(c[4], c[5]));
 }
 
 /// The polynomial on [left, right], again with s running from 0 to 1 (de Casteljau, twice).

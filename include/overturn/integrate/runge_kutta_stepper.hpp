@@ -102,7 +102,7 @@ private:
         const T& alpha = block_.slenderness;
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
-        const T size = select<T>(tilt + rate < alpha, tilt + rate, alpha);
+        const T size = lesser<T>(tilt + rate, alpha);
         const T round_off = T(16 * std::numeric_limits<S>::epsilon()) * fma(alpha, h, tilt + rate);
         const T allowed = fma(T(tolerance_), size, round_off);
         const T position_error = abs(step.position_error);
@@ -113,28 +113,22 @@ private:
         return error / allowed;
     }
 
-    /// The tilt over a step, and the room that it leaves up to pi/2.
-    struct Course {
-        Quintic<T> tilt;
-        Quintic<T> room;
-    };
-
     /// Finds the first impact or fall within an accepted step, and sets the lanes that have one to
     /// land on it with their next step.
     Mask find_event(const Motion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
         const T noise = dip_of_round_off(block_.slenderness, h);
         const Quintic<T> tilt = dense_output(start, step.end, h);
-        const Quintic<T> room = room_above(tilt);
-        const Mask suspect = lanes && (lower_bound(tilt) < -noise || lower_bound(room) < -noise);
-        return any<T>(suspect) ? set_out_to_land({tilt, room}, noise, h, suspect) : suspect;
+        const Mask suspect =
+            lanes && (lower_bound(tilt) < -noise || T(pi<S>() / 2) - upper_bound(tilt) < -noise);
+        return any<T>(suspect) ? set_out_to_land(tilt, noise, h, suspect) : suspect;
     }
 
-    [[gnu::noinline]] Mask set_out_to_land(const Course& course, const T& noise, const T& h,
+    [[gnu::noinline]] Mask set_out_to_land(const Quintic<T>& tilt, const T& noise, const T& h,
                                            const Mask& suspect)
     {
-        const T impact = first_fall_below_zero(course.tilt, noise, suspect);
-        const T fall = first_fall_below_zero(course.room, noise, suspect);
+        const T impact = first_fall_below_zero(tilt, noise, suspect);
+        const T fall = first_fall_below_zero(room_above(tilt), noise, suspect);
         const T first = select<T>(fall < impact, fall, impact);
         const Mask event = suspect && first <= T(S(1));
         landing_step_ = select<T>(event, h * first, landing_step_);

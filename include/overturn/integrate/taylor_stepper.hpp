@@ -98,13 +98,11 @@ private:
             const T at_start = (allowed - last) * T(S(1) / n);
             const T growing = (allowed_growing - last) * T(S(1) / (n - 2));
             const T at_most = (log2_most_allowed_ - last) * T(S(1) / n);
-            const T wanted = select<T>(growing > at_start, growing, at_start);
-            return select<T>(wanted < at_most, wanted, at_most);
+            return lesser<T>(greater<T>(growing, at_start), at_most);
         };
         const T by_last = log2_longest.template operator()<order>();
         const T by_last_but_one = log2_longest.template operator()<order - 1>();
-        return rough_power_of_two(
-            T(select<T>(by_last < by_last_but_one, by_last, by_last_but_one)));
+        return rough_power_of_two(lesser<T>(by_last, by_last_but_one));
     }
 
     struct Gap {
@@ -127,7 +125,8 @@ private:
     {
         const Enclosure<T> tilt = enclosure(series.tilt, h);
         const T noise = this->noise(h);
-        return lower_bound(tilt.lower()) < -noise || lower_bound(room_above(tilt.upper())) < -noise;
+        return lower_bound(tilt.lower()) < -noise ||
+               T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
     }
 
     /// The first impact or fall within the step. Up to the first zero of the enclosure's bound

@@ -20,6 +20,8 @@ struct scalar_number_traits {
     using mask = bool;
     static constexpr int lanes = 1;
     static T select(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
+    static T lesser(const T& a, const T& b) { return a < b ? a : b; }
+    static T greater(const T& a, const T& b) { return a > b ? a : b; }
     static bool any(bool mask) { return mask; }
     static bool all(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
@@ -109,6 +111,21 @@ template <Number T>
 T select(const mask_t<T>& mask, const T& yes, const T& no)
 {
     return number_traits<T>::select(mask, yes, no);
+}
+
+/// Lane by lane: a where a < b, b elsewhere, also where one is not a number. One instruction, where
+/// select() takes two.
+template <Number T>
+T lesser(const T& a, const T& b)
+{
+    return number_traits<T>::lesser(a, b);
+}
+
+/// Lane by lane: a where a > b, b elsewhere, also where one is not a number.
+template <Number T>
+T greater(const T& a, const T& b)
+{
+    return number_traits<T>::greater(a, b);
 }
 
 /// body(), with all that it calls written out in one straight line where a number is a register:

@@ -38,6 +38,8 @@ struct number_traits<xsimd::batch<double, Architecture>> {
     {
         return xsimd::select(condition, yes, no);
     }
+    static pack lesser(const pack& a, const pack& b) { return xsimd::min(a, b); }
+    static pack greater(const pack& a, const pack& b) { return xsimd::max(a, b); }
     /// 2^k for an integer k in [-1022, 1023], see number_traits<double>.
     static pack power_of_two(const pack& k)
     {
