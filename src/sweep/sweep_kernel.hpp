@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/sweep/integrator.hpp"
 
 #include <cstdint>
 
@@ -41,9 +42,6 @@ struct PointEnds {
 };
 
 using SweepKernel = void (*)(const TilePoints& points, const PointEnds& ends);
-
-/// The methods that the kernels are compiled for: a Taylor series is written out for its order.
-enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 
 /// What each kernel source defines: the kernel for a method and a theory, with or without counting
 /// impacts.

@@ -50,19 +50,6 @@ const FieldKernels& field_kernels(Kernel kernel)
     return field_kernels_double;
 }
 
-/// Where the orders cost the same: on the paper's one-sine spectrum 14 is a fifth cheaper than 20
-/// at 1e-5, and a third dearer at 1e-11; no third order gains more than a twentieth anywhere.
-constexpr double loosest_tolerance_of_order_20 = 3e-8;
-
-Integrator integrator_of(const Numerics& numerics)
-{
-    if (numerics.method == Method::rk45) {
-        return Integrator::runge_kutta;
-    }
-    return numerics.tolerance > loosest_tolerance_of_order_20 ? Integrator::taylor_14
-                                                              : Integrator::taylor_20;
-}
-
 /// Calls visit.template operator()<Pulse>() for the pulse of this kind.
 template <class Visitor>
 auto with_pulse(PulseKind kind, const Visitor& visit)

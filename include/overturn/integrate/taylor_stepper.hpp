@@ -51,9 +51,10 @@ public:
 
         const Mask none = active && !active;
         Event event{h, none, none};
-        const Mask suspect = active && may_meet(series, h);
+        const Enclosure<T> bounds = enclosure(series.tilt, h);
+        const Mask suspect = active && may_meet(bounds, noise(h));
         if (any<T>(suspect)) {
-            event = seldom_first_event(series, h, suspect);
+            event = seldom_first_event(series, bounds, h, suspect);
             last = last && event.time == h;
             h = event.time;
         }
@@ -121,10 +122,8 @@ private:
     T noise(const T& h) const { return dip_of_round_off(slenderness_, T(h * unit_)); }
 
     /// Lanes in which the block may touch the ground or fall flat within the step.
-    Mask may_meet(const Series& series, const T& h) const
+    static Mask may_meet(const Enclosure<T>& tilt, const T& noise)
     {
-        const Enclosure<T> tilt = enclosure(series.tilt, h);
-        const T noise = this->noise(h);
         return lower_bound(tilt.lower()) < -noise ||
                T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
     }
@@ -133,18 +132,18 @@ private:
     /// there is none. From there, at a gap g that closes at speed v while |acceleration| <= M, the
     /// gap closes for sure, and only once, if v^2 > 2 M g; if that is not clear the step ends here,
     /// and the next one will see more sharply.
-    Event first_event(const Series& series, const T& h, const Mask& suspect) const
+    Event first_event(const Series& series, const Enclosure<T>& bounds, const T& h,
+                      const Mask& suspect) const
     {
         const T zero(S(0));
         const T one(S(1));
-        const Enclosure<T> tilt_bounds = enclosure(series.tilt, h);
         const T noise = this->noise(h);
         const auto first_fall = [&](const Quintic<T>& gap) -> T {
             const Mask may_close = suspect && lower_bound(gap) < -noise;
             return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : one + one;
         };
-        const T ground = first_fall(tilt_bounds.lower());
-        const T flat = first_fall(room_above(tilt_bounds.upper()));
+        const T ground = first_fall(bounds.lower());
+        const T flat = first_fall(room_above(bounds.upper()));
         const Mask falls = flat < ground;
         const T share = select<T>(falls, flat, ground);
         const Mask near = suspect && share <= one;
@@ -166,10 +165,10 @@ private:
         return {select<T>(sure, landing_time, end), sure && !falls, sure && falls};
     }
 
-    [[gnu::noinline]] Event seldom_first_event(const Series& series, const T& h,
-                                               const Mask& suspect) const
+    [[gnu::noinline]] Event seldom_first_event(const Series& series, const Enclosure<T>& bounds,
+                                               const T& h, const Mask& suspect) const
     {
-        return straight_line<T>([&] { return first_event(series, h, suspect); });
+        return straight_line<T>([&] { return first_event(series, bounds, h, suspect); });
     }
 
     const T slenderness_;

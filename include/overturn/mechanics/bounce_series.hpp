@@ -29,6 +29,12 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& exc
     using std::sqrt;
     using S = scalar_t<T>;
     const T zero(S(0));
+    // No pull exceeds alpha. Most impacts are too fast for any series to end, and are told here.
+    const T& alpha = block.slenderness;
+    const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
+    if (!any<T>(slow)) {
+        return slow;
+    }
     const auto pull = [&](const T& push) -> T {
         return -rocking_acceleration<theory>(zero, block.slenderness, push);
     };

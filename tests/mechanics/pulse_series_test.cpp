@@ -1,0 +1,173 @@
+#include "overturn/mechanics/pulse_series.hpp"
+#include "overturn/number/digits50.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace overturn {
+namespace {
+
+template <class Pulse>
+class SeriesOfEveryPulse : public testing::Test {};
+using Pulses =
+    testing::Types<OneSine, OneCosine, SymmetricRicker, AntisymmetricRicker, HalfSine, Rectangular>;
+TYPED_TEST_SUITE(SeriesOfEveryPulse, Pulses);
+
+/// Phases spread over the pulse, its two ends included [rad].
+template <class Pulse>
+std::vector<double> phases(double window = 1)
+{
+    constexpr int count = 60;
+    const double begin = Pulse::begin(window);
+    std::vector<double> result;
+    for (int i = 0; i <= count; ++i) {
+        result.push_back(begin + (Pulse::end(window) - begin) * i / count);
+    }
+    return result;
+}
+
+/// sum of c[k] t^k, to the letter.
+template <std::size_t count>
+Digits50 sum(const std::array<Digits50, count>& c, const Digits50& t)
+{
+    Digits50 power = 1;
+    Digits50 result = 0;
+    for (const Digits50& x : c) {
+        result += x * power;
+        power *= t;
+    }
+    return result;
+}
+
+TYPED_TEST(SeriesOfEveryPulse, SumsToThePulseItself)
+{
+    const Digits50 scale = -Digits50(7) / 5;
+    const Digits50 rate = Digits50(9) / 5;
+    for (const double window : {1.0, 2.0}) {
+        for (const double phase : phases<TypeParam>(window)) {
+            const auto series = pulse_series<TypeParam, 60>(scale, Digits50(phase), rate);
+            for (const double t : {-0.25, 0.125, 0.25}) {
+                const Digits50 exact = scale * TypeParam::value(Digits50(phase + rate * t));
+                // The steps advance the phase by 0.45. What a sine leaves out is 0.45^60 / 60!,
+                // 1e-103; a Gaussian of width 1.4 leaves 1e-53 at most. A wrong term shows in full.
+                EXPECT_LT(abs(sum(series, Digits50(t)) - exact), 1e-46)
+                    << "phase " << phase << ", t " << t;
+            }
+        }
+    }
+}
+
+TYPED_TEST(SeriesOfEveryPulse, InDoubleAgreesWithFiftyDigits)
+{
+    constexpr int count = 21; // the longest that a stepper uses
+    const double scale = 1.4;
+    const double rate = 0.8;
+    std::array<double, count> error{};
+    std::array<double, count> largest{};
+    for (const double phase : phases<TypeParam>()) {
+        const auto ours = pulse_series<TypeParam, count>(scale, phase, rate);
+        const auto exact =
+            pulse_series<TypeParam, count>(Digits50(scale), Digits50(phase), Digits50(rate));
+        for (std::size_t k = 0; k < count; ++k) {
+            error[k] = std::max(error[k], std::abs(double(ours[k] - exact[k])));
+            largest[k] = std::max(largest[k], std::abs(double(exact[k])));
+        }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        // Each step of a recurrence adds one unit in the last place at most, and half of that in
+        // the long run: 5 units at k = 20 for the sines, 12 for the wavelets. A sine in single
+        // precision would leave a hundred million.
+        const double unit = std::numeric_limits<double>::epsilon() * largest[k];
+        EXPECT_LE(error[k], double(k + 2) * unit) << "coefficient " << k;
+    }
+}
+
+TYPED_TEST(SeriesOfEveryPulse, ALongerSeriesBeginsWithTheShorterOne)
+{
+    for (const double phase : phases<TypeParam>()) {
+        const auto shorter = pulse_series<TypeParam, 14>(1.4, phase, 0.8);
+        const auto longer = pulse_series<TypeParam, 20>(1.4, phase, 0.8);
+        for (std::size_t k = 0; k < shorter.size(); ++k) {
+            ASSERT_EQ(shorter[k], longer[k]) << "phase " << phase << ", coefficient " << k;
+        }
+    }
+}
+
+TYPED_TEST(SeriesOfEveryPulse, ScalesWithTheAmplitudeAndWithPowersOfTheRate)
+{
+    for (const double phase : phases<TypeParam>()) {
+        const auto once = pulse_series<TypeParam, 20>(0.7, phase, 0.6);
+        const auto scaled = pulse_series<TypeParam, 20>(-1.4, phase, 0.6);
+        const auto faster = pulse_series<TypeParam, 20>(0.7, phase, 1.2);
+        const auto backward = pulse_series<TypeParam, 20>(0.7, phase, -0.6);
+        for (std::size_t k = 0; k < once.size(); ++k) {
+            // Factors of two and signs change no other bit.
+            ASSERT_EQ(scaled[k], -2 * once[k]) << "coefficient " << k;
+            ASSERT_EQ(faster[k], std::ldexp(once[k], int(k))) << "coefficient " << k;
+            ASSERT_EQ(backward[k], k % 2 == 0 ? once[k] : -once[k]) << "coefficient " << k;
+        }
+    }
+}
+
+/// Expects f(-phase) = parity * f(phase) in every coefficient, to the bit.
+template <class Pulse>
+void expect_parity(double parity)
+{
+    for (const double phase : {0.0, 0.1, 0.7, 1.5}) {
+        const auto after = pulse_series<Pulse, 20>(1.4, phase, 0.8);
+        const auto before = pulse_series<Pulse, 20>(1.4, -phase, -0.8);
+        for (std::size_t k = 0; k < after.size(); ++k) {
+            EXPECT_EQ(before[k], parity * after[k]) << "phase " << phase << ", coefficient " << k;
+        }
+    }
+}
+
+TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
+{
+    expect_parity<OneSine>(-1);
+    expect_parity<AntisymmetricRicker>(-1);
+    expect_parity<OneCosine>(1);
+    expect_parity<SymmetricRicker>(1);
+}
+
+TEST(PulseSeries, OfTheConstantPushIsItsScaleAlone)
+{
+    EXPECT_EQ((pulse_series<Rectangular, 4>(1.4, 0.3, 0.8)), (Coefficients<4, double>{1.4}));
+}
+
+TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
+{
+    const auto sine = pulse_series<OneSine, 8>(Digits50(1), Digits50(0), Digits50(1));
+    const auto cosine = pulse_series<OneCosine, 8>(Digits50(1), Digits50(0), Digits50(1));
+    Digits50 factorial = 1;
+    for (int k = 0; k < 8; ++k) {
+        factorial *= k == 0 ? 1 : k;
+        const int sign = k % 4 < 2 ? 1 : -1;
+        // Some roundings of 1e-50.
+        EXPECT_LT(abs(sine[k] - (k % 2 == 1 ? sign / factorial : Digits50(0))), 1e-48) << k;
+        EXPECT_LT(abs(cosine[k] - (k % 2 == 0 ? sign / factorial : Digits50(0))), 1e-48) << k;
+    }
+}
+
+TEST(PulseSeries, OfTheWaveletsAtTheirCentreAreTheirTaylorSeries)
+{
+    // With x = t / 2: (1 - 2 x^2) exp(-x^2) = 1 - 3 x^2 + 5/2 x^4 - 7/6 x^6 + ...
+    const auto even = pulse_series<SymmetricRicker, 8>(Digits50(1), Digits50(0), Digits50(2));
+    const Coefficients<8, Digits50> even_by_hand{1, 0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 6,
+                                                 0};
+    // With z = t: z (z^2 - 3) exp(-z^2 / 2) = -3 z + 5/2 z^3 - 7/8 z^5 + 3/16 z^7 + ...
+    const auto odd =
+        pulse_series<AntisymmetricRicker, 8>(Digits50("1.38"), Digits50(0), sqrt(Digits50(3)));
+    const Coefficients<8, Digits50> odd_by_hand{
+        0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 8, 0, Digits50(3) / 16};
+    for (std::size_t k = 0; k < 8; ++k) {
+        EXPECT_LT(abs(even[k] - even_by_hand[k]), 1e-48) << k; // some roundings of 1e-50
+        EXPECT_LT(abs(odd[k] - odd_by_hand[k]), 1e-48) << k;
+    }
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+"""without_records.py HEADER OUTPUT: the header of the forced stage, as if nothing could be recorded:
+every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition names a member of
+struct Records is cut out. Each member must have one. Line numbers stay."""
+
+import pathlib
+import re
+import sys
+
+
+def end_of_block(text, opening):
+    depth = 0
+    for position in range(opening, len(text)):
+        depth += {"{": 1, "}": -1}.get(text[position], 0)
+        if depth == 0:
+            return position + 1
+    sys.exit("without_records: a brace is never closed")
+
+
+def without(text, member):
+    condition = re.compile(r"\bif\s*(?:constexpr\s*)?\([^(){}]*\b" + member + r"\b[^(){}]*\)\s*\{")
+    cuts = 0
+    while found := condition.search(text):
+        end = end_of_block(text, found.end() - 1)
+        text = text[:found.start()] + "\n" * text[found.start():end].count("\n") + text[end:]
+        cuts += 1
+    if not cuts:
+        sys.exit(f"without_records: no block records {member}. What is recorded has to stand in an "
+                 f"\"if constexpr (records.{member})\"")
+    return text
+
+
+def main():
+    text = pathlib.Path(sys.argv[1]).read_text()
+    members = re.search(r"struct Records \{(.*?)\};", text, re.DOTALL)
+    names = re.findall(r"bool (\w+)", members.group(1)) if members else []
+    if not names:
+        sys.exit("without_records: no struct Records with members is found")
+    for name in names:
+        text = without(text, name)
+    pathlib.Path(sys.argv[2]).write_text(text)
+
+
+if __name__ == "__main__":
+    main()

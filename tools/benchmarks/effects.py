@@ -1,0 +1,105 @@
+"""The effects benchmark: what each thing costs that a scene can ask for, in instructions."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+
+from building import add_build_argument, build, fail, run_or_fail
+
+METHODS = ("rk45", "taylor")
+PULSES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker", "half_sine",
+          "rectangular")
+FIELDS = ("angle", "velocity", "margin", "impacts", "status")  # beside the region
+KERNEL = "avx2"
+
+EXPLANATION = """\
+Counts the instructions that one tile of a spectrum takes, by Valgrind: the leanest scene, which asks
+for the region alone, and what each field, the linear theory and each other pulse adds to it. Counts
+do not depend on what else the machine does: two runs give the same numbers. All on the kernel avx2,
+four points at a time, since Valgrind knows no AVX-512.
+Points are those of the paper's block under a one-sine pulse, frequency 0.5 to 8 times amplitude 1.2
+to 12. Installs what is missing and builds in build-bench."""
+
+
+def add_arguments(parser):
+    parser.add_argument("--points", type=int, default=64,
+                        help="of the frequency and of the amplitude axis (default: 64)")
+    parser.add_argument("--tolerance", type=float, default=1e-9,
+                        help="of the integration (default: 1e-9)")
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_effects.json"),
+                        help="where the numbers go (default: bench_effects.json)")
+    add_build_argument(parser)
+
+
+def measure(program, *words):
+    """What bench_effects says of one call, and the instructions that the sweep took in it."""
+    valgrind = shutil.which("valgrind") or fail("there is no valgrind; "
+                                                "tools/install_dependencies bench")
+    with tempfile.TemporaryDirectory() as folder:
+        counts = pathlib.Path(folder) / "counts"
+        finished = run_or_fail(
+            [valgrind, "--tool=callgrind", f"--callgrind-out-file={counts}",
+             "--toggle-collect=overturn::benchmarks::measured(*", program, *words],
+            "counting instructions", capture_output=True)
+        instructions = re.search(r"^(?:summary|totals): (\d+)", counts.read_text(), re.MULTILINE)
+    if not instructions or not int(instructions.group(1)):
+        fail("Valgrind saw nothing of the sweep; was the program stripped of its symbols?")
+    return {**json.loads(finished.stdout), "instructions": int(instructions.group(1))}
+
+
+def scenes():
+    """(what it adds to the leanest scene, pulse, theory, fields), the leanest scene first."""
+    yield "", "one_sine", "nonlinear", ("region",)
+    for field in FIELDS:
+        yield f"field {field}", "one_sine", "nonlinear", ("region", field)
+    yield "all fields", "one_sine", "nonlinear", ("region", *FIELDS)
+    yield "theory linear", "one_sine", "linear", ("region",)
+    for pulse in PULSES[1:]:
+        yield f"pulse {pulse}", pulse, "nonlinear", ("region",)
+
+
+def records(program, options):
+    rows = []
+    for method in METHODS:
+        leanest = None
+        for adds, pulse, theory, fields in scenes():
+            found = measure(program, "sweep", method, pulse, theory, KERNEL, options.points,
+                            f"{options.tolerance:.6e}", *fields)
+            instructions = found["instructions"] / found["points"]
+            leanest = instructions if leanest is None else leanest
+            rows.append({"method": method, "pulse": pulse, "theory": theory,
+                         "fields": list(fields), "adds": adds,
+                         "instructions_per_point": instructions,
+                         "price_per_point": instructions - leanest,
+                         "bytes_per_point": found["bytes"] / found["points"]})
+    return rows, found["compiler"]
+
+
+def print_table(rows, options):
+    print(f"\ninstructions per point, {options.points} x {options.points} points, tolerance "
+          f"{options.tolerance:g}, kernel {KERNEL}\n")
+    print(f"{'':28}" + "".join(f"{method:>12}{'':>9}" for method in METHODS) + f"{'bytes':>9}")
+    for adds in dict.fromkeys(row["adds"] for row in rows):
+        mine = [row for row in rows if row["adds"] == adds]
+        leanest = [row["instructions_per_point"] - row["price_per_point"] for row in mine]
+        cells = "".join(
+            f"{row['price_per_point']:>+12.1f}{100 * row['price_per_point'] / least:>+8.2f}%"
+            if adds else f"{least:>12.1f}{'':>9}" for row, least in zip(mine, leanest))
+        print(f"{adds or 'the leanest scene: region':28}{cells}{mine[0]['bytes_per_point']:>9.1f}")
+    print("\nBytes are what the sweep takes from the heap per point, its end states included. The "
+          "other theory\nand the other pulses are other motions, with other numbers of steps.")
+
+
+def run(options):
+    if options.points < 2 or not 0 < options.tolerance < 1:
+        fail("--points must be at least 2 and --tolerance between 0 and 1")
+    rows, compiler = records(build(options.build, "bench_effects"), options)
+    print_table(rows, options)
+    options.output.write_text(json.dumps(
+        {"benchmark": "effects", "kernel": KERNEL, "compiler": compiler, "points": options.points ** 2,
+         "tolerance": options.tolerance, "records": rows}, indent=2) + "\n")
+    print(f"written: {options.output}")

@@ -1,0 +1,60 @@
+// bench_kernel: how long one tile takes, for every method, every kernel that runs here and three
+// tolerances. `tools/bench kernel` builds it, runs it and compares the kernels.
+#include "peer.hpp"
+
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/core.h>
+
+namespace overturn::benchmarks {
+
+namespace {
+
+constexpr int side = 64; // points of each axis: one tile
+
+void sweep_one_tile(benchmark::State& state, const Numerics& numerics, Kernel kernel)
+{
+    const Problem problem = paper_block_problem(side);
+    const Tile tile = Tiling(problem.plane)[0];
+    for ([[maybe_unused]] const auto round : state) {
+        benchmark::DoNotOptimize(
+            sweep_tile(Scene{}, numerics, problem.plane, tile, {Field::region}, kernel));
+    }
+    using benchmark::Counter;
+    state.counters["seconds_per_point"] =
+        Counter(double(tile.points()), Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+void register_all()
+{
+    for (std::size_t method = 0; method < method_names.size(); ++method) {
+        for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
+            if (!runs_here(kernel)) {
+                continue;
+            }
+            for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
+                const Numerics numerics{.method = Method(method), .tolerance = tolerance};
+                const std::string name =
+                    fmt::format("{}/{:.0e}/{}", method_names[method], tolerance, name_of(kernel));
+                benchmark::RegisterBenchmark(name.c_str(), sweep_one_tile, numerics, kernel)
+                    ->Unit(benchmark::kMillisecond);
+            }
+        }
+    }
+}
+
+} // namespace
+
+} // namespace overturn::benchmarks
+
+int main(int count, char** words)
+{
+    overturn::benchmarks::register_all();
+    benchmark::Initialize(&count, words);
+    if (benchmark::ReportUnrecognizedArguments(count, words)) {
+        return 2;
+    }
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}

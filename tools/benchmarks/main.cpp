@@ -1,0 +1,207 @@
+// bench_peers: what `tools/bench peers` measures with. Each call does one thing and prints one JSON
+// object; the order of calls, the search for tolerances and the table are the caller's.
+#include "measured.hpp"
+#include "operation_count.hpp"
+
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <boost/version.hpp>
+#include <fmt/core.h>
+#include <gsl/gsl_version.h>
+#include <sundials/sundials_config.h>
+
+#include <charconv>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string_view>
+
+namespace overturn::benchmarks {
+
+namespace {
+
+constexpr std::string_view usage =
+    "usage: bench_peers about\n"
+    "       bench_peers fma-peak\n"
+    "       bench_peers reference POINTS TOLERANCE CHECK_TOLERANCE FILE\n"
+    "       bench_peers measure POINTS FILE SOLVER TOLERANCE SECONDS\n"
+    "       bench_peers operations POINTS METHOD TOLERANCE\n";
+
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+template <class Number>
+Number number_from(std::string_view text)
+{
+    Number number{};
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || rest != text.data() + text.size() || !(number >= 0)) {
+        throw UsageError(fmt::format("\"{}\" is no number", text));
+    }
+    return number;
+}
+
+int about()
+{
+    std::string solvers;
+    for (const Solver& solver : all_solvers()) {
+        solvers += fmt::format("{}\"{}\"", solvers.empty() ? "" : ", ", solver.name);
+    }
+    fmt::print("{{\"solvers\": [{}], \"kernel\": \"{}\", \"lanes\": {}, \"compiler\": \"{}\", "
+               "\"boost\": \"{}.{}.{}\", \"gsl\": \"{}\", \"sundials\": \"{}\"}}\n",
+               solvers, name_of(widest_kernel()), lanes_of(widest_kernel()),
+               OVERTURN_BENCHMARK_COMPILER, BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000,
+               BOOST_VERSION % 100, GSL_VERSION, SUNDIALS_VERSION);
+    return 0;
+}
+
+using Ends = std::vector<PeerEnd<long double>>;
+
+/// One line per point, in the order of the problem, for whoever measures next.
+void write_reference(const std::string& path, const Problem& problem, const Ends& ends)
+{
+    std::ofstream file(path);
+    file << "slenderness restitution amplitude frequency angle velocity region\n";
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const PeerPoint& point = problem.points[i];
+        file << fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.21Lg} {:.21Lg} {}\n",
+                            point.slenderness, point.restitution, point.amplitude, point.frequency,
+                            ends[i].angle, ends[i].velocity, int(ends[i].region));
+    }
+    if (!file.flush()) {
+        throw std::runtime_error("cannot write " + path);
+    }
+}
+
+Ends read_reference(const std::string& path, std::size_t points)
+{
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    Ends ends;
+    long double skipped = 0;
+    int region = 0;
+    PeerEnd<long double> end{};
+    while (file >> skipped >> skipped >> skipped >> skipped >> end.angle >> end.velocity >>
+           region) {
+        end.region = Region(region);
+        ends.push_back(end);
+    }
+    if (ends.size() != points) {
+        throw std::runtime_error(
+            fmt::format("{} holds {} points, not {}", path, ends.size(), points));
+    }
+    return ends;
+}
+
+int reference(int points, double tolerance, double check_tolerance, const std::string& path)
+{
+    const Problem problem = paper_block_problem(points);
+    const Ends ends = solve_reference(problem, tolerance);
+    const Errors check = errors_of(solve_reference(problem, check_tolerance), ends);
+    write_reference(path, problem, ends);
+    fmt::print("{{\"points\": {}, \"safe_points\": {}, \"p99_difference\": {:.3e}, "
+               "\"largest_difference\": {:.3e}, \"verdicts_that_differ\": {}}}\n",
+               problem.points.size(), check.safe_points, check.p99, check.largest,
+               check.verdicts_that_differ);
+    return 0;
+}
+
+/// Error and time of one solver: one run for the error and to get warm, then as many as fill the
+/// seconds. Processor time, so that other programs disturb less.
+int measure(int points, const std::string& path, std::string_view name, double tolerance,
+            double seconds)
+{
+    const Problem problem = paper_block_problem(points);
+    const Ends truth = read_reference(path, problem.points.size());
+    for (const Solver& solver : all_solvers()) {
+        if (solver.name != name) {
+            continue;
+        }
+        const Errors errors = errors_of(solver.solve(problem, tolerance), truth);
+        int runs = 0;
+        double elapsed = 0;
+        const std::clock_t begin = std::clock();
+        while (elapsed < seconds) {
+            solver.solve(problem, tolerance);
+            elapsed = double(std::clock() - begin) / CLOCKS_PER_SEC;
+            ++runs;
+        }
+        const double per_point =
+            runs > 0 ? 1e6 * elapsed / (double(runs) * double(problem.points.size())) : 0;
+        fmt::print("{{\"p99\": {}, \"largest\": {}, \"verdicts_that_differ\": {}, "
+                   "\"us_per_point\": {:.6g}}}\n",
+                   std::isfinite(errors.p99) ? fmt::format("{:.6e}", errors.p99) : "null",
+                   std::isfinite(errors.largest) ? fmt::format("{:.6e}", errors.largest) : "null",
+                   errors.verdicts_that_differ, per_point);
+        return 0;
+    }
+    throw UsageError(fmt::format("there is no solver \"{}\"; `about` lists them", name));
+}
+
+/// What one of overturn's methods computes, per point.
+int operations(int points, std::string_view method, double tolerance)
+{
+    for (std::size_t i = 0; i < method_names.size(); ++i) {
+        if (method_names[i] != method) {
+            continue;
+        }
+        const Problem problem = paper_block_problem(points);
+        const OperationCount count =
+            count_operations(problem, {.method = Method(i), .tolerance = tolerance});
+        const auto per_point = [&](std::int64_t number) {
+            return double(number) / double(problem.points.size());
+        };
+        fmt::print("{{\"fused\": {:.1f}, \"plain\": {:.1f}, \"divided\": {:.1f}, "
+                   "\"ends_that_differ\": {}}}\n",
+                   per_point(count.operations.fused), per_point(count.operations.plain),
+                   per_point(count.operations.divided), count.ends_that_differ);
+        return 0;
+    }
+    throw UsageError(fmt::format("there is no method \"{}\"", method));
+}
+
+int run(const std::vector<std::string>& words)
+{
+    const std::string command = words.empty() ? "" : words[0];
+    if (command == "about" && words.size() == 1) {
+        return about();
+    }
+    if (command == "fma-peak" && words.size() == 1) {
+        fmt::print("{{\"fma_peak_per_second\": {:.6e}}}\n", fma_peak_per_second());
+        return 0;
+    }
+    if (command == "reference" && words.size() == 5) {
+        return reference(number_from<int>(words[1]), number_from<double>(words[2]),
+                         number_from<double>(words[3]), words[4]);
+    }
+    if (command == "measure" && words.size() == 6) {
+        return measure(number_from<int>(words[1]), words[2], words[3],
+                       number_from<double>(words[4]), number_from<double>(words[5]));
+    }
+    if (command == "operations" && words.size() == 4) {
+        return operations(number_from<int>(words[1]), words[2], number_from<double>(words[3]));
+    }
+    throw UsageError("no such call");
+}
+
+} // namespace
+
+} // namespace overturn::benchmarks
+
+int main(int count, char** words)
+{
+    using namespace overturn::benchmarks;
+    try {
+        return run({words + 1, words + count});
+    } catch (const UsageError& error) {
+        std::cerr << "bench_peers: " << error.what() << "\n" << usage;
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << "bench_peers: " << error.what() << "\n";
+        return 70;
+    }
+}

@@ -1,0 +1,45 @@
+// Errors of a solver's ends against the reference.
+#pragma once
+
+#include "peer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace overturn::benchmarks {
+
+struct Errors {
+    double p99;               ///< of the points that the reference calls safe [rad]
+    double largest;           ///< of the same [rad]
+    int safe_points;          ///< how many these are
+    int verdicts_that_differ; ///< of all points: safe against unsafe; undecided is neither
+};
+
+/// The error of a point is max(|d theta|, |d theta'|) at the end of the pulse; p99 is the smallest
+/// error that 99 of 100 points do not exceed. A point that the solver gave up has an infinite
+/// error.
+template <class S>
+Errors errors_of(const std::vector<PeerEnd<S>>& ends,
+                 const std::vector<PeerEnd<long double>>& reference)
+{
+    std::vector<double> errors;
+    int differ = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const auto& truth = reference[i];
+        differ += is_safe(ends[i].region) != is_safe(truth.region) ||
+                  is_unsafe(ends[i].region) != is_unsafe(truth.region);
+        if (is_safe(truth.region)) {
+            const double error = double(std::max(std::abs(ends[i].angle - truth.angle),
+                                                 std::abs(ends[i].velocity - truth.velocity)));
+            errors.push_back(error >= 0 ? error : std::numeric_limits<double>::infinity());
+        }
+    }
+    std::sort(errors.begin(), errors.end());
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t within = errors.empty() ? 0 : (errors.size() * 99 + 99) / 100 - 1;
+    return {errors.empty() ? none : errors[within], errors.empty() ? none : errors.back(),
+            int(errors.size()), differ};
+}
+
+} // namespace overturn::benchmarks

@@ -1,0 +1,131 @@
+// Boost.odeint's Dormand-Prince 5(4) with its own step size control, and events in two ways: on its
+// dense output, as its users would find them, and by stepping again.
+#include "event_in_step.hpp"
+
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/dense_output_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace overturn::benchmarks {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+using Stepper = odeint::runge_kutta_dopri5<RockingState<double>>;
+
+/// Of a flight from rest.
+double first_step(double tolerance, double frequency)
+{
+    return std::pow(tolerance, 0.2) / std::max(1.0, frequency);
+}
+
+double allowed_error(double tolerance, const Problem& problem)
+{
+    return tolerance * problem.points.front().slenderness;
+}
+
+} // namespace
+
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, double tolerance)
+{
+    auto dense = odeint::make_dense_output<Stepper>(allowed_error(tolerance, problem), tolerance);
+    const auto fly = [&](const Rocking<double>& rocking, Moment<double>& now, bool from_rest) {
+        dense.initialize(now.state, now.time,
+                         from_rest ? first_step(tolerance, rocking.frequency())
+                                   : dense.current_time_step());
+        while (true) {
+            const double left = rocking.end() - dense.current_time();
+            if (dense.current_time_step() > left) {
+                // Ending beyond and interpolating is no faster.
+                dense.initialize(dense.current_state(), dense.current_time(), left);
+            }
+            dense.do_step(std::cref(rocking));
+            const Moment<double> before{dense.previous_time(), dense.previous_state()};
+            now = {dense.current_time(), dense.current_state()};
+            if (!(now.time > before.time)) {
+                return Outcome::failure;
+            }
+            const auto step_to = [&](double length) {
+                RockingState<double> state;
+                dense.calc_state(before.time + length, state);
+                return state;
+            };
+            const auto event = event_in_step(rocking, before, now, tolerance / 8, step_to);
+            if (event.outcome != Outcome::pulse_end) {
+                now = event.moment;
+                return event.outcome;
+            }
+            if (now.time >= rocking.end()) {
+                return Outcome::pulse_end;
+            }
+        }
+    };
+    return run_points<double>(problem, fly);
+}
+
+template <Sines sines>
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& problem,
+                                                               double tolerance)
+{
+    auto controlled =
+        odeint::make_controlled<Stepper>(allowed_error(tolerance, problem), tolerance);
+    Stepper plain;
+    double h = 0; // the next step; from flight to flight
+
+    const auto fly = [&](const Rocking<double, sines>& rocking, Moment<double>& now,
+                         bool from_rest) {
+        const auto system = std::cref(rocking);
+        if (from_rest) {
+            h = first_step(tolerance, rocking.frequency());
+        }
+        // Of `now`: the last stage of one step is the first of the next.
+        RockingState<double> derivative;
+        rocking(now.state, derivative, now.time);
+        while (true) {
+            const Moment<double> before = now;
+            const double left = rocking.end() - now.time;
+            const bool last = left <= h;
+            h = last ? left : h;
+            if (now.time + h == now.time && !last) {
+                return Outcome::failure;
+            }
+            // A step straight into `now` is a tenth slower.
+            RockingState<double> after;
+            RockingState<double> derivative_after;
+            if (controlled.try_step(system, now.state, derivative, now.time, after,
+                                    derivative_after, h) == odeint::fail) {
+                continue;
+            }
+            now.state = after;
+            const auto step_to = [&](double length) {
+                RockingState<double> state;
+                RockingState<double> unused;
+                plain.do_step(system, before.state, derivative, before.time, state, unused, length);
+                return state;
+            };
+            const auto event = event_in_step(rocking, before, now, tolerance / 8, step_to);
+            if (event.outcome != Outcome::pulse_end) {
+                now = event.moment;
+                return event.outcome;
+            }
+            if (last) {
+                return Outcome::pulse_end;
+            }
+            derivative = derivative_after;
+        }
+    };
+    return run_points<double, sines>(problem, fly);
+}
+
+template std::vector<PeerEnd<double>>
+solve_by_odeint_dopri5_restepping<Sines::library>(const Problem&, double);
+template std::vector<PeerEnd<double>>
+solve_by_odeint_dopri5_restepping<Sines::overturn>(const Problem&, double);
+
+} // namespace overturn::benchmarks

@@ -1,0 +1,158 @@
+// Compiled without contraction, as the kernels are: their text must do what it says, no more.
+#include "operation_count.hpp"
+
+#include "overturn/integrate/forced_stage.hpp"
+#include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/integrator.hpp"
+
+#include <bit>
+
+namespace overturn::benchmarks {
+
+namespace {
+
+thread_local Operations counted;
+
+/// A double that counts what is done with it.
+struct Counted {
+    Counted() = default;
+    explicit Counted(double number) : value(number) {}
+
+    double value;
+
+    friend Counted operator-(const Counted& x) { return Counted(-x.value); }
+    friend Counted operator+(const Counted& x, const Counted& y)
+    {
+        ++counted.plain;
+        return Counted(x.value + y.value);
+    }
+    friend Counted operator-(const Counted& x, const Counted& y)
+    {
+        ++counted.plain;
+        return Counted(x.value - y.value);
+    }
+    friend Counted operator*(const Counted& x, const Counted& y)
+    {
+        ++counted.plain;
+        return Counted(x.value * y.value);
+    }
+    friend Counted operator/(const Counted& x, const Counted& y)
+    {
+        ++counted.divided;
+        return Counted(x.value / y.value);
+    }
+    friend Counted fma(const Counted& x, const Counted& y, const Counted& z)
+    {
+        ++counted.fused;
+        return Counted(std::fma(x.value, y.value, z.value));
+    }
+    friend Counted sqrt(const Counted& x)
+    {
+        ++counted.divided;
+        return Counted(std::sqrt(x.value));
+    }
+    friend Counted abs(const Counted& x) { return Counted(std::abs(x.value)); }
+
+    friend bool operator==(const Counted& x, const Counted& y) { return x.value == y.value; }
+    friend bool operator!=(const Counted& x, const Counted& y) { return x.value != y.value; }
+    friend bool operator<(const Counted& x, const Counted& y) { return x.value < y.value; }
+    friend bool operator>(const Counted& x, const Counted& y) { return x.value > y.value; }
+    friend bool operator<=(const Counted& x, const Counted& y) { return x.value <= y.value; }
+    friend bool operator>=(const Counted& x, const Counted& y) { return x.value >= y.value; }
+};
+
+} // namespace
+
+} // namespace overturn::benchmarks
+
+namespace overturn {
+
+template <>
+struct number_traits<benchmarks::Counted> : scalar_number_traits<benchmarks::Counted> {
+    using Counted = benchmarks::Counted;
+    using Lane = number_traits<double>;
+    using scalar = double;
+    static Counted load(const double* from) { return Counted(*from); }
+    static void store(double* to, const Counted& number) { *to = number.value; }
+    static Counted power_of_two(const Counted& k)
+    {
+        ++benchmarks::counted.plain; // k + exponent_shifter
+        return Counted(Lane::power_of_two(k.value));
+    }
+    static SplitNumber<Counted> split(const Counted& x)
+    {
+        ++benchmarks::counted.plain; // - exponent_shifter
+        const SplitNumber<double> parts = Lane::split(x.value);
+        return {Counted(parts.mantissa), Counted(parts.exponent)};
+    }
+};
+
+} // namespace overturn
+
+namespace overturn::benchmarks {
+
+namespace {
+
+/// The same points as the kernel gets.
+Excitation<OneSine, Counted> excitation_of(const PeerPoint& point)
+{
+    const auto uplifts = uplift_phases<OneSine>(point.amplitude, 1.0);
+    const double threshold = uplift_acceleration<Theory::nonlinear>(point.slenderness);
+    return {.acceleration = Counted(point.amplitude * threshold),
+            .frequency = Counted(point.frequency),
+            .uplifts = {Counted(uplifts[0]), Counted(uplifts[1])},
+            .begin = OneSine::begin(1.0),
+            .end = OneSine::end(1.0)};
+}
+
+template <class Method>
+PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
+{
+    const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
+    const ForcedEnd<Counted> end = run_forced_stage<Method, OneSine, Theory::nonlinear, Records{}>(
+        block, excitation_of(point), tolerance);
+    const double code =
+        region_code_after_pulse<Theory::nonlinear>(end.state, block).value; // of fallen ones, too
+    const double side = end.state.side.value;
+    if (end.capped || end.not_finite) {
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        return {none, none, Region::undecided};
+    }
+    const Region fallen = side > 0 ? Region::F_plus : Region::F_minus;
+    const auto with_sign = [&](const Counted& x) { return side > 0 ? x.value : 0.0 - x.value; };
+    return {with_sign(end.state.tilt), with_sign(end.state.rate),
+            end.fell ? fallen : Region(int(code))};
+}
+
+PeerEnd<double> end_of_point(const PeerPoint& point, const Numerics& numerics)
+{
+    switch (integrator_of(numerics)) {
+    case Integrator::taylor_14: return end_of_point<Taylor<14>>(point, numerics.tolerance);
+    case Integrator::taylor_20: return end_of_point<Taylor<20>>(point, numerics.tolerance);
+    case Integrator::runge_kutta: break;
+    }
+    return end_of_point<RungeKutta>(point, numerics.tolerance);
+}
+
+bool differ(double x, double y)
+{
+    return std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y);
+}
+
+} // namespace
+
+OperationCount count_operations(const Problem& problem, const Numerics& numerics)
+{
+    const std::vector<PeerEnd<double>> products = solve_by_overturn(problem, numerics);
+    counted = {};
+    int ends_that_differ = 0;
+    for (std::size_t i = 0; i < problem.points.size(); ++i) {
+        const PeerEnd<double> end = end_of_point(problem.points[i], numerics);
+        ends_that_differ += differ(end.angle, products[i].angle) ||
+                            differ(end.velocity, products[i].velocity) ||
+                            end.region != products[i].region;
+    }
+    return {counted, ends_that_differ};
+}
+
+} // namespace overturn::benchmarks
