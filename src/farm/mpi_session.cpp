@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 namespace overturn {
 
@@ -40,6 +41,25 @@ void prepare_for_one_rank()
     setenv("OMPI_MCA_sharedfp", "individual", keep);
 }
 
+/// Whether Open MPI's mpirun started all ranks on this host.
+bool all_ranks_are_here()
+{
+    const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
+    return here != nullptr && all != nullptr && std::string_view(here) == all;
+}
+
+/// Ranks on one host talk through its memory. Told so, Open MPI 4.1 starts in 0.1 s instead of
+/// 0.3 s: it opens no network. Settings of the user go first.
+void prepare_for_one_host()
+{
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION == 4 // "vader" has another name elsewhere
+    constexpr int keep = 0;
+    setenv("OMPI_MCA_pml", "ob1", keep);
+    setenv("OMPI_MCA_btl", "self,vader", keep);
+#endif
+}
+
 /// A launcher of another MPI starts ranks that do not know of each other: each would compute
 /// everything.
 std::string launch_fault(int size)
@@ -69,6 +89,8 @@ MpiSession::MpiSession()
     if (finalizes_) {
         if (first_of(rank_variables) == nullptr) {
             prepare_for_one_rank();
+        } else if (all_ranks_are_here()) {
+            prepare_for_one_host();
         }
         int provided = MPI_THREAD_SINGLE;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SINGLE, &provided);
