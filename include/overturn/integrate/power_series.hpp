@@ -12,6 +12,7 @@ template <int first, int count, Number T, class Term>
 T sum_of_powers(const T& t, const Term& term)
 {
     using std::fma;
+    static_assert(count >= 2);
     const T square = t * t;
     constexpr int last = first + count - 1;
     T upper = term.template operator()<last>();
@@ -75,6 +76,7 @@ Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
 {
     using std::abs;
     using S = scalar_t<T>;
+    static_assert(count >= 7);
     const T square = t * t;
     const T fourth = square * square;
     Quintic<T> b{c[0],

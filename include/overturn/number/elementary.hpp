@@ -119,8 +119,8 @@ T exponential_decay(const T& x)
     }
 }
 
-/// log2 x for x > 0, to within 1e-3: for choices, such as of a step size, not for results. Of 0 and
-/// of what is not finite some number below -1022 or above 1023.
+/// log2 x for a normal x > 0, to within 1e-3: for choices, such as of a step size, not for results.
+/// Of a smaller x, 0 included, some number below -1022; of what is not finite one above 1023.
 template <Number T>
 T rough_log2(const T& x)
 {

@@ -50,7 +50,7 @@ struct number_traits<double> : scalar_number_traits<double> {
     /// Adding it leaves k + 1023, a double's biased exponent, in the lowest bits.
     static constexpr double exponent_shifter = 0x1p+52 + 1023;
 
-    /// x > 0 as mantissa * 2^exponent, 1 <= mantissa < 2; a subnormal x counts as 2^-1023.
+    /// A normal x > 0 as mantissa * 2^exponent, 1 <= mantissa < 2; smaller ones get exponent -1023.
     static SplitNumber<double> split(double x)
     {
         const auto bits = std::bit_cast<std::uint64_t>(x);
