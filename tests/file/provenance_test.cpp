@@ -17,7 +17,9 @@ RunRecord sample_record()
     record.start = std::chrono::system_clock::time_point(std::chrono::seconds(1'600'000'000));
     record.wall_seconds = 12.5;
     record.kernel = "avx2";
-    record.ranks = {{"node\"1\"\\\n", 4117, 12.25}, {"node2", 0, 0}};
+    record.requests = 17;
+    record.dealing_seconds = 0.5;
+    record.ranks = {{"node\"1\"\\\n", 4117, 12.25, 0.125}, {"node2", 0, 0, 0}};
     return record;
 }
 
@@ -36,6 +38,9 @@ TEST(Sidecar, TellsWhenAndWhereTheRunWas)
     // `date -u -d @1600000000`
     EXPECT_THAT(text, HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
     EXPECT_THAT(text, HasSubstr("\"wall_seconds\": 12.5,"));
+    EXPECT_THAT(text, HasSubstr("\"requests\": 17,"));
+    EXPECT_THAT(text, HasSubstr("\"dealing_seconds\": 0.5,"));
+    EXPECT_THAT(text, HasSubstr("\"compute_seconds\": 12.25, \"write_seconds\": 0.125}"));
     EXPECT_THAT(
         text,
         HasSubstr(

@@ -60,8 +60,14 @@ void write_sample(const std::string& path, Stop stop)
     }
     file.close();
     if (rank == 0) {
-        RunRecord record{std::chrono::system_clock::now(), 1.5, "double", {}};
-        record.ranks.resize(std::size_t(ranks), {"a \"host\"", written, 1.25});
+        RunRecord record;
+        record.start = std::chrono::system_clock::now();
+        record.wall_seconds = 1.5;
+        record.kernel = "double";
+        record.ranks.resize(std::size_t(ranks), {.host = "a \"host\"",
+                                                 .tiles = written,
+                                                 .compute_seconds = 1.25,
+                                                 .write_seconds = 0.25});
         write_sidecar(path, record);
     }
 }
