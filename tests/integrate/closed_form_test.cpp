@@ -9,24 +9,8 @@ namespace overturn {
 namespace {
 
 template <class Method>
-class HalfSineLinear : public testing::Test {};
-TYPED_TEST_SUITE(HalfSineLinear, EveryMethod, MethodName);
-
-template <class Method>
-class OneSineLinear : public testing::Test {};
-TYPED_TEST_SUITE(OneSineLinear, EveryMethod, MethodName);
-
-template <class Method>
-class RectangularLinear : public testing::Test {};
-TYPED_TEST_SUITE(RectangularLinear, EveryMethod, MethodName);
-
-template <class Method>
-class OneSineNonlinear : public testing::Test {};
-TYPED_TEST_SUITE(OneSineNonlinear, EveryMethod, MethodName);
-
-template <class Method>
-class OneCosineNonlinear : public testing::Test {};
-TYPED_TEST_SUITE(OneCosineNonlinear, EveryMethod, MethodName);
+class ClosedForm : public testing::Test {};
+TYPED_TEST_SUITE(ClosedForm, EveryMethod, MethodName);
 
 const double digits = 1e-12; // the tolerance of these runs
 
@@ -44,7 +28,7 @@ double amplitude_of(const Equation& equation)
 // order 1. A formula with a wrong sign or a missing term is off in the first digits.
 const double closed_form_error = 1e-10;
 
-TYPED_TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
+TYPED_TEST(ClosedForm, HalfSineLinearOverturnsFromTheAmplitudeOfMakrisAndRoussos)
 {
     for (const double frequency : {0.5, 1.5, 3.0, 6.0}) {
         // Makris & Roussos (2000), eq. 27.
@@ -58,7 +42,7 @@ TYPED_TEST(HalfSineLinear, OverturnsFromTheAmplitudeOfMakrisAndRoussos)
     }
 }
 
-TYPED_TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
+TYPED_TEST(ClosedForm, OneSineLinearOverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
 {
     for (const double frequency : {3.0, 4.0, 5.0, 8.0}) {
         // Zhang & Makris (2001), eq. 47, sign mended.
@@ -72,7 +56,7 @@ TYPED_TEST(OneSineLinear, OverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris
     }
 }
 
-TYPED_TEST(RectangularLinear, OverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
+TYPED_TEST(ClosedForm, RectangularLinearOverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
 {
     for (const double frequency : {0.7, 2.0, 5.0}) {
         // p t1 = ln(A / (A - 1)), and the pulse lasts t1 = pi / (Omega p).
@@ -83,7 +67,7 @@ TYPED_TEST(RectangularLinear, OverturnsFromTheAmplitudeOfHousnersProblemSolvedRi
     }
 }
 
-TYPED_TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
+TYPED_TEST(ClosedForm, RectangularLinearEndsInTheStateOfItsClosedForm)
 {
     // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).
     const Point<double> point{0.2, 0.9, 2.5, 1.4};
@@ -98,7 +82,7 @@ TYPED_TEST(RectangularLinear, EndsInTheStateOfItsClosedForm)
 /// Half a unit of the last printed digit, and the error of the runs.
 const double printed = 0.5e-6 + 1e-9;
 
-TYPED_TEST(OneSineLinear, HasTheSafeStripOfZhangAndMakris)
+TYPED_TEST(ClosedForm, OneSineLinearHasTheSafeStripOfZhangAndMakris)
 {
     // p = 2.14, alpha = 0.25, velocity ratio 0.9, Omega = 5; printed there: 3.01, 6.32, 7.18.
     const Point<double> point{0.25, 0.81, 5, 0};
@@ -110,7 +94,7 @@ TYPED_TEST(OneSineLinear, HasTheSafeStripOfZhangAndMakris)
                 printed);
 }
 
-TYPED_TEST(OneSineNonlinear, HasTheBoundariesOfThePapersBlock)
+TYPED_TEST(ClosedForm, OneSineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
@@ -122,7 +106,7 @@ TYPED_TEST(OneSineNonlinear, HasTheBoundariesOfThePapersBlock)
                 printed);
 }
 
-TYPED_TEST(OneSineNonlinear, HasAWiderSafeStripWithLessRestitution)
+TYPED_TEST(ClosedForm, OneSineNonlinearHasAWiderSafeStripWithLessRestitution)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
@@ -134,7 +118,7 @@ TYPED_TEST(OneSineNonlinear, HasAWiderSafeStripWithLessRestitution)
                 printed);
 }
 
-TYPED_TEST(OneCosineNonlinear, HasTheBoundariesOfThePapersBlock)
+TYPED_TEST(ClosedForm, OneCosineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};

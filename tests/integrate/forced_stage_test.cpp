@@ -1,5 +1,6 @@
 #include "support/every_method.hpp"
 #include "support/one_point.hpp"
+#include "support/random_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +8,6 @@
 
 namespace overturn {
 namespace {
-
-Point<double> random_point(std::mt19937_64& generator)
-{
-    std::uniform_real_distribution<double> uniform(0, 1);
-    const double slenderness = 0.08 + 0.37 * uniform(generator);
-    return {slenderness, largest_restitution(slenderness) * (0.55 + 0.45 * uniform(generator)),
-            0.5 + 9 * uniform(generator), 1.05 + 10 * uniform(generator)};
-}
 
 /// What holds whatever the method.
 template <class Method>

@@ -1,6 +1,7 @@
 // The two methods against each other and against 50 digits, where they are hardest to keep right.
 #include "overturn/number/digits50.hpp"
 #include "support/one_point.hpp"
+#include "support/random_point.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +13,6 @@ namespace {
 
 using Reference = Taylor<30>;
 constexpr double reference_tolerance = 1e-25;
-
-Point<double> random_point(std::mt19937_64& generator)
-{
-    std::uniform_real_distribution<double> uniform(0, 1);
-    const double slenderness = 0.08 + 0.37 * uniform(generator);
-    return {slenderness, largest_restitution(slenderness) * (0.55 + 0.45 * uniform(generator)),
-            0.5 + 9 * uniform(generator), 1.05 + 10 * uniform(generator)};
-}
 
 Point<Digits50> in_digits(const Point<double>& point)
 {
