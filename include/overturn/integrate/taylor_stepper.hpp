@@ -68,8 +68,9 @@ public:
                        .strikes = none,
                        .falls = none,
                        .broken = active && !((tilt - tilt) + (rate - rate) == zero)};
-        if (any<T>(event.strikes || event.falls)) {
-            end.tilt = tilt;
+        const Mask ends_at_event = event.strikes || event.falls;
+        if (any<T>(ends_at_event)) {
+            end.tilt = select<T>(ends_at_event, tilt, end.tilt);
             const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
             land_on_event(end, event.strikes, event.falls, acceleration, excitation_);
         }
