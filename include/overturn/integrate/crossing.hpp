@@ -36,7 +36,8 @@ Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
             c[i] = fma(left, c[i + 1] - c[i], c[i]);
         }
     }
-    const T share = (right - left) / (one - left);
+    // A march that has arrived asks for nothing: left = right = 1.
+    const T share = (right - left) / select<T>(left < one, one - left, one);
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = c.size() - 1; i >= level; --i) {
             c[i] = fma(share, c[i] - c[i - 1], c[i - 1]);
@@ -73,7 +74,8 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
     using S = scalar_t<T>;
     T low(S(0));
     T high(S(1));
-    T s = select<T>(c[0] > low, c[0] / (c[0] - c.back()), low);
+    const T above = greater<T>(c[0], low);
+    T s = above / (above - c.back());
     mask_t<T> open = wanted;
     while (any<T>(open)) {
         Quintic<T> d = c;
@@ -87,8 +89,9 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
         const auto below = value < T(S(0));
         high = select<T>(open && below, s, high);
         low = select<T>(open && !below, s, low);
-        const T newton = s - value / slope;
-        const auto inside = newton > low && newton < high;
+        const auto sloping = slope != T(S(0)); // a piece may set out level
+        const T newton = s - value / select<T>(sloping, slope, T(S(1)));
+        const auto inside = sloping && newton > low && newton < high;
         const T next = select<T>(inside, newton, (low + high) * T(S(0.5)));
         const auto moves =
             abs(next - s) > enough * high && high > T(std::numeric_limits<S>::epsilon());
@@ -116,7 +119,7 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
     mask_t<T> searching = wanted;
     mask_t<T> found = wanted && !wanted;
     Quintic<T> piece = c;
-    Quintic<T> found_piece = c;
+    Quintic<T> found_piece{one, one, half, -half, -one, -one}; // harmless where none is found
     while (true) {
         const T right = left + width;
         const auto clear = lower_bound(piece) >= -noise;

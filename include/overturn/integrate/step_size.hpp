@@ -24,10 +24,11 @@ T step_size_factor(const T& error)
 {
     using S = scalar_t<T>;
     const T shortest(S(1) / 5);
-    const T longest(S(4));
-    const T factor = T(S(9) / 10) / step_error_power(error);
-    const T bounded = select<T>(factor < longest, factor, longest);
-    const T grown = select<T>(bounded > shortest, bounded, shortest);
+    const S safety = S(9) / 10;
+    // 4 is the bound of the factor, set where nothing is divided by an error of 0 yet.
+    const T power = greater<T>(step_error_power(error), T(safety / 4));
+    const T factor = T(safety) / power;
+    const T grown = select<T>(factor > shortest, factor, shortest);
     return select<T>(error == error, grown, shortest);
 }
 

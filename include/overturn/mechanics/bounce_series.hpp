@@ -29,6 +29,7 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& exc
     using std::sqrt;
     using S = scalar_t<T>;
     const T zero(S(0));
+    const T one(S(1));
     // No pull exceeds alpha. Most impacts are too fast for any series to end, and are told here.
     const T& alpha = block.slenderness;
     const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
@@ -42,11 +43,15 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& exc
     const T plus = pull(ground_now);
     const T minus = pull(-ground_now);
     const T weaker = select<T>(plus < minus, plus, minus);
-    const T series = rate / (T(S(1)) - T(sqrt(block.restitution))); // v (1 + sqrt r + r + ...)
-    const T duration = T(S(3)) * series / weaker;                   // D
+    // Without loss or pull no series ends; 1 stands in for what would divide by zero.
+    const T loss = one - T(sqrt(block.restitution));
+    const mask_t<T> fades = loss > zero && weaker > zero;
+    const T series = rate / select<T>(fades, loss, one);                 // v (1 + sqrt r + r + ...)
+    const T duration = T(S(3)) * series / select<T>(fades, weaker, one); // D
 
+    // A lane without an impact may have a negative rate, and would look far before the pulse.
     const T over = phase + duration * excitation.frequency;
-    mask_t<T> in_time = over <= T(excitation.end);
+    mask_t<T> in_time = fades && over >= phase && over <= T(excitation.end);
     for (const Flank<S>& flank : Pulse::template flanks<S>()) {
         const T extremum(flank.peak);
         in_time = in_time && !(phase < extremum && extremum < over);
@@ -58,11 +63,12 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& exc
     const T rise = select<T>(plus_rises, plus, minus);
     const T rise_then = select<T>(plus_rises, plus_then, minus_then);
     const T fall_then = select<T>(plus_rises, minus_then, plus_then);
-    const T growth = sqrt(select<T>(rise > zero, rise_then / rise, zero));
+    const T growth =
+        sqrt(select<T>(rise > zero, rise_then, zero) / select<T>(rise > zero, rise, one));
     const T twice = series + series;
     const mask_t<T> short_enough =
         twice <= duration * rise && twice * growth <= duration * fall_then;
-    const mask_t<T> low = T(S(10)) * rate * rate * (T(S(1)) + abs(ground_now)) <= weaker * weaker;
+    const mask_t<T> low = T(S(10)) * rate * rate * (one + abs(ground_now)) <= weaker * weaker;
     return weaker > zero && ((in_time && short_enough && low) || rate == zero);
 }
 
