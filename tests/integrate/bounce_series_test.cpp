@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace overturn {
@@ -79,7 +80,7 @@ AfterImpact<Pulse> random_impact(std::mt19937_64& generator)
 }
 
 /// Bounces on, impact by impact, and tells whether the speed falls to a thousandth before the pulse
-/// ends and before the ground can lift the block.
+/// ends, before the ground can lift the block and before the block has overturned.
 template <class Pulse>
 bool bounces_on_to_rest(const AfterImpact<Pulse>& start)
 {
@@ -92,9 +93,10 @@ bool bounces_on_to_rest(const AfterImpact<Pulse>& start)
                                                        on * start.excitation.ground(at));
     };
     while (motion.rate > 1e-3 * start.rate) {
-        const double h = 0.1 * motion.rate / alpha; // a flight takes twenty such steps
+        // A flight takes twenty such steps; but motion grows e-fold in 1/p.
+        const double h = 0.1 * std::min(motion.rate / alpha, 1.0);
         while (motion.position >= 0) {
-            if (phase > start.excitation.end ||
+            if (phase > start.excitation.end || motion.position > pi<double>() / 2 ||
                 !(pull(0, phase, 1) < 0 && pull(0, phase, -1) < 0)) {
                 return false;
             }

@@ -104,7 +104,7 @@ std::vector<double> positive_numbers()
         const double power = std::ldexp(1, exponent);
         numbers.push_back(power);
         numbers.push_back(std::nextafter(power, infinity));
-        numbers.push_back(std::nextafter(2 * power, 0));
+        numbers.push_back(power * std::nextafter(2.0, 0.0));
         numbers.push_back(std::ldexp(uniform(generator), exponent));
     }
     numbers.erase(std::remove(numbers.begin(), numbers.end(), infinity), numbers.end());
