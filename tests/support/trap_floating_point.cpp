@@ -1,0 +1,56 @@
+// Linked into a program, stops it where a floating-point operation is invalid, divides by zero or
+// overflows: with select() instead of if, such an operation may stand on the side that is not
+// taken and leave no trace in any result. See OVERTURN_TRAP; UntrappedFloatingPoint makes
+// exceptions.
+#include <array>
+#include <csignal>
+#include <cstring>
+
+#include <execinfo.h>
+#include <fenv.h>
+#include <unistd.h>
+
+namespace {
+
+/// Nothing here may allocate: the signal may have come from anywhere.
+void say(const char* text)
+{
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+const char* name_of(int code)
+{
+    switch (code) {
+    case FPE_FLTINV: return "an invalid operation";
+    case FPE_FLTDIV: return "a division by zero";
+    case FPE_FLTOVF: return "an overflow";
+    default: return "an arithmetic exception";
+    }
+}
+
+void report(int, siginfo_t* signal, void*)
+{
+    say("floating-point trap: ");
+    say(name_of(signal->si_code));
+    say(". Lines of an address: addr2line -Cfie PROGRAM ADDRESS\n");
+    std::array<void*, 32> frames;
+    backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())),
+                         STDERR_FILENO);
+    // The operation is tried again, and ends the program by the signal.
+}
+
+[[maybe_unused]] const bool trapped = [] {
+    std::array<void*, 1> frame;
+    backtrace(frame.data(), int(frame.size())); // the first call loads a library, which allocates
+    struct sigaction action = {};
+    action.sa_sigaction = report;
+    action.sa_flags = SA_SIGINFO | int(SA_RESETHAND);
+    sigaction(SIGFPE, &action, nullptr);
+    if (feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == -1) {
+        say("OVERTURN_TRAP: this processor does not trap floating-point exceptions.\n");
+        _exit(1);
+    }
+    return true;
+}();
+
+} // namespace
