@@ -31,8 +31,9 @@ void print_scene(const Job& job)
                               job.scene.window, 100 * cut_by_window(job.scene)));
     }
     print_row("theory", name_of(job.scene.theory));
-    print_row("method", fmt::format("{}, tolerance {}", name_of(job.numerics.method),
-                                    job.numerics.tolerance));
+    print_row("method", fmt::format("{}, tolerance {}{}", name_of(job.numerics.method),
+                                    job.numerics.tolerance,
+                                    job.numerics.resolve ? ", verdicts resolved" : ""));
 }
 
 void print_plane(const Plane& plane)

@@ -54,6 +54,13 @@ stop it after the tiles in hand, with exit code 85.)";
 constexpr const char* check_help = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
 
+constexpr const char* accuracy_help = R"(Example:
+  overturn accuracy jobs/figure_07a.toml -o accuracy.h5
+  tools/plot_accuracy accuracy.h5
+
+Runs every method at tolerances from 1e-2 to 1e-14 on a sample of the job's plane, and tells time per
+point, errors against 50 digits, and how many verdicts are wrong. It runs on one core.)";
+
 constexpr const char* info_help = R"(Example:
   overturn info smoke.h5)";
 
@@ -71,6 +78,7 @@ void add_job_arguments(CLI::App& command, JobSource& job)
 struct Arguments {
     RunOptions run;
     JobSource check;
+    AccuracyOptions accuracy;
     std::string info;
 };
 
@@ -103,6 +111,24 @@ Command read_command_line(int argc, const char* const* argv)
     check_command->footer(check_help);
     add_job_arguments(*check_command, arguments->check);
 
+    CLI::App* const accuracy_command =
+        app.add_subcommand("accuracy", "Measure what accuracy costs in time on a job's plane");
+    accuracy_command->footer(accuracy_help);
+    add_job_arguments(*accuracy_command, arguments->accuracy.job);
+    accuracy_command->add_option("-o,--output", arguments->accuracy.output, "The result file")
+        ->type_name("OUT.h5")
+        ->required();
+    accuracy_command
+        ->add_option("--points", arguments->accuracy.points,
+                     "Points of the sample, at most: times and verdicts")
+        ->check(CLI::Range(16, 10000000))
+        ->capture_default_str();
+    accuracy_command
+        ->add_option("--digits", arguments->accuracy.digits,
+                     "Points of the sample in 50 digits: errors")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+
     CLI::App* const info_command = app.add_subcommand("info", "Tell what a result file holds");
     info_command->footer(info_help);
     info_command->add_option("FILE", arguments->info, "The result file")->required();
@@ -129,6 +155,9 @@ Command read_command_line(int argc, const char* const* argv)
     }
     if (check_command->parsed()) {
         return {.execute = [arguments] { return check(arguments->check); }};
+    }
+    if (accuracy_command->parsed()) {
+        return {.execute = [arguments] { return accuracy(arguments->accuracy); }};
     }
     return {.execute = [arguments] { return info(arguments->info); }};
 }

@@ -23,6 +23,15 @@ int run(const RunOptions& options);
 /// Tells what a job would compute, store and cost. Writes nothing.
 int check(const JobSource& source);
 
+/// Measures what accuracy costs in time on a sample of a job's plane, on one core.
+struct AccuracyOptions {
+    JobSource job;
+    std::string output; ///< path of the result file
+    int points = 16384; ///< of the sample, at most
+    int digits = 512;   ///< of them in 50 digits
+};
+int accuracy(const AccuracyOptions& options);
+
 /// Tells what a result file holds.
 int info(const std::string& path);
 

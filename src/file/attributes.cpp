@@ -61,6 +61,11 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::uint
     write(object, name, H5T_STD_U16LE, H5T_NATIVE_UINT16, list(values.size()), values.data());
 }
 
+void write_attribute(hid_t object, const char* name, const std::vector<std::uint32_t>& values)
+{
+    write(object, name, H5T_STD_U32LE, H5T_NATIVE_UINT32, list(values.size()), values.data());
+}
+
 std::string read_text_attribute(hid_t object, const char* name)
 {
     if (check(H5Aexists(object, name)) == 0) {

@@ -17,6 +17,7 @@ void write_attribute(hid_t object, const char* name, double value);
 void write_attribute(hid_t object, const char* name, std::int64_t value);
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint8_t>& values);
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint16_t>& values);
+void write_attribute(hid_t object, const char* name, const std::vector<std::uint32_t>& values);
 
 /// Empty if there is no such attribute or if it is not a text of ours.
 std::string read_text_attribute(hid_t object, const char* name);

@@ -46,6 +46,14 @@ void describe_impacts(hid_t dataset)
     write_attribute(dataset, "flag_meanings", "this_many_or_more not_computed bounce_series");
 }
 
+void describe_steps(hid_t dataset)
+{
+    write_attribute(dataset, "long_name", "integration steps tried");
+    write_attribute(dataset, "units", "1");
+    write_attribute(dataset, "flag_values", std::vector<std::uint32_t>{step_count::not_computed});
+    write_attribute(dataset, "flag_meanings", "not_computed");
+}
+
 /// NaN is what readers take for missing, so it can be declared; on the integer fields a declared
 /// fill value would turn codes into floats.
 void describe_number(hid_t dataset, const char* long_name, const char* units)
@@ -72,6 +80,13 @@ void write_field_attributes(hid_t dataset, Field field)
     case Field::margin:
         describe_number(dataset, "distance of the verdict from flipping, positive where safe", "1");
         break;
+    case Field::error:
+        describe_number(dataset, "bound of the error of the margin", "1");
+        write_attribute(dataset, "comment",
+                        "infinite where an event may or may not have happened; a verdict holds "
+                        "where the margin is larger");
+        break;
+    case Field::steps: describe_steps(dataset); break;
     }
     write_attribute(dataset, "coordinates", layout::restitution_ratio);
 }

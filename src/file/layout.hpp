@@ -33,7 +33,7 @@ struct StoredAs {
     hid_t file;
     hid_t memory;
     const char* name;
-    std::variant<std::uint8_t, std::uint16_t, double> fill;
+    std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill;
 };
 
 inline StoredAs stored_as(Field field)
@@ -41,6 +41,8 @@ inline StoredAs stored_as(Field field)
     switch (field) {
     case Field::region:
     case Field::status: return {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed};
+    case Field::steps:
+        return {H5T_STD_U32LE, H5T_NATIVE_UINT32, "uint32", step_count::not_computed};
     case Field::impacts:
         return {H5T_STD_U16LE, H5T_NATIVE_UINT16, "uint16", impact_count::not_computed};
     default:

@@ -59,6 +59,7 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides)
     job.scene = read_scene(entry);
     job.numerics = read_numerics(entry);
     job.fields = read_fields(entry);
+    expect_known_errors(entry, job.numerics, job.fields);
     job.plane = read_plane(entry, job.fields);
     job.resolved = resolved_text(job);
     return job;

@@ -30,8 +30,9 @@ const AxisRule restitution_rule{"(0, 1]", [](double value) { return value > 0 &&
                                 "A block cannot gain energy at an impact, nor lose all of it."};
 const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return value > 0; },
                                       "It is a share of the largest restitution (Eq. 17)."};
-const AxisRule slenderness_rule{"(0, pi/2)",
-                                [](double value) { return value > 0 && value < right_angle; },
+// Below, squares of the speed over alpha leave the range of a double.
+const AxisRule slenderness_rule{"[1e-100, pi/2)",
+                                [](double value) { return value >= 1e-100 && value < right_angle; },
                                 "It is arctan(half width / half height) in radians."};
 
 Axis read_plain_axis(const Entry& plane, std::string_view name, const AxisRule& rule)

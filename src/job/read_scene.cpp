@@ -10,7 +10,7 @@ namespace overturn {
 namespace {
 
 constexpr std::array<std::string_view, 3> scene_keys{"pulse", "theory", "window"};
-constexpr std::array<std::string_view, 2> numerics_keys{"method", "tolerance"};
+constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
 constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
 // At 8 periods the wavelets have fallen below 1e-180 of their peak.
@@ -20,6 +20,12 @@ constexpr double widest_window = 8;
 // hardly more than a guess.
 constexpr double least_tolerance = 1e-14;
 constexpr double largest_tolerance = 1e-2;
+
+// Enough for all but one verdict in some thousand, and the cheapest at which errors are known well.
+constexpr double tolerance_to_resolve_from = 1e-4;
+
+// Longer steps of Runge and Kutta do not see their own errors.
+constexpr double largest_tolerance_with_error = 1e-4;
 
 double read_window(const Entry& entry, PulseKind pulse)
 {
@@ -68,6 +74,12 @@ Numerics read_numerics(const Entry& job)
     if (const auto method = find(*entry, "method")) {
         numerics.method = choice_of<Method>(*method, method_names);
     }
+    if (const auto resolve = find(*entry, "resolve")) {
+        numerics.resolve = truth_of(*resolve);
+    }
+    if (numerics.resolve) {
+        numerics.tolerance = tolerance_to_resolve_from;
+    }
     if (const auto tolerance = find(*entry, "tolerance")) {
         numerics.tolerance = number_of(*tolerance);
         if (!(numerics.tolerance >= least_tolerance && numerics.tolerance <= largest_tolerance)) {
@@ -78,6 +90,22 @@ Numerics read_numerics(const Entry& job)
         }
     }
     return numerics;
+}
+
+void expect_known_errors(const Entry& job, const Numerics& numerics,
+                         const std::vector<Field>& fields)
+{
+    const bool asked =
+        numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
+    if (asked && numerics.method == Method::rk45 &&
+        numerics.tolerance > largest_tolerance_with_error) {
+        refuse(
+            *find(*find(job, "numerics"), "tolerance"),
+            fmt::format(" = {} is too loose for {}: at more than {} the steps of \"rk45\" are too "
+                        "long to see their own errors. Lower it, or take method = \"taylor\".",
+                        numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
+                        largest_tolerance_with_error));
+    }
 }
 
 std::vector<Field> read_fields(const Entry& job)

@@ -71,11 +71,11 @@ std::string fields_text(const std::vector<Field>& fields)
 
 std::string resolved_text(const Job& job)
 {
-    return fmt::format("title = {}\n\n{}\n{}\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n\n"
-                       "[output]\nfields = [{}]\n",
+    return fmt::format("title = {}\n\n{}\n{}\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n"
+                       "{}\n[output]\nfields = [{}]\n",
                        in_quotes(job.title), scene_text(job.scene), plane_text(job.plane),
                        name_of(job.numerics.method), float_text(job.numerics.tolerance),
-                       fields_text(job.fields));
+                       job.numerics.resolve ? "resolve = true\n" : "", fields_text(job.fields));
 }
 
 } // namespace overturn

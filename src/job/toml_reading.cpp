@@ -138,6 +138,15 @@ std::int64_t integer_of(const Entry& entry)
     return integer->get();
 }
 
+bool truth_of(const Entry& entry)
+{
+    const auto* truth = entry.node->as_boolean();
+    if (truth == nullptr) {
+        refuse_type(entry, "true or false");
+    }
+    return truth->get();
+}
+
 double number_of(const Entry& entry)
 {
     if (const auto* integer = entry.node->as_integer()) {

@@ -47,6 +47,7 @@ Entry element(const Entry& array, std::size_t i);
 
 std::string string_of(const Entry& entry);
 std::int64_t integer_of(const Entry& entry);
+bool truth_of(const Entry& entry);
 
 /// A finite number; integers are accepted, and -0 becomes 0.
 double number_of(const Entry& entry);

@@ -8,6 +8,7 @@ FieldValues make_field_values(Field field, std::size_t points)
     case Field::region:
     case Field::status: return std::vector<std::uint8_t>(points);
     case Field::impacts: return std::vector<std::uint16_t>(points);
+    case Field::steps: return std::vector<std::uint32_t>(points);
     default: return std::vector<double>(points);
     }
 }

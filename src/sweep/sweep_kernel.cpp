@@ -23,27 +23,41 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
+/// The point in a lane; lanes beyond the last point repeat it.
+int point_at(const TilePoints& points, int lane)
+{
+    const int last = points.chosen_count - 1;
+    const int i = lane < last ? lane : last;
+    return points.chosen == nullptr ? i : points.chosen[i];
+}
+
 /// Stores the lanes of one pack, as many as there are points left.
 template <Records records>
-void store(const ForcedEnd<T>& end, const PointEnds& to, int first, int points_left)
+void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const PointEnds& to)
 {
-    const auto put = [&](const T& number, double* array) {
+    const int count = points.chosen_count - first < lanes ? points.chosen_count - first : lanes;
+    const auto put = [&](const T& number, auto* array) {
         const auto values = lanes_of(number);
-        for (int i = 0; i < lanes && i < points_left; ++i) {
-            array[first + i] = values[i];
+        for (int i = 0; i < count; ++i) {
+            array[point_at(points, first + i)] = std::remove_pointer_t<decltype(array)>(values[i]);
         }
     };
     put(end.state.tilt, to.tilt);
     put(end.state.rate, to.rate);
     put(end.state.side, to.side);
+    put(flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
+            flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite),
+        to.flags);
     if constexpr (records.impacts) {
-        put(end.impacts, to.impacts);
+        if (to.impacts != nullptr) {
+            put(end.impacts, to.impacts);
+        }
     }
-    const auto flags = lanes_of(
-        flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
-        flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite));
-    for (int i = 0; i < lanes && i < points_left; ++i) {
-        to.flags[first + i] = std::uint8_t(flags[i]);
+    if constexpr (records.error) {
+        put(end.error, to.error);
+    }
+    if (to.steps != nullptr) {
+        put(end.steps, to.steps);
     }
 }
 
@@ -52,16 +66,14 @@ void store(const ForcedEnd<T>& end, const PointEnds& to, int first, int points_l
 /// four gain no more.
 constexpr int packs_in_turns = 2;
 
-/// The excitation of the points from `first` on, counted row by row; lanes beyond the tile's end
-/// repeat its last point.
+/// The excitation of the points from `first` on.
 Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
 {
     double acceleration[lanes];
     double frequency[lanes];
     double uplifts[Pulse::lobes][lanes];
-    const int last = points.rows * points.columns - 1;
     for (int i = 0; i < lanes; ++i) {
-        const int point = first + i < last ? first + i : last;
+        const int point = point_at(points, first + i);
         const int row = point / points.columns;
         acceleration[i] = points.acceleration[row];
         frequency[i] = points.frequency[point - row * points.columns];
@@ -84,43 +96,45 @@ template <class Method, Theory theory, Records records>
 void sweep(const TilePoints& points, const PointEnds& ends)
 {
     const Block<T> block{T(points.slenderness), T(points.restitution)};
-    const int count = points.rows * points.columns;
     const auto stage_from = [&](int first) {
         return ForcedStage<Method, Pulse, theory, records, T>(block, excitation_from(points, first),
                                                               points.tolerance);
     };
-    for (int first = 0; first < count; first += packs_in_turns * lanes) {
+    for (int first = 0; first < points.chosen_count; first += packs_in_turns * lanes) {
         std::array stages{stage_from(first), stage_from(first + lanes)};
         static_assert(stages.size() == packs_in_turns);
         run_in_turns(stages);
         for (int i = 0; i < packs_in_turns; ++i) {
-            const int from = first + i * lanes;
-            store<records>(stages[i].end(), ends, from, count - from);
+            store<records>(stages[i].end(), points, first + i * lanes, ends);
         }
     }
 }
 
-template <class Method>
-SweepKernel kernel_for(Theory theory, bool count_impacts)
+template <class Method, Theory theory>
+SweepKernel kernel_for(Recorded recorded)
 {
-    constexpr Records plain{};
-    constexpr Records counting{.impacts = true};
-    if (theory == Theory::linear) {
-        return count_impacts ? sweep<Method, Theory::linear, counting>
-                             : sweep<Method, Theory::linear, plain>;
+    switch (recorded) {
+    case Recorded::impacts: return sweep<Method, theory, Records{.impacts = true}>;
+    case Recorded::error: return sweep<Method, theory, Records{.impacts = true, .error = true}>;
+    default: return sweep<Method, theory, Records{}>;
     }
-    return count_impacts ? sweep<Method, Theory::nonlinear, counting>
-                         : sweep<Method, Theory::nonlinear, plain>;
+}
+
+template <class Method>
+SweepKernel kernel_for(Theory theory, Recorded recorded)
+{
+    return theory == Theory::linear ? kernel_for<Method, Theory::linear>(recorded)
+                                    : kernel_for<Method, Theory::nonlinear>(recorded);
 }
 
 } // namespace
 
-SweepKernel OVERTURN_KERNEL(Integrator integrator, Theory theory, bool count_impacts)
+SweepKernel OVERTURN_KERNEL(Integrator integrator, Theory theory, Recorded recorded)
 {
     switch (integrator) {
-    case Integrator::taylor_14: return kernel_for<Taylor<14>>(theory, count_impacts);
-    case Integrator::taylor_20: return kernel_for<Taylor<20>>(theory, count_impacts);
-    default: return kernel_for<RungeKutta>(theory, count_impacts);
+    case Integrator::taylor_14: return kernel_for<Taylor<14>>(theory, recorded);
+    case Integrator::taylor_20: return kernel_for<Taylor<20>>(theory, recorded);
+    default: return kernel_for<RungeKutta>(theory, recorded);
     }
 }
 

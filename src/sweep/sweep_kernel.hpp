@@ -21,6 +21,9 @@ struct TilePoints {
     double begin;               ///< phases at which the pulse begins and ends [rad]
     double end;
     double tolerance; ///< see Numerics
+
+    const int* chosen; ///< which points to compute, counted row by row; nullptr: all
+    int chosen_count;
 };
 
 /// How a point left the forced stage, in the bits of PointEnds::flags.
@@ -29,23 +32,29 @@ inline constexpr std::uint8_t fell = 1;
 inline constexpr std::uint8_t rested = 2;
 inline constexpr std::uint8_t capped = 4;
 inline constexpr std::uint8_t not_finite = 8;
+inline constexpr std::uint8_t unresolved = 16; ///< set by resolve() alone
 inline constexpr std::uint8_t undecided = capped | not_finite;
 } // namespace end_flag
 
-/// Where the points of a tile left the forced stage: rows x columns values each, frequency fastest.
+/// Where the points of a tile left the forced stage: rows x columns values each, frequency fastest;
+/// a kernel touches those of the points that it computes.
 struct PointEnds {
     double* tilt;        ///< |theta| [rad]
     double* rate;        ///< d|theta| / d tau [rad]
     double* side;        ///< +1 or -1: the sign of theta
     std::uint8_t* flags; ///< see end_flag
-    double* impacts;     ///< as counted; untouched by a kernel that does not count
+    double* impacts;     ///< as counted; nullptr if nobody asks
+    double* error;       ///< of the margin; nullptr if nobody asks
+    double* steps;       ///< tried; nullptr if nobody asks
 };
+
+/// What a kernel keeps a record of beside the end. Each comes with those before it.
+enum class Recorded { nothing, impacts, error };
 
 using SweepKernel = void (*)(const TilePoints& points, const PointEnds& ends);
 
-/// What each kernel source defines: the kernel for a method and a theory, with or without counting
-/// impacts.
-using SweepKernelChoice = SweepKernel (*)(Integrator integrator, Theory theory, bool count_impacts);
+/// What each kernel source defines: the kernel for a method, a theory and what it records.
+using SweepKernelChoice = SweepKernel (*)(Integrator integrator, Theory theory, Recorded recorded);
 
 /// The fields that take some computing, from the ends of the forced stage. Compiled for each
 /// instruction set, see field_kernel.cpp.

@@ -8,8 +8,8 @@
 namespace overturn {
 namespace {
 
-const std::vector<Field> all_fields{Field::region, Field::angle,   Field::velocity,
-                                    Field::margin, Field::impacts, Field::status};
+const std::vector<Field> all_fields{Field::region, Field::angle,   Field::velocity, Field::margin,
+                                    Field::error,  Field::impacts, Field::steps,    Field::status};
 
 Plane small_plane()
 {
@@ -34,8 +34,11 @@ std::vector<Scene> all_scenes()
 }
 
 /// Every method, and every order of the Taylor series.
-const std::vector<Numerics> all_numerics{
-    {Method::rk45, 1e-9}, {Method::taylor, 1e-6}, {Method::taylor, 1e-9}};
+const std::vector<Numerics> all_numerics{{Method::rk45, 1e-9},
+                                         {Method::taylor, 1e-6},
+                                         {Method::taylor, 1e-9},
+                                         {Method::rk45, 1e-4, true},
+                                         {Method::taylor, 1e-4, true}};
 
 std::string name_of(const Scene& scene, const Numerics& numerics)
 {
@@ -135,18 +138,25 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
     const auto& angles = std::get<std::vector<double>>(fields.values[1]);
     const auto& velocities = std::get<std::vector<double>>(fields.values[2]);
     const auto& margins = std::get<std::vector<double>>(fields.values[3]);
-    const auto& impacts = std::get<std::vector<std::uint16_t>>(fields.values[4]);
-    const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[5]);
+    const auto& errors = std::get<std::vector<double>>(fields.values[4]);
+    const auto& impacts = std::get<std::vector<std::uint16_t>>(fields.values[5]);
+    const auto& steps = std::get<std::vector<std::uint32_t>>(fields.values[6]);
+    const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[7]);
     for (std::int64_t i = 0; i < tile.points(); ++i) {
         const Point<double> point{plane.slenderness[tile.slenderness],
                                   plane.restitution_ratio(tile.slenderness, tile.restitution),
                                   plane.frequency[tile.frequency_begin + i % tile.frequency_count],
                                   plane.amplitude[tile.amplitude_begin + i / tile.frequency_count]};
-        const auto end = forced_end<OneSine, Theory::nonlinear>(point, Numerics{}.tolerance);
+        const auto end = run_forced_stage<RungeKutta, OneSine, Theory::nonlinear,
+                                          Records{.impacts = true, .error = true}>(
+            Block<double>{point.slenderness, point.restitution},
+            excitation_of<OneSine, Theory::nonlinear>(point), Numerics{}.tolerance);
         const std::size_t k = std::size_t(i);
         ASSERT_EQ(angles[k], end.state.side * end.state.tilt);
         ASSERT_EQ(velocities[k], end.state.side * end.state.rate);
         ASSERT_EQ(margins[k], margin_of<Theory::nonlinear>(end, point));
+        ASSERT_EQ(errors[k], end.error);
+        ASSERT_EQ(steps[k], end.steps);
         ASSERT_EQ(impacts[k], end.rested ? 65535 : end.impacts);
         ASSERT_EQ(status[k], end.rested ? 1 : 0);
         const Region region = Region(regions[k]);

@@ -25,6 +25,7 @@ S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 4, 8, 
 
 def the_tool():
     sys.dont_write_bytecode = True
+    sys.path.insert(0, str(pathlib.Path(PLOT_SPECTRUM).parent))
     loader = importlib.machinery.SourceFileLoader("plot_spectrum", PLOT_SPECTRUM)
     module = importlib.util.module_from_spec(
         importlib.util.spec_from_loader("plot_spectrum", loader))

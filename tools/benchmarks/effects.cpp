@@ -19,7 +19,7 @@
 namespace overturn {
 
 #ifdef __x86_64__
-SweepKernel sweep_kernel_avx2_OneSine(Integrator, Theory, bool);
+SweepKernel sweep_kernel_avx2_OneSine(Integrator, Theory, Recorded);
 extern const FieldKernels field_kernels_avx2;
 #endif
 
@@ -89,19 +89,27 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
                             .frequency = frequency.data(),
                             .begin = OneSine::begin(work.scene.window),
                             .end = OneSine::end(work.scene.window),
-                            .tolerance = work.numerics.tolerance};
+                            .tolerance = work.numerics.tolerance,
+                            .chosen = nullptr,
+                            .chosen_count = int(work.tile.points())};
     const std::size_t count = std::size_t(work.tile.points());
     std::vector<double> tilt(count);
     std::vector<double> rate(count);
     std::vector<double> side(count);
     std::vector<std::uint8_t> flags(count);
     std::vector<double> impacts(asked == ByHand::impacts ? count : 0);
-    const PointEnds ends{tilt.data(), rate.data(), side.data(), flags.data(), impacts.data()};
+    const PointEnds ends{.tilt = tilt.data(),
+                         .rate = rate.data(),
+                         .side = side.data(),
+                         .flags = flags.data(),
+                         .impacts = impacts.empty() ? nullptr : impacts.data(),
+                         .error = nullptr,
+                         .steps = nullptr};
 #ifdef __x86_64__
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
-    sweep_kernel_avx2_OneSine(integrator, Theory::nonlinear, asked == ByHand::impacts)(points,
-                                                                                       ends);
+    const Recorded recorded = asked == ByHand::impacts ? Recorded::impacts : Recorded::nothing;
+    sweep_kernel_avx2_OneSine(integrator, Theory::nonlinear, recorded)(points, ends);
     if (asked == ByHand::region) {
         std::vector<std::uint8_t> regions(count);
         field_kernels_avx2.regions(Theory::nonlinear, {slenderness, restitution}, ends, int(count),

@@ -19,7 +19,7 @@ struct AxisSummary {
 
 struct FieldSummary {
     std::string name;
-    std::string type; ///< "uint8", "uint16" or "float64"
+    std::string type; ///< "uint8", "uint16", "uint32" or "float64"
 };
 
 /// What a result file says of itself.

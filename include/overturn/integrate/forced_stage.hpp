@@ -6,12 +6,16 @@
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
+#include "overturn/mechanics/region.hpp"
+
+#include <type_traits>
 
 namespace overturn {
 
 /// What a run records beside the end state. Not asked for, not paid for.
 struct Records {
     bool impacts = false;
+    bool error = false;
 };
 
 /// The end of the forced stage. Counts are whole numbers held in T.
@@ -24,6 +28,7 @@ struct ForcedEnd {
     mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
     T impacts;            ///< counted only if asked for; a bounce series that died out is not
     T steps;              ///< steps tried
+    T error; ///< of the margin, at most, to first order; only if asked for; infinite where unknown
 };
 
 /// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
@@ -41,7 +46,7 @@ public:
     ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
         : block_(block), excitation_(excitation), end_(excitation.end), zero_(S(0)),
           stepper_(block, excitation, tolerance), now_{T(excitation.begin), zero_, zero_, T(S(1))},
-          active_(zero_ == zero_)
+          active_(zero_ == zero_), doubtful_(!active_)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -52,7 +57,8 @@ public:
                        .capped = none,
                        .not_finite = none,
                        .impacts = zero_,
-                       .steps = zero_};
+                       .steps = zero_,
+                       .error = zero_};
         wait_for_uplift(active_);
     }
 
@@ -62,9 +68,12 @@ public:
     /// One step in every lane that is active; acts on the event at its end.
     void advance()
     {
-        const StepEnd<T> step = straight_line<T>([&] { return stepper_.step(now_, active_); });
+        const auto step = straight_line<T>([&] { return stepper_.step(now_, active_); });
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
+        if constexpr (records.error) {
+            pass_errors(step, moved);
+        }
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
@@ -107,6 +116,9 @@ private:
     /// Freezes the lanes with the state that they have.
     void finish(const Mask& lanes)
     {
+        if constexpr (records.error) {
+            end_of_run_.error = select<T>(lanes, margin_error(), end_of_run_.error);
+        }
         State<T>& state = end_of_run_.state;
         const T tilt = select<T>(now_.tilt > zero_, now_.tilt, zero_);
         state.tilt = select<T>(lanes, tilt, state.tilt);
@@ -132,19 +144,112 @@ private:
     {
         const State<T> after =
             state_after_impact<T>({zero_, now_.rate, now_.side}, sqrt_restitution_);
+        const Mask rests =
+            lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, after.rate);
+        if constexpr (records.error) {
+            pass_errors_over_impact(lanes, rests);
+        }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);
         if constexpr (records.impacts) {
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
-        const Mask rests =
-            lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, now_.rate);
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
+            if constexpr (records.error) {
+                growth_.forget(rests);
+            }
             wait_for_uplift(rests);
         }
         stepper_.turn(now_, lanes && active_);
+    }
+
+    /// Errors grow over a step, and its own come on top.
+    void pass_errors(const WatchedStepEnd<T>& step, const Mask& lanes)
+    {
+        using std::abs;
+        using std::fma;
+        const T rounding(std::numeric_limits<S>::epsilon());
+        const T duration = (step.phase - now_.phase) / excitation_.frequency;
+        const T rate = abs(now_.rate) + abs(step.rate);
+        const T acceleration = abs(excitation_.acceleration) + block_.slenderness; // at most
+        const T late = abs(step.phase) / excitation_.frequency; // the phase is rounded, too
+        growth_.pass(step.errors.variation, lanes);
+        growth_.add(step.errors.tilt, step.errors.rate,
+                    T(rounding * fma(duration + late, rate, step.tilt)),
+                    T(rounding * fma(duration + late, acceleration, rate)), lanes);
+
+        // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
+        const T radius = growth_.bound(T(S(1)), zero_);
+        const T turn = step.errors.turning_tilt;
+        const Mask inward = now_.rate < zero_ && step.rate > zero_ && !step.falls;
+        const Mask outward = now_.rate > zero_ && step.rate < zero_ && !step.strikes;
+        const Mask met =
+            (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
+        doubtful_ = doubtful_ || (lanes && met);
+    }
+
+    /// What is known to first order is trusted as long as the square of the speed is known to a
+    /// quarter of itself; that a series of bounces dies out, to a 64th. A block that stood on its
+    /// edge for long before it came back may as well have overturned: its distance from the top has
+    /// grown since, like its error, which must still be small beside alpha.
+    void pass_errors_over_impact(const Mask& lanes, const Mask& rests)
+    {
+        const T push = now_.side * excitation_.ground(now_.phase);
+        const T before = rocking_acceleration<theory>(zero_, block_.slenderness, push);
+        const T after = rocking_acceleration<theory>(zero_, block_.slenderness, T(-push));
+        const T speed = select<T>(lanes && now_.rate < zero_, -now_.rate, T(S(1)));
+        const T square_error = growth_.bound(T(before + before), T(speed + speed));
+        const T share = select<T>(rests, T(S(64)), T(S(4)));
+        const T radius = growth_.bound(T(S(1)), zero_);
+        const Mask known =
+            share * square_error < speed * speed && T(S(4)) * radius < block_.slenderness;
+        doubtful_ = doubtful_ || (lanes && !(known && now_.rate < zero_));
+        growth_.pass(variation_over_impact<T>(sqrt_restitution_, speed, before, after), lanes);
+    }
+
+    /// Bound of the error of the margin where the lanes are.
+    T margin_error() const
+    {
+        using std::abs;
+        const State<T> state{now_.tilt, now_.rate, now_.side};
+        const T radius = growth_.bound(T(S(1)), zero_);
+        const T largest = separatrix_rate<theory>(zero_, block_.slenderness);
+        const T roundings(8 * std::numeric_limits<S>::epsilon());
+
+        const MarginGradient<T> gradient = margin_gradient<theory>(state, block_);
+        const SafeRates<T> safe = safe_rates<theory>(state.tilt, block_);
+        // Of the branch that counts: far from it, the other one may be of any size.
+        const T limit = select<T>(gradient.by_rate < zero_, abs(safe.outward), safe.inward);
+        const T standing = growth_.bound(gradient.by_tilt, gradient.by_rate) +
+                           roundings * (abs(state.rate) + limit) / largest;
+        // Just before an impact and just after, the margin differs by sqrt r.
+        const T loss = T(S(1)) / sqrt_restitution_ - T(S(1));
+        const T jump = abs(margin_after_pulse<theory>(state, block_)) * loss;
+        const T near_impact = select<T>(state.tilt < radius, jump, zero_);
+
+        // On its way to pi/2, at the acceleration a, the square of its speed v changes by
+        // 2 v d(rate) - 2 a d(tilt).
+        const T push = now_.side * excitation_.ground(now_.phase);
+        const T pull = -rocking_acceleration<theory>(now_.tilt, block_.slenderness, push);
+        const T lying = (growth_.bound(T(pull + pull), T(now_.rate + now_.rate)) +
+                         roundings * now_.rate * now_.rate) /
+                        (largest * largest);
+        // Whether it lies before the pulse ends.
+        const T left = (end_ - now_.phase) / excitation_.frequency;
+        const Mask& fell = end_of_run_.fell;
+        const Mask either =
+            (fell && left * now_.rate < radius) || (!fell && T(pi<S>() / 2) - now_.tilt < radius);
+        // The energy of a fall is bounded away from zero, its distance from the separatrix is not:
+        // that distance has grown like the error, which must be a small share of it.
+        const Mask barely =
+            fell && !(T(S(4)) * standing < abs(margin_after_pulse<theory>(state, block_)));
+        const T error = select<T>(fell, lying, standing + near_impact);
+        const Mask known = growth_.bound(T(S(1)), T(S(1))) < T(unknown_error<S> * S(0x1p-100));
+        const Mask unknown = doubtful_ || end_of_run_.capped || end_of_run_.not_finite || either ||
+                             barely || !known || !(error == error);
+        return select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
     }
 
     const Block<T> block_;
@@ -153,10 +258,14 @@ private:
     const T zero_;
     T sqrt_restitution_;
 
-    typename Method::template Stepper<Pulse, theory, T> stepper_;
+    typename Method::template Stepper<Pulse, theory, T, records.error> stepper_;
     Rocking<T> now_;
     Mask active_;
     ForcedEnd<T> end_of_run_;
+
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, Nothing> growth_;
+    Mask doubtful_; // an event may or may not have happened
 };
 
 /// Steps every stage in turn until all are done.

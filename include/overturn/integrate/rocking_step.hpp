@@ -2,7 +2,7 @@
 // A stepper follows the motion on one side; impacts, rest and uplift are the forced stage's.
 #pragma once
 
-#include "overturn/number/number.hpp"
+#include "overturn/integrate/error_growth.hpp"
 
 namespace overturn {
 
@@ -25,6 +25,12 @@ struct StepEnd {
     mask_t<T> strikes; ///< the ground, with -rate
     mask_t<T> falls;   ///< tilt has reached pi/2
     mask_t<T> broken;  ///< a number is not finite, and no other step would be
+};
+
+/// A step that has watched its errors.
+template <Number T>
+struct WatchedStepEnd : StepEnd<T> {
+    StepErrors<T> errors;
 };
 
 } // namespace overturn

@@ -9,11 +9,15 @@
 #include "overturn/integrate/step_size.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_series.hpp"
+
+#include <type_traits>
 
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
-template <class Pulse, Theory theory, Number T>
+/// watched: whether a step tells its errors.
+template <class Pulse, Theory theory, Number T, bool watched = false>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -29,6 +33,11 @@ public:
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
         first_step_ = step_error_power(T(tolerance)) / fastest;
         step_size_ = first_step_;
+        if constexpr (watched) {
+            embedded_share_ =
+                T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
+            sample_ = {zero_, zero_, zero_};
+        }
     }
 
     /// Uplift: nothing is known of how long a step may be.
@@ -44,10 +53,13 @@ public:
         const T push = now.side * excitation_.ground(now.phase);
         const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
+        if constexpr (watched) {
+            remember(sample(now.side, now.tilt, now.rate, now.phase), lanes);
+        }
     }
 
     /// One trial step in every lane; what the lanes that are not active do means nothing.
-    StepEnd<T> step(const Rocking<T>& now, const Mask& active)
+    auto step(const Rocking<T>& now, const Mask& active)
     {
         const Motion<T> start{now.tilt, now.rate, acceleration_};
         const T left = (end_ - now.phase) / excitation_.frequency;
@@ -86,7 +98,15 @@ public:
             const Mask flat = towards_fall_ > zero_;
             land_on_event(end, landed && !flat, landed && flat, acceleration_, excitation_);
         }
-        return end;
+        if constexpr (watched) {
+            const Sample last_sample =
+                sample(now.side, step.end.position, step.end.rate, now.phase + phase_step);
+            const StepErrors<T> errors = this->errors(now, start, step, h, last_sample);
+            remember(last_sample, moved);
+            return WatchedStepEnd<T>{end, errors};
+        } else {
+            return end;
+        }
     }
 
 private:
@@ -111,6 +131,105 @@ private:
         const T error = select<T>(position_error < rate_error, rate_error,
                                   position_error + (rate_error - rate_error));
         return error / allowed;
+    }
+
+    /// The equation of motion at one point of the motion.
+    struct Sample {
+        T acceleration;
+        T jerk; // its derivative by tau, along the motion
+        T stiffness;
+    };
+
+    Sample sample(const T& side, const T& tilt, const T& rate, const T& phase) const
+    {
+        using std::fma;
+        const auto push = pulse_series<Pulse, 2>(T(side * excitation_.acceleration), phase,
+                                                 excitation_.frequency);
+        const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
+        T lever(S(1)); // of the push
+        if constexpr (theory == Theory::nonlinear) {
+            lever = sine_and_cosine(T(block_.slenderness - tilt)).cosine;
+        }
+        return {rocking_acceleration<theory>(tilt, block_.slenderness, push[0]),
+                fma(stiffness, rate, -push[1] * lever), stiffness};
+    }
+
+    void remember(const Sample& sample, const Mask& lanes)
+    {
+        sample_.acceleration = select<T>(lanes, sample.acceleration, sample_.acceleration);
+        sample_.jerk = select<T>(lanes, sample.jerk, sample_.jerk);
+        sample_.stiffness = select<T>(lanes, sample.stiffness, sample_.stiffness);
+    }
+
+    /// The step against the integrals of its own acceleration, by a formula of order 6 from the
+    /// accelerations at its ends and, on its dense output, in the middle, and the jerks at its
+    /// ends:
+    ///
+    ///     int a dt = h (7 a0 + 16 am + 7 a1) / 30 + h^2 (j0 - j1) / 60
+    ///     int (h - t) a dt = h^2 (13 a0 + 16 am + a1) / 60 + h^3 j0 / 60
+    ///
+    /// What is amiss is the error of the solution of order 5, and a smaller one of the formula. For
+    /// that a part of the embedded estimate e, an error of order 5, comes on top: of order 7, as
+    /// (e / size)^(2/5) goes with h^2. Twice the sum covers what still longer steps miss; of
+    /// steps that are longer than an angle of the pulse of 2 nothing is known.
+    StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
+                         const T& h, const Sample& last) const
+    {
+        using std::abs;
+        using std::fma;
+        const Motion<T>& end = step.end;
+        const Quintic<T> tilt = dense_output(start, end, h);
+        const T middle_tilt =
+            ((tilt[0] + tilt[5]) + T(S(5)) * (tilt[1] + tilt[4]) + T(S(10)) * (tilt[2] + tilt[3])) *
+            T(S(1) / 32);
+        const T phase_step = excitation_.frequency * h;
+        const Sample& first = sample_;
+        const Sample middle =
+            sample(now.side, middle_tilt, zero_, fma(phase_step, T(S(0.5)), now.phase));
+        const T rate_gain = h * fma(T(S(7) / 30), first.acceleration + last.acceleration,
+                                    fma(T(S(16) / 30), middle.acceleration,
+                                        h * T(S(1) / 60) * (first.jerk - last.jerk)));
+        const T tilt_gain = h * fma(h,
+                                    fma(T(S(13) / 60), first.acceleration,
+                                        fma(T(S(16) / 60), middle.acceleration,
+                                            T(S(1) / 60) * fma(h, first.jerk, last.acceleration))),
+                                    start.rate);
+        const T tilt_error = abs((end.position - start.position) - tilt_gain);
+        const T rate_error = abs((end.rate - start.rate) - rate_gain);
+        // A constant push has no phase; there the block's own time says what is long.
+        const T length = std::same_as<Pulse, Rectangular> ? h : phase_step;
+        const T blind = select<T>(length > T(S(2)), T(unknown_error<S>), zero_);
+        const T two(S(2));
+        return {.variation =
+                    variation_over<T>(h, first.stiffness, middle.stiffness, last.stiffness),
+                .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
+                .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), blind),
+                .turning_tilt = turning_tilt(start, end, tilt)};
+    }
+
+    /// Where the rate changes its sign within the step: the tilt there, if the ground or pi/2 may
+    /// be near, and otherwise one that is nearer.
+    T turning_tilt(const Motion<T>& start, const Motion<T>& end, const Quintic<T>& tilt) const
+    {
+        const T one(S(1));
+        const T near_ground = block_.slenderness * T(S(1) / 16);
+        const T near_flat(pi<S>() / 2 - S(1) / 16);
+        const Mask turns = start.rate * end.rate < zero_;
+        const Mask suspect =
+            turns && (lower_bound(tilt) < near_ground || upper_bound(tilt) > near_flat);
+        const T nearer = select<T>(start.rate < zero_, near_ground, near_flat);
+        if (!any<T>(suspect)) {
+            return nearer;
+        }
+        T s = select<T>(turns, start.rate, zero_) / select<T>(turns, start.rate - end.rate, one);
+        for (int i = 0; i < 3; ++i) { // Newton's method; a step is too long for the secant alone
+            const Quintic<T> after = restricted(tilt, s, one);
+            const T slope = after[1] - after[0];
+            const T bend = T(S(4)) * (after[2] - after[1] - slope);
+            const T next = s - (one - s) * slope / select<T>(bend != zero_, bend, one);
+            s = select<T>(turns && next > zero_ && next < one, next, s);
+        }
+        return select<T>(suspect, restricted(tilt, zero_, s).back(), nearer);
     }
 
     /// Finds the first impact or fall within an accepted step, and sets the lanes that have one to
@@ -148,12 +267,16 @@ private:
     T landing_step_; // the step that ends at an event found before [1/p]
     T towards_fall_; // 1 if that event is the fall, 0 if it is an impact
     Mask landing_;
+
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<watched, Sample, Nothing> sample_; // at the beginning
+    [[no_unique_address]] std::conditional_t<watched, T, Nothing> embedded_share_; // see errors()
 };
 
 /// The method as a choice: Dormand-Prince 5(4).
 struct RungeKutta {
-    template <class Pulse, Theory theory, Number T>
-    using Stepper = RungeKuttaStepper<Pulse, theory, T>;
+    template <class Pulse, Theory theory, Number T, bool watched = false>
+    using Stepper = RungeKuttaStepper<Pulse, theory, T, watched>;
 };
 
 } // namespace overturn

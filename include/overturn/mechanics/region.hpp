@@ -82,6 +82,30 @@ T margin_after_pulse(const State<T>& state, const Block<T>& block)
     return select<T>(above < below, above, below) / safe.largest;
 }
 
+/// How the margin changes with the state [1/rad].
+template <Number T>
+struct MarginGradient {
+    T by_tilt;
+    T by_rate;
+};
+
+/// The gradient of margin_after_pulse(), on that side of its kink on which the state is.
+template <Theory theory, Number T>
+MarginGradient<T> margin_gradient(const State<T>& state, const Block<T>& block)
+{
+    using S = scalar_t<T>;
+    const T one(S(1));
+    const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
+    T slope = -one; // of the separatrix rate c
+    if constexpr (theory == Theory::nonlinear) {
+        slope = -sine_and_cosine(T((block.slenderness - state.tilt) * T(S(0.5)))).cosine;
+    }
+    const mask_t<T> above = safe.outward - state.rate < state.rate + safe.inward;
+    const T inward = select<T>(safe.inward > T(S(0)), safe.outward / safe.inward, one);
+    return {slope * select<T>(above, one, inward) / safe.largest,
+            select<T>(above, -one, one) / safe.largest};
+}
+
 /// The margin of a block that reached |theta| = pi/2 during the pulse: -theta'^2 / q_max.
 template <Theory theory, Number T>
 T margin_of_fall(const T& rate, const Block<T>& block)

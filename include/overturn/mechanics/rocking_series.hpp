@@ -5,6 +5,8 @@
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_series.hpp"
 
+#include <algorithm>
+
 namespace overturn {
 
 /// tilt(t) = sum of tilt[k] t^k, and its rate d tilt / d t likewise, one order less; t in the time
@@ -84,6 +86,16 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
             x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
         });
     }
+    return series;
+}
+
+/// The series up to a lower order.
+template <int order, int known_order, Number T>
+RockingSeries<order, T> leading(const RockingSeries<known_order, T>& known)
+{
+    RockingSeries<order, T> series;
+    std::copy_n(known.tilt.begin(), series.tilt.size(), series.tilt.begin());
+    std::copy_n(known.rate.begin(), series.rate.size(), series.rate.begin());
     return series;
 }
 

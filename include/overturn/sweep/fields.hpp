@@ -10,11 +10,11 @@
 
 namespace overturn {
 
-enum class Field { region, angle, velocity, margin, impacts, status };
+enum class Field { region, angle, velocity, margin, error, impacts, steps, status };
 
 /// Names as they stand in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 6> field_names{"region", "angle",   "velocity",
-                                                             "margin", "impacts", "status"};
+inline constexpr std::array<std::string_view, 8> field_names{
+    "region", "angle", "velocity", "margin", "error", "impacts", "steps", "status"};
 
 constexpr std::string_view name_of(Field field)
 {
@@ -22,9 +22,9 @@ constexpr std::string_view name_of(Field field)
 }
 
 /// The values of one field in one tile, row by row, frequency fastest. region and status: uint8;
-/// impacts: uint16; angle, velocity, margin: double.
-using FieldValues =
-    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<double>>;
+/// impacts: uint16; steps: uint32; angle, velocity, margin, error: double.
+using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
+                                 std::vector<std::uint32_t>, std::vector<double>>;
 
 /// An array for `points` values of a field.
 FieldValues make_field_values(Field field, std::size_t points);
@@ -36,6 +36,7 @@ constexpr std::size_t bytes_per_point(Field field)
     case Field::region:
     case Field::status: return sizeof(std::uint8_t);
     case Field::impacts: return sizeof(std::uint16_t);
+    case Field::steps: return sizeof(std::uint32_t);
     default: return sizeof(double);
     }
 }
@@ -45,7 +46,7 @@ namespace status {
 inline constexpr std::uint8_t came_to_rest = 1; ///< lay still for a while during the pulse
 inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps or impacts: undecided
 inline constexpr std::uint8_t not_finite = 4;   ///< a number overflowed: undecided
-inline constexpr std::uint8_t unresolved = 8;   ///< reserved for resolved verdicts
+inline constexpr std::uint8_t unresolved = 8;   ///< no number of digits settled the verdict
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 
@@ -55,5 +56,10 @@ inline constexpr std::uint16_t bounce_series = 65535; ///< infinitely many: a se
 inline constexpr std::uint16_t not_computed = 65534;
 inline constexpr std::uint16_t largest = 65533; ///< stands for itself and for more
 } // namespace impact_count
+
+/// Values of the field steps beyond a plain count.
+namespace step_count {
+inline constexpr std::uint32_t not_computed = 0xffffffff;
+} // namespace step_count
 
 } // namespace overturn

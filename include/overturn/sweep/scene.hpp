@@ -63,6 +63,7 @@ struct Scene {
 struct Numerics {
     Method method = Method::rk45;
     double tolerance = 1e-9; ///< local error per step of tilt and rate, over the slenderness [1]
+    bool resolve = false;    ///< whether verdicts in doubt are settled with more digits
 };
 
 } // namespace overturn

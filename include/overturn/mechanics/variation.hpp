@@ -1,0 +1,69 @@
+// How a small change of a rocking block's state is passed on: by the linearised Eq. 47 between
+// impacts, and by the impact itself. The upright block is an inverted pendulum, so changes grow; a
+// slow impact amplifies them.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+
+namespace overturn {
+
+/// A 2 x 2 matrix: d(tilt, rate) at the end over d(tilt, rate) at the beginning.
+template <Number T>
+struct Variation {
+    T tilt_by_tilt; ///< [1]
+    T tilt_by_rate; ///< [1/p]
+    T rate_by_tilt; ///< [p]
+    T rate_by_rate; ///< [1]
+};
+
+/// d(|theta|'') / d|theta| of Eq. 47 with y = alpha - |theta| and the push B:
+///
+///     k = cos y - B sin y          linear theory: 1
+template <Theory theory, Number T>
+T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
+{
+    using std::fma;
+    if constexpr (theory == Theory::linear) {
+        return T(scalar_t<T>(1));
+    } else {
+        const auto [sine, cosine] = sine_and_cosine(T(slenderness - tilt));
+        return fma(-push, sine, cosine);
+    }
+}
+
+/// Over a time h [1/p] without an event, from the stiffness at its beginning, its middle and its
+/// end: the classical Runge-Kutta step for delta'' = k(t) delta, written out. Off by about
+/// (k h^2)^(5/2) / 120, which is enough for the size of an error.
+template <Number T>
+Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T& end)
+{
+    using std::fma;
+    using S = scalar_t<T>;
+    const T one(S(1));
+    const T square = h * h;
+    const T sixth = square * T(S(1) / 6);
+    const T corner = square * square * T(S(1) / 24) * middle;
+    const T two_middle = middle + middle;
+    return {.tilt_by_tilt = fma(corner, begin, fma(sixth, begin + two_middle, one)),
+            .tilt_by_rate = h * fma(sixth, middle, one),
+            .rate_by_tilt = h * fma(T(S(0.5)) * sixth * middle, begin + end,
+                                    T(S(1) / 6) * (begin + two_middle + two_middle + end)),
+            .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one))};
+}
+
+/// Over an impact at the speed w: a tilt that is too large by d strikes later by d / w, and has
+/// another acceleration meanwhile. a, b: d^2|theta| / d tau^2 just before and just after.
+///
+///     tilt+ = -sqrt(r) tilt-,   rate+ = -sqrt(r) rate- - (sqrt(r) a + b) tilt- / w
+template <Number T>
+Variation<T> variation_over_impact(const T& sqrt_restitution, const T& speed, const T& before,
+                                   const T& after)
+{
+    using std::fma;
+    return {.tilt_by_tilt = -sqrt_restitution,
+            .tilt_by_rate = T(scalar_t<T>(0)),
+            .rate_by_tilt = -fma(sqrt_restitution, before, after) / speed,
+            .rate_by_rate = -sqrt_restitution};
+}
+
+} // namespace overturn

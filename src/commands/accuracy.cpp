@@ -1,0 +1,96 @@
+// What accuracy costs in time, on the plane of a job.
+#include "commands.hpp"
+#include "exit_code.hpp"
+
+#include "overturn/farm/human_units.hpp"
+#include "overturn/file/accuracy_file.hpp"
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/sole_writer.hpp"
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/job/job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace overturn {
+
+namespace {
+
+void say(const std::string& line)
+{
+    fmt::print("{}\n", line);
+    std::fflush(stdout); // each row as soon as it is there
+}
+
+/// Time of one pass over the sample: the median of a few [s].
+double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
+{
+    using Clock = std::chrono::steady_clock;
+    std::vector<double> times;
+    double all = 0;
+    while (times.size() < 3 || (all < 0.2 && times.size() < 25)) {
+        const auto start = Clock::now();
+        study.compute_regions(numerics);
+        times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+        all += times.back();
+    }
+    std::sort(times.begin(), times.end());
+    return times[times.size() / 2];
+}
+
+void print_head(const AccuracySample& sample)
+{
+    say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n",
+                    sample.plane.points(), sample.settled, sample.in_digits));
+    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>9}", "", "",
+                    "time per", "", "evalu-", "error of the margin", "wrong", "error", "bound /"));
+    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:>9} {:>9} {:>9}  {:>8} {:>6} {:>9}",
+                    "method", "tolerance", "point", "steps", "ations", "median", "99 %", "largest",
+                    "verdicts", "> bound", "error"));
+}
+
+void print_row(const AccuracyRow& row, const AccuracySample& sample)
+{
+    const std::string name =
+        fmt::format("{}{}", name_of(row.numerics.method), row.numerics.resolve ? " resolved" : "");
+    const auto share = [](double value) {
+        return std::isnan(value) ? std::string("-") : fmt::format("{:.2g}", value);
+    };
+    say(fmt::format(
+        "{:<15} {:>9.0e} {:>6.3f} us {:>7.1f} {:>6.0f}   {:>9.1e} {:>9.1e} {:>9.1e}  "
+        "{:>8} {:>6} {:>9}",
+        name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps, row.evaluations,
+        row.margin[0], row.margin[2], row.margin[4],
+        row.flips == 0 ? "0" : fmt::format("{:.1e}", double(row.flips) / double(sample.settled)),
+        share(row.bound_exceeded), share(row.bound_over_error)));
+}
+
+} // namespace
+
+int accuracy(const AccuracyOptions& options)
+{
+    const Kernel kernel = widest_kernel();
+    const Job job = read_job(options.job.path, options.job.overrides);
+    const SoleWriter sole_writer(options.output);
+    expect_no_other_file(options.output);
+
+    say("settling verdicts and computing in 50 digits: about a minute");
+    const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);
+    print_head(study.sample());
+    std::vector<AccuracyRow> rows;
+    for (const Numerics& numerics : accuracy_ladder()) {
+        rows.push_back(study.measure(numerics));
+        rows.back().seconds_per_point =
+            seconds_of(study, numerics) / double(study.sample().plane.points());
+        print_row(rows.back(), study.sample());
+    }
+    write_accuracy_file(options.output, job, study.sample(), rows);
+    say(fmt::format("\n{0}: written; tools/plot_accuracy {0} draws it", options.output));
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,116 @@
+#include "netcdf.hpp"
+
+#include "layout.hpp"
+
+#include "overturn/file/provenance.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace overturn::netcdf {
+
+using hdf5::check;
+using hdf5::Handle;
+using hdf5::write_attribute;
+
+// Readers of netCDF-4 want attributes and links in order of creation; times would make equal runs
+// differ.
+Handle file_creation()
+{
+    Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    const unsigned ordered = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+    check(H5Pset_link_creation_order(creation, ordered));
+    check(H5Pset_attr_creation_order(creation, ordered));
+    check(H5Pset_obj_track_times(creation, false));
+    return creation;
+}
+
+Handle dataset_creation()
+{
+    Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    check(H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED));
+    check(H5Pset_obj_track_times(creation, false));
+    return creation;
+}
+
+Handle create_dataset(hid_t file, const char* name, hid_t type, const Shape& shape, hid_t creation)
+{
+    const Handle space(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose);
+    return Handle(H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                  H5Dclose);
+}
+
+void add_numbers(hid_t file, const char* name, const Shape& shape,
+                 const std::vector<double>& values, const char* long_name, const char* units)
+{
+    const Handle dataset = create_dataset(file, name, H5T_IEEE_F64LE, shape, dataset_creation());
+    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "units", units);
+}
+
+void make_dimension(hid_t file, const char* name)
+{
+    const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    check(H5DSset_scale(dataset, name));
+}
+
+void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length)
+{
+    const Handle creation = dataset_creation();
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
+    const Handle dataset =
+        create_dataset(file, name.c_str(), H5T_IEEE_F32BE, {hsize_t(length)}, creation);
+    const std::string mark =
+        fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", length);
+    check(H5DSset_scale(dataset, mark.c_str()));
+}
+
+void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
+{
+    if (text.empty()) {
+        return;
+    }
+    const std::string dimension = name + "_length";
+    add_bare_dimension(file, dimension, std::int64_t(text.size()));
+    const Handle dataset =
+        create_dataset(file, name.c_str(), H5T_C_S1, {text.size()}, dataset_creation());
+    check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
+    attach_dimensions(file, dataset, std::array{dimension.c_str()});
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "_Encoding", "utf-8");
+}
+
+void write_origin(hid_t file, const Job& job, const char* kind)
+{
+    write_attribute(file, "Conventions", "CF-1.8");
+    write_attribute(file, "title", job.title);
+    write_attribute(file, "kind", kind);
+    write_attribute(file, "source", fmt::format("overturn {}", program_version()));
+    write_attribute(file, "program_version", program_version());
+    write_attribute(file, "program_commit", program_commit());
+    write_attribute(file, "references",
+                    "A. E. Charalampakis, G. C. Tsiatas, P. Tsopelas: Rocking of rigid blocks: "
+                    "Analytical solution and exact energy-based overturning criteria");
+    write_attribute(file, "pulse", name_of(job.scene.pulse));
+    if (has_window(job.scene.pulse)) {
+        write_attribute(file, "window", job.scene.window);
+    }
+    write_attribute(file, "theory", name_of(job.scene.theory));
+    if (job.plane.block) {
+        write_attribute(file, "half_width", job.plane.block->half_width);
+        write_attribute(file, "half_height", job.plane.block->half_height);
+        write_attribute(file, "comment", "half_width and half_height of the block are in metres");
+    }
+}
+
+void add_job(hid_t file, const Job& job)
+{
+    add_text(file, layout::job_given, job.given, "job file as given");
+    add_text(file, layout::job_overrides, fmt::format("{}", fmt::join(job.overrides, "\n")),
+             "settings laid over the job file, one per line");
+    add_text(file, layout::job_resolved, job.resolved, "job as resolved, with every default");
+}
+
+} // namespace overturn::netcdf

@@ -1,0 +1,238 @@
+#include "overturn/sweep/accuracy.hpp"
+
+#include "overturn/sweep/sweep_tile.hpp"
+#include "tile_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace overturn {
+
+namespace {
+
+constexpr Numerics settling{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
+
+/// About `count` values of an axis, its ends among them.
+Axis spread(const Axis& axis, std::int64_t count)
+{
+    if (axis.size() <= count) {
+        return Axis(axis.values());
+    }
+    AxisList values;
+    for (std::int64_t i = 0; i < count; ++i) {
+        values.push_back(axis[count == 1 ? axis.size() / 2 : i * (axis.size() - 1) / (count - 1)]);
+    }
+    return Axis(values);
+}
+
+Plane sample_of(const Plane& plane, std::int64_t points)
+{
+    constexpr std::int64_t most_of_a_block = 3; // slendernesses, restitutions
+    Plane sample = plane;
+    sample.slenderness = spread(plane.slenderness, most_of_a_block);
+    sample.restitution = spread(plane.restitution, most_of_a_block);
+    const double left =
+        double(points) / double(sample.slenderness.size()) / double(sample.restitution.size());
+    const auto side = std::int64_t(std::sqrt(left));
+    const std::int64_t amplitudes = std::clamp<std::int64_t>(
+        std::int64_t(left / double(std::min(side, plane.frequency.size()))), 1,
+        plane.amplitude.size());
+    sample.amplitude = spread(plane.amplitude, amplitudes);
+    sample.frequency =
+        spread(plane.frequency, std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
+    return sample;
+}
+
+bool fell(std::uint8_t region)
+{
+    return region == std::uint8_t(Region::F_plus) || region == std::uint8_t(Region::F_minus);
+}
+
+std::size_t distance_class(double margin)
+{
+    return std::size_t(
+        std::upper_bound(distance_limits.begin(), distance_limits.end() - 1, std::abs(margin)) -
+        distance_limits.begin());
+}
+
+ErrorDistribution distribution(std::vector<double> errors)
+{
+    ErrorDistribution result{};
+    std::sort(errors.begin(), errors.end());
+    for (std::size_t i = 0; i < result.size() && !errors.empty(); ++i) {
+        const double last = double(errors.size() - 1);
+        result[i] = errors[std::size_t(std::ceil(error_quantiles[i] * last))];
+    }
+    return result;
+}
+
+double median(std::vector<double> values)
+{
+    if (values.empty()) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Errors of Runge-Kutta steps are not known at looser tolerances, see RungeKuttaStepper::errors().
+bool knows_errors(const Numerics& numerics)
+{
+    return numerics.method == Method::taylor || numerics.tolerance <= 1e-4;
+}
+
+template <class T>
+const std::vector<T>& values_of(const TileFields& fields, std::size_t i)
+{
+    return std::get<std::vector<T>>(fields.values[i]);
+}
+
+} // namespace
+
+std::vector<Numerics> accuracy_ladder()
+{
+    constexpr std::array tolerances{1e-2, 1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
+                                    1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14};
+    std::vector<Numerics> ladder;
+    for (const bool resolve : {false, true}) {
+        for (const Method method : {Method::rk45, Method::taylor}) {
+            for (const double tolerance : tolerances) {
+                const Numerics numerics{method, tolerance, resolve};
+                if (!resolve || (knows_errors(numerics) && tolerance >= 1e-8)) {
+                    ladder.push_back(numerics);
+                }
+            }
+        }
+    }
+    return ladder;
+}
+
+AccuracyStudy::AccuracyStudy(const Scene& scene, const Plane& plane, std::int64_t points,
+                             std::int64_t in_digits, Kernel kernel)
+    : scene_(scene), kernel_(kernel)
+{
+    sample_.plane = sample_of(plane, points);
+    settle_verdicts();
+    compute_in_digits(in_digits);
+}
+
+void AccuracyStudy::settle_verdicts()
+{
+    const Tiling tiling(sample_.plane);
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        const TileFields fields = sweep_tile(scene_, settling, sample_.plane, tiling[i],
+                                             {Field::region, Field::margin}, kernel_);
+        truth_.push_back({values_of<std::uint8_t>(fields, 0), values_of<double>(fields, 1)});
+        for (std::size_t point = 0; point < truth_.back().region.size(); ++point) {
+            const std::uint8_t region = truth_.back().region[point];
+            if (region < decided_regions) {
+                ++sample_.settled;
+                ++sample_.by_region[region];
+                ++sample_.by_distance[distance_class(truth_.back().margin[point])];
+            }
+        }
+    }
+}
+
+void AccuracyStudy::compute_in_digits(std::int64_t wanted)
+{
+    const Tiling tiling(sample_.plane);
+    const std::int64_t points = sample_.plane.points();
+    const double stride = std::max(1.0, double(points) / double(wanted));
+    std::int64_t before = 0;
+    double next = 0.5 * stride;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        const Tile tile = tiling[i];
+        const TileRun run(scene_, sample_.plane, tile, kernel_);
+        Ends ends(std::size_t(tile.points()), {.error = true});
+        for (; next < double(before + tile.points()); next += stride) {
+            const int point = int(std::int64_t(next) - before);
+            run.run_exactly(point, ends);
+            if (!(ends.flags[point] & end_flag::undecided)) {
+                in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
+                                      ends.side[point] * ends.tilt[point],
+                                      ends.side[point] * ends.rate[point],
+                                      ends.exact.back().margin});
+            }
+        }
+        before += tile.points();
+    }
+    sample_.in_digits = std::int64_t(in_digits_.size());
+}
+
+void AccuracyStudy::compute_regions(const Numerics& numerics) const
+{
+    const Tiling tiling(sample_.plane);
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        sweep_tile(scene_, numerics, sample_.plane, tiling[i], {Field::region}, kernel_);
+    }
+}
+
+AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
+{
+    const Tiling tiling(sample_.plane);
+    AccuracyRow row;
+    row.numerics = numerics;
+
+    std::vector<Field> asked{Field::region, Field::angle, Field::velocity, Field::margin,
+                             Field::steps};
+    const bool with_bounds = knows_errors(numerics);
+    if (with_bounds) {
+        asked.push_back(Field::error);
+    }
+    std::vector<double> angle, velocity, margin, ratios;
+    std::int64_t exceeded = 0;
+    double steps = 0;
+    auto exact = in_digits_.begin();
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        const TileFields fields =
+            sweep_tile(scene_, numerics, sample_.plane, tiling[i], asked, kernel_);
+        const Truth& truth = truth_[std::size_t(i)];
+        const auto& region = values_of<std::uint8_t>(fields, 0);
+        for (std::size_t point = 0; point < region.size(); ++point) {
+            steps += values_of<std::uint32_t>(fields, 4)[point];
+            if (region[point] >= decided_regions) {
+                ++row.undecided;
+            } else if (truth.region[point] < decided_regions &&
+                       is_safe(Region(region[point])) != is_safe(Region(truth.region[point]))) {
+                ++row.flips;
+                ++row.flips_by_region[truth.region[point]];
+                ++row.flips_by_distance[distance_class(truth.margin[point])];
+            }
+        }
+        for (; exact != in_digits_.end() && exact->tile == i; ++exact) {
+            const auto point = std::size_t(exact->point);
+            // A block that fell, or did not, where it should not have: another end altogether.
+            const bool other = fell(region[point]) != exact->fell;
+            const auto error = [&](std::size_t field, double true_value) {
+                const double value = values_of<double>(fields, field)[point];
+                const double found = std::abs(value - true_value);
+                return other || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
+                                                      : found;
+            };
+            angle.push_back(error(1, exact->angle));
+            velocity.push_back(error(2, exact->velocity));
+            margin.push_back(error(3, exact->margin));
+            if (with_bounds) {
+                const double bound = values_of<double>(fields, 5)[point];
+                exceeded += margin.back() > bound;
+                if (margin.back() > 0 && std::isfinite(bound)) {
+                    ratios.push_back(bound / margin.back());
+                }
+            }
+        }
+    }
+    const double points = double(sample_.plane.points());
+    row.steps = steps / points;
+    row.evaluations = row.steps * (numerics.method == Method::rk45 ? 6 : 1);
+    row.angle = distribution(angle);
+    row.velocity = distribution(velocity);
+    row.margin = distribution(margin);
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    row.bound_exceeded = with_bounds ? double(exceeded) / double(in_digits_.size()) : unknown;
+    row.bound_over_error = with_bounds ? median(ratios) : unknown;
+    return row;
+}
+
+} // namespace overturn

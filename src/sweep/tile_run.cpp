@@ -1,0 +1,196 @@
+#include "tile_run.hpp"
+
+#include "exact_kernel.hpp"
+
+#include "overturn/mechanics/pulse.hpp"
+
+namespace overturn {
+
+#define OVERTURN_FOR_EACH_PULSE(X, isa)                                                            \
+    X(isa, OneSine)                                                                                \
+    X(isa, OneCosine)                                                                              \
+    X(isa, SymmetricRicker)                                                                        \
+    X(isa, AntisymmetricRicker)                                                                    \
+    X(isa, HalfSine)                                                                               \
+    X(isa, Rectangular)
+#define OVERTURN_DECLARE(isa, pulse)                                                               \
+    SweepKernel sweep_kernel_##isa##_##pulse(Integrator, Theory, Recorded);
+#define OVERTURN_LIST(isa, pulse) sweep_kernel_##isa##_##pulse,
+#define OVERTURN_DECLARE_EXACT(isa, pulse) ExactEnd exact_kernel_##pulse(Theory, const PlanePoint&);
+#define OVERTURN_LIST_EXACT(isa, pulse) exact_kernel_##pulse,
+
+OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE_EXACT, any)
+OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, double)
+extern const FieldKernels field_kernels_double;
+#ifdef __x86_64__
+extern const FieldKernels field_kernels_avx2;
+extern const FieldKernels field_kernels_avx512;
+OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, avx2)
+OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, avx512)
+#endif
+
+namespace {
+
+/// In the order of Kernel and PulseKind.
+constexpr SweepKernelChoice kernels[][pulse_names.size()] = {
+    {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST, double)},
+#ifdef __x86_64__
+    {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST, avx2)},
+    {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST, avx512)},
+#endif
+};
+
+/// In the order of PulseKind.
+constexpr ExactKernel exact_kernels[] = {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST_EXACT, any)};
+
+const FieldKernels& field_kernels(Kernel kernel)
+{
+#ifdef __x86_64__
+    if (kernel != Kernel::one_lane) {
+        return kernel == Kernel::avx512 ? field_kernels_avx512 : field_kernels_avx2;
+    }
+#endif
+    return field_kernels_double;
+}
+
+/// Calls visit.template operator()<Pulse>() for the pulse of this kind.
+template <class Visitor>
+auto with_pulse(PulseKind kind, const Visitor& visit)
+{
+    switch (kind) {
+    case PulseKind::one_cosine: return visit.template operator()<OneCosine>();
+    case PulseKind::symmetric_ricker: return visit.template operator()<SymmetricRicker>();
+    case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
+    case PulseKind::half_sine: return visit.template operator()<HalfSine>();
+    case PulseKind::rectangular: return visit.template operator()<Rectangular>();
+    case PulseKind::one_sine: break;
+    }
+    return visit.template operator()<OneSine>();
+}
+
+template <class Visitor>
+auto with_theory(Theory theory, const Visitor& visit)
+{
+    return theory == Theory::linear ? visit.template operator()<Theory::linear>()
+                                    : visit.template operator()<Theory::nonlinear>();
+}
+
+} // namespace
+
+PointEnds Ends::pointers()
+{
+    const auto unless_empty = [](std::vector<double>& values) {
+        return values.empty() ? nullptr : values.data();
+    };
+    return {tilt.data(),           rate.data(),         side.data(),        flags.data(),
+            unless_empty(impacts), unless_empty(error), unless_empty(steps)};
+}
+
+TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel)
+    : scene_(scene), plane_(plane),
+      tile_(tile), block_{plane.slenderness[tile.slenderness],
+                          plane.restitution_ratio(tile.slenderness, tile.restitution)},
+      kernel_(kernel), frequency_(plane.frequency.values(
+                           tile.frequency_begin, tile.frequency_begin + tile.frequency_count))
+{
+    const double threshold = with_theory(scene.theory, [&]<Theory theory>() {
+        return uplift_acceleration<theory>(block_.slenderness);
+    });
+    with_pulse(scene.pulse, [&]<class Pulse>() {
+        begin_ = Pulse::begin(scene.window);
+        end_ = Pulse::end(scene.window);
+        for (std::int64_t row = 0; row < tile.amplitude_count; ++row) {
+            const double amplitude = plane.amplitude[tile.amplitude_begin + row];
+            acceleration_.push_back(amplitude * threshold);
+            const auto phases = uplift_phases<Pulse>(amplitude, scene.window);
+            uplifts_.insert(uplifts_.end(), phases.begin(), phases.end());
+        }
+    });
+}
+
+void TileRun::run(const Numerics& numerics, Ends& ends) const
+{
+    run(numerics, nullptr, ends.size(), ends);
+}
+
+void TileRun::run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const
+{
+    if (!chosen.empty()) {
+        run(numerics, chosen.data(), int(chosen.size()), ends);
+    }
+}
+
+void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& ends) const
+{
+    const TilePoints points{.slenderness = block_.slenderness,
+                            .restitution = block_.restitution,
+                            .rows = int(acceleration_.size()),
+                            .columns = int(frequency_.size()),
+                            .acceleration = acceleration_.data(),
+                            .uplifts = uplifts_.data(),
+                            .frequency = frequency_.data(),
+                            .begin = begin_,
+                            .end = end_,
+                            .tolerance = numerics.tolerance,
+                            .chosen = chosen,
+                            .chosen_count = count};
+    const Recorded recorded = !ends.error.empty()     ? Recorded::error
+                              : !ends.impacts.empty() ? Recorded::impacts
+                                                      : Recorded::nothing;
+    const SweepKernelChoice choice = kernels[std::size_t(kernel_)][std::size_t(scene_.pulse)];
+    const SweepKernel sweep = choice(integrator_of(numerics), scene_.theory, recorded);
+    sweep(points, ends.pointers());
+}
+
+void TileRun::run_exactly(int point, Ends& ends) const
+{
+    const int columns = int(frequency_.size());
+    const ExactEnd end = exact_kernels[std::size_t(scene_.pulse)](
+        scene_.theory, {.slenderness = block_.slenderness,
+                        .restitution = block_.restitution,
+                        .amplitude = plane_.amplitude[tile_.amplitude_begin + point / columns],
+                        .frequency = frequency_[std::size_t(point % columns)],
+                        .window = scene_.window});
+    ends.tilt[point] = end.tilt;
+    ends.rate[point] = end.rate;
+    ends.side[point] = end.side;
+    ends.flags[point] = end.flags;
+    ends.error[point] = end.error;
+    const auto put = [&](std::vector<double>& values, double value) {
+        if (!values.empty()) {
+            values[point] = value;
+        }
+    };
+    put(ends.impacts, end.impacts);
+    put(ends.steps, end.steps);
+    ends.exact.push_back({point, end.region, end.margin});
+}
+
+std::vector<std::uint8_t> TileRun::regions(Ends& ends) const
+{
+    std::vector<std::uint8_t> codes(ends.flags.size());
+    field_kernels(kernel_).regions(scene_.theory, block_, ends.pointers(), ends.size(),
+                                   codes.data());
+    for (const ExactPoint& exact : ends.exact) {
+        codes[exact.point] = std::uint8_t(exact.region);
+    }
+    for (const int point : ends.unresolved) {
+        codes[point] = std::uint8_t(Region::undecided);
+    }
+    return codes;
+}
+
+std::vector<double> TileRun::margins(Ends& ends) const
+{
+    std::vector<double> values(ends.flags.size());
+    field_kernels(kernel_).margins(scene_.theory, block_, ends.pointers(), ends.size(),
+                                   values.data());
+    for (const ExactPoint& exact : ends.exact) {
+        if (!(ends.flags[exact.point] & end_flag::undecided)) {
+            values[exact.point] = exact.margin;
+        }
+    }
+    return values;
+}
+
+} // namespace overturn

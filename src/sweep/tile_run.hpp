@@ -1,0 +1,80 @@
+// The forced stages of a tile, as often and as finely as its verdicts need.
+#pragma once
+
+#include "sweep_kernel.hpp"
+
+#include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/kernel.hpp"
+#include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/tile.hpp"
+
+#include <vector>
+
+namespace overturn {
+
+/// What a job asks of the forced stages beside where they end.
+struct Asked {
+    bool impacts = false;
+    bool error = false;
+    bool steps = false;
+};
+
+/// A point whose end was found in 50 digits: what doubles would spoil.
+struct ExactPoint {
+    int point = 0; ///< counted row by row
+    Region region = Region::undecided;
+    double margin = 0;
+};
+
+/// The arrays behind PointEnds; empty where nobody asks.
+struct Ends {
+    Ends(std::size_t points, const Asked& asked)
+        : tilt(points), rate(points), side(points), flags(points),
+          impacts(asked.impacts ? points : 0), error(asked.error ? points : 0),
+          steps(asked.steps ? points : 0)
+    {}
+
+    PointEnds pointers();
+    int size() const { return int(tilt.size()); }
+
+    std::vector<double> tilt, rate, side;
+    std::vector<std::uint8_t> flags;
+    std::vector<double> impacts, error, steps;
+    std::vector<ExactPoint> exact; ///< seldom any, as of the next
+    std::vector<int> unresolved;   ///< points that stay in doubt
+};
+
+/// One tile, made ready to run; of a plane that lives longer.
+class TileRun {
+public:
+    TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel);
+
+    /// Integrates every point, or the chosen ones.
+    void run(const Numerics& numerics, Ends& ends) const;
+    void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
+
+    /// Integrates one point in 50 digits.
+    void run_exactly(int point, Ends& ends) const;
+
+    std::vector<std::uint8_t> regions(Ends& ends) const;
+    std::vector<double> margins(Ends& ends) const; ///< not a number where undecided
+
+private:
+    void run(const Numerics& numerics, const int* chosen, int count, Ends& ends) const;
+
+    Scene scene_;
+    const Plane& plane_;
+    Tile tile_;
+    Block<double> block_;
+    Kernel kernel_;
+    std::vector<double> acceleration_, uplifts_, frequency_;
+    double begin_, end_;
+};
+
+/// Integrates every point of a tile; if the job wants its verdicts resolved, those in doubt again,
+/// with more and more digits. What stays in doubt gets end_flag::unresolved.
+Ends integrate(const TileRun& tile, const Numerics& numerics, std::size_t points,
+               const Asked& asked);
+
+} // namespace overturn

@@ -1,0 +1,122 @@
+"""overturn accuracy and its picture, and jobs that ask for errors or resolved verdicts."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from program import Scratch, checksum
+
+PLOT_ACCURACY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_accuracy"
+FEW = ("--points", "1024", "--digits", "16")
+
+
+class AnAccuracyStudy(Scratch):
+    def study(self, *arguments):
+        return self.overturn("accuracy", "small.toml", "-o", "study.h5", *FEW, *arguments)
+
+    def plot(self, *arguments):
+        return subprocess.run([sys.executable, PLOT_ACCURACY, *arguments], cwd=self.folder,
+                              capture_output=True, text=True, timeout=60)
+
+    def test_prints_a_row_per_setting_and_writes_them(self):
+        result = self.study()
+        self.assert_exit(result, 0, "16 in 50 digits", "study.h5: written")
+        rows = re.findall(r"^(?:rk45|taylor)( resolved)?\s+1e-\d\d", result.stdout, re.MULTILINE)
+        with h5py.File(self.folder / "study.h5") as file:
+            self.assertEqual(len(rows), len(file["tolerance"]))
+            self.assertEqual(sum(map(bool, rows)), file["resolve"][:].sum())
+            self.assertEqual(file.attrs["points_in_50_digits"], 16)
+            self.assertTrue((file["seconds_per_point"][:] > 0).all())
+
+    def test_no_resolved_verdict_is_wrong_and_the_loosest_are(self):
+        self.study()
+        with h5py.File(self.folder / "study.h5") as file:
+            resolved = file["resolve"][:] == 1
+            self.assertEqual(file["flips"][:][resolved].sum(), 0)
+            self.assertGreater(file["flips"][:][file["tolerance"][:] == 1e-2].max(), 0)
+
+    def test_opens_in_xarray_with_its_coordinates(self):
+        self.study()
+        for engine in ("netcdf4", "h5netcdf"):
+            with xarray.open_dataset(self.folder / "study.h5", engine=engine) as found:
+                self.assertEqual(found.margin_error.dims, ("setting", "quantile"))
+                self.assertEqual(found.flips_by_region.dims, ("setting", "region"))
+                self.assertEqual(list(found["quantile"].values), [0.5, 0.9, 0.99, 0.999, 1])
+
+    def test_replaces_an_older_study_and_nothing_else(self):
+        self.assert_exit(self.study(), 0)
+        self.assert_exit(self.study(), 0)
+        self.overturn("run", "small.toml", "-o", "spectrum.h5")
+        before = checksum(self.folder / "spectrum.h5")
+        result = self.overturn("accuracy", "small.toml", "-o", "spectrum.h5", *FEW)
+        self.assert_exit(result, 74, "is no accuracy study")
+        self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
+
+    def test_is_drawn_with_every_method_named(self):
+        self.study()
+        result = self.plot("study.h5", "-o", "study.svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        picture = (self.folder / "study.svg").read_text()
+        for words in ("rk45", "taylor", "rk45, resolved", "taylor, resolved", "slope of order 5",
+                      "share of wrong verdicts", "A small plane"):
+            self.assertIn(f">{words}<", picture)
+
+    def test_a_spectrum_is_not_drawn_as_one(self):
+        self.overturn("run", "small.toml", "-o", "spectrum.h5")
+        result = self.plot("spectrum.h5")
+        self.assertEqual(result.returncode, 74)
+        self.assertIn("is not a study written by overturn accuracy", result.stderr)
+
+
+class ResolvedJobs(Scratch):
+    RESOLVE = ("--set", "numerics={ method = \"taylor\", resolve = true }")
+
+    def test_agree_with_the_tightest_run_on_every_verdict(self):
+        self.overturn("run", "small.toml", "-o", "resolved.h5", *self.RESOLVE)
+        self.overturn("run", "small.toml", "-o", "tight.h5", "--set",
+                      "numerics={ method = \"taylor\", tolerance = 1e-13 }")
+        with h5py.File(self.folder / "resolved.h5") as resolved, \
+                h5py.File(self.folder / "tight.h5") as tight:
+            self.assertTrue((resolved["region"][:] <= 8).all())
+            np.testing.assert_array_equal(resolved["region"][:] <= 2, tight["region"][:] <= 2)
+
+    def test_are_the_same_file_on_every_number_of_ranks(self):
+        self.overturn("run", "small.toml", "-o", "one.h5", *self.RESOLVE)
+        self.overturn("run", "small.toml", "-o", "two.h5", *self.RESOLVE, ranks=2)
+        self.assertEqual(checksum(self.folder / "one.h5"), checksum(self.folder / "two.h5"))
+
+    def test_start_from_a_tolerance_of_their_own(self):
+        self.assert_exit(self.overturn("check", "small.toml", *self.RESOLVE), 0,
+                         "taylor, tolerance 0.0001, verdicts resolved")
+
+    def test_and_errors_are_refused_where_steps_do_not_see_their_errors(self):
+        self.assert_refused(65, ["numerics.tolerance = 0.001 is too loose for resolve", "taylor"],
+                            "run", "small.toml", "--set", "numerics.resolve=true", "--set",
+                            "numerics.tolerance=1e-3")
+        self.assert_refused(65, ["is too loose for the field \"error\""], "run", "small.toml",
+                            "--set", "output.fields=[\"error\"]", "--set",
+                            "numerics.tolerance=1e-3")
+
+    def test_want_true_or_false(self):
+        self.assert_refused(65, ["numerics.resolve", "true or false"], "run", "small.toml", "--set",
+                            "numerics.resolve=1")
+
+    def test_errors_and_steps_are_stored(self):
+        self.assert_exit(self.overturn("run", "small.toml", "--set",
+                                       "output.fields=[\"margin\", \"error\", \"steps\"]"), 0)
+        with h5py.File(self.folder / "small.h5") as file:
+            self.assertEqual(file["steps"].dtype, np.uint32)
+            error, margin = file["error"][:], file["margin"][:]
+            # At 1e-6 hardly any verdict is in doubt; a block at rest has no error but round-off.
+            self.assertLess((error > abs(margin)).mean(), 1e-3)
+            self.assertGreater((error > 0).mean(), 0.9)
+
+
+if __name__ == "__main__":
+    unittest.main()

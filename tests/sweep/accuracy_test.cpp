@@ -1,0 +1,116 @@
+#include "overturn/sweep/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace overturn {
+namespace {
+
+Plane papers_plane()
+{
+    Plane plane;
+    plane.frequency = Axis(AxisRange{0.5, 8, 300, Spacing::linear});
+    plane.amplitude = Axis(AxisRange{1.2, 12, 200, Spacing::linear});
+    plane.restitution = Axis(AxisList{0.9});
+    plane.slenderness = Axis(AxisList{0.1745716});
+    return plane;
+}
+
+const AccuracyStudy& study()
+{
+    static const AccuracyStudy made({}, papers_plane(), 1024, 64, widest_kernel());
+    return made;
+}
+
+TEST(AccuracyStudy, SpreadsItsSampleOverThePlane)
+{
+    const Plane& sample = study().sample().plane;
+    EXPECT_EQ(sample.frequency.first(), 0.5);
+    EXPECT_EQ(sample.frequency.last(), 8);
+    EXPECT_EQ(sample.amplitude.first(), 1.2);
+    EXPECT_EQ(sample.amplitude.last(), 12);
+    EXPECT_LE(sample.points(), 1024);
+    EXPECT_GT(sample.points(), 900);
+    EXPECT_EQ(study().sample().in_digits, 64);
+}
+
+TEST(AccuracyStudy, TakesASmallPlaneAsItIs)
+{
+    Plane plane = papers_plane();
+    plane.frequency = Axis(AxisList{1, 2, 5});
+    plane.amplitude = Axis(AxisList{2, 3});
+    const AccuracyStudy small({}, plane, 1024, 100, widest_kernel());
+    EXPECT_EQ(small.sample().plane.points(), 6);
+    EXPECT_EQ(small.sample().in_digits, 6);
+}
+
+TEST(AccuracyStudy, CountsEveryPointByRegionAndByDistance)
+{
+    const AccuracySample& sample = study().sample();
+    const auto sum = [](const auto& counts) {
+        return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+    };
+    EXPECT_EQ(sample.settled, sample.plane.points());
+    EXPECT_EQ(sum(sample.by_region), sample.settled);
+    EXPECT_EQ(sum(sample.by_distance), sample.settled);
+}
+
+TEST(AccuracyStudy, SeesErrorsFallWithTheTolerance)
+{
+    for (const Method method : {Method::rk45, Method::taylor}) {
+        const AccuracyRow loose = study().measure({method, 1e-5});
+        const AccuracyRow tight = study().measure({method, 1e-10});
+        // Five decades of tolerance; the median error of either follows by four at least.
+        EXPECT_LT(tight.margin[0], 1e-4 * loose.margin[0]);
+        EXPECT_GT(tight.steps, loose.steps);
+        EXPECT_GT(tight.margin[0], 0);
+        EXPECT_EQ(tight.flips, 0);
+    }
+}
+
+TEST(AccuracyStudy, CurveOfRungeKuttaHasTheSlopeOfItsOrder)
+{
+    const AccuracyRow coarse = study().measure({Method::rk45, 1e-8});
+    const AccuracyRow fine = study().measure({Method::rk45, 1e-11});
+    const double slope =
+        std::log(coarse.margin[0] / fine.margin[0]) / std::log(fine.steps / coarse.steps);
+    // Order 5; what steps cost at events does not fall with the tolerance, so a little more.
+    EXPECT_NEAR(slope, 5, 0.5);
+}
+
+TEST(AccuracyStudy, SeesWrongVerdictsAtLooseTolerancesAndNoneIfResolved)
+{
+    const AccuracyRow loose = study().measure({Method::rk45, 1e-2});
+    EXPECT_GT(loose.flips, 0);
+    EXPECT_EQ(std::accumulate(loose.flips_by_region.begin(), loose.flips_by_region.end(),
+                              std::int64_t(0)),
+              loose.flips);
+    EXPECT_EQ(std::accumulate(loose.flips_by_distance.begin(), loose.flips_by_distance.end(),
+                              std::int64_t(0)),
+              loose.flips);
+    const AccuracyRow resolved = study().measure({Method::taylor, 1e-2, true});
+    EXPECT_EQ(resolved.flips, 0);
+    EXPECT_EQ(resolved.undecided, 0);
+}
+
+TEST(AccuracyStudy, KnowsBoundsOnlyWhereErrorsAreKnown)
+{
+    EXPECT_TRUE(std::isnan(study().measure({Method::rk45, 1e-2}).bound_over_error));
+    const AccuracyRow row = study().measure({Method::rk45, 1e-6});
+    EXPECT_EQ(row.bound_exceeded, 0);
+    EXPECT_GT(row.bound_over_error, 1);
+}
+
+TEST(AccuracyLadder, HasEveryDecadeOfBothMethods)
+{
+    int plain = 0;
+    for (const Numerics& numerics : accuracy_ladder()) {
+        plain += !numerics.resolve;
+    }
+    EXPECT_EQ(plain, 26);
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,115 @@
+// Verdicts in doubt are settled with more digits, and only those.
+#include "overturn/number/digits50.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+#include "support/one_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace overturn {
+namespace {
+
+struct Found {
+    Region region;
+    double margin, error;
+    std::uint8_t flags;
+};
+
+Plane plane_of(const Point<double>& point)
+{
+    Plane plane;
+    plane.slenderness = Axis(AxisList{point.slenderness});
+    plane.restitution = Axis(AxisList{point.restitution});
+    plane.frequency = Axis(AxisList{point.frequency});
+    plane.amplitude = Axis(AxisList{point.amplitude});
+    return plane;
+}
+
+Found compute(const Numerics& numerics, const Point<double>& point)
+{
+    const Plane plane = plane_of(point);
+    const TileFields fields =
+        sweep_tile({}, numerics, plane, Tiling(plane)[0],
+                   {Field::region, Field::margin, Field::error, Field::status}, widest_kernel());
+    return {Region(std::get<std::vector<std::uint8_t>>(fields.values[0])[0]),
+            std::get<std::vector<double>>(fields.values[1])[0],
+            std::get<std::vector<double>>(fields.values[2])[0],
+            std::get<std::vector<std::uint8_t>>(fields.values[3])[0]};
+}
+
+constexpr Numerics resolved_rk45{Method::rk45, 1e-4, true};
+constexpr Numerics resolved_taylor{Method::taylor, 1e-4, true};
+
+Digits50 true_margin(const Point<double>& point)
+{
+    const Point<Digits50> exact{point.slenderness, point.restitution, point.frequency,
+                                point.amplitude};
+    return margin_of<Theory::nonlinear>(
+        forced_end<OneSine, Theory::nonlinear, Taylor<30>>(exact, 1e-28), exact);
+}
+
+/// The last amplitude below 1.5 that the paper's block survives, and the first that it does not:
+/// neighbours among the doubles.
+std::pair<double, double> neighbours_at_the_flip(Point<double> point)
+{
+    double safe = 1.2;
+    double unsafe = 1.5;
+    while (std::nextafter(safe, 2.0) < unsafe) {
+        point.amplitude = (safe + unsafe) / 2;
+        (true_margin(point) > 0 ? safe : unsafe) = point.amplitude;
+    }
+    return {safe, unsafe};
+}
+
+TEST(ResolvedVerdicts, AreRightToTheLastBitOfTheAmplitude)
+{
+    const double slenderness = papers_slenderness();
+    Point<double> point{slenderness, largest_restitution(slenderness), 3, 0};
+    const auto [safe, unsafe] = neighbours_at_the_flip(point);
+    for (const Numerics& numerics : {resolved_rk45, resolved_taylor}) {
+        point.amplitude = safe;
+        EXPECT_TRUE(is_safe(compute(numerics, point).region));
+        EXPECT_GT(compute(numerics, point).margin, 0);
+        point.amplitude = unsafe;
+        EXPECT_TRUE(is_unsafe(compute(numerics, point).region));
+        EXPECT_LT(compute(numerics, point).margin, 0);
+        // Doubles alone could not tell: the margin is of the order of their round-off.
+        EXPECT_LT(std::abs(compute(numerics, point).margin), 1e-14);
+        EXPECT_LT(compute(numerics, point).error, 1e-20);
+        EXPECT_EQ(compute(numerics, point).flags, 0);
+    }
+}
+
+TEST(ResolvedVerdicts, StayThoseOfTheFirstRunWhereItIsSure)
+{
+    const Point<double> point{0.2, 0.8, 3, 4};
+    Numerics plain = resolved_taylor;
+    plain.resolve = false;
+    const Found once = compute(plain, point);
+    const Found resolved = compute(resolved_taylor, point);
+    ASSERT_LT(once.error, std::abs(once.margin));
+    EXPECT_EQ(once.margin, resolved.margin);
+    EXPECT_EQ(once.error, resolved.error);
+}
+
+TEST(ResolvedVerdicts, AreNotGuessedWhereNoDigitsHelp)
+{
+    // Without loss the block bounces half a million times, see README: too many steps.
+    const Found found = compute(resolved_taylor, {0.1745716, 1, 3, 1 + 1e-6});
+    EXPECT_EQ(found.region, Region::undecided);
+    EXPECT_EQ(found.flags, status::cap_was_hit | status::unresolved);
+}
+
+TEST(ResolvedVerdicts, KnowABlockThatIsNeverLifted)
+{
+    for (const double amplitude : {0.0, 0.5, 1.0}) {
+        const Found found = compute(resolved_rk45, {0.2, 0.8, 3, amplitude});
+        EXPECT_EQ(found.region, Region::S);
+        EXPECT_EQ(found.margin, 1);
+        EXPECT_EQ(found.flags, 0);
+    }
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,77 @@
+// What the processor's rounding mode may change: the last bits, and no verdict that is known.
+#include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+
+namespace overturn {
+namespace {
+
+class RoundingMode {
+public:
+    explicit RoundingMode(int mode) { std::fesetround(mode); }
+    ~RoundingMode() { std::fesetround(FE_TONEAREST); }
+    RoundingMode(const RoundingMode&) = delete;
+    RoundingMode& operator=(const RoundingMode&) = delete;
+};
+
+struct Swept {
+    std::vector<std::uint8_t> region;
+    std::vector<double> margin, error;
+};
+
+Swept sweep(const Scene& scene, const Numerics& numerics, int mode)
+{
+    Plane plane;
+    plane.frequency = Axis(AxisRange{0.3, 9.0, 64, Spacing::linear});
+    plane.amplitude = Axis(AxisRange{0.9, 12.0, 64, Spacing::linear});
+    plane.restitution = Axis(AxisList{0.8});
+    plane.slenderness = Axis(AxisList{0.1745716});
+    const RoundingMode rounding(mode);
+    const TileFields fields =
+        sweep_tile(scene, numerics, plane, Tiling(plane)[0],
+                   {Field::region, Field::margin, Field::error}, widest_kernel());
+    return {std::get<std::vector<std::uint8_t>>(fields.values[0]),
+            std::get<std::vector<double>>(fields.values[1]),
+            std::get<std::vector<double>>(fields.values[2])};
+}
+
+TEST(RoundingModes, LeaveEveryKnownVerdictAsItIs)
+{
+    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+        const Scene scene{.pulse = PulseKind(pulse)};
+        for (const Numerics& numerics :
+             {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-6},
+              Numerics{Method::taylor, 1e-9}}) {
+            const Swept nearest = sweep(scene, numerics, FE_TONEAREST);
+            int moved = 0;
+            for (const int mode : {FE_UPWARD, FE_DOWNWARD}) {
+                const Swept other = sweep(scene, numerics, mode);
+                for (std::size_t i = 0; i < other.region.size(); ++i) {
+                    const bool same =
+                        is_safe(Region(nearest.region[i])) == is_safe(Region(other.region[i]));
+                    EXPECT_TRUE(same || std::abs(nearest.margin[i]) < nearest.error[i])
+                        << name_of(scene.pulse) << " point " << i << " margin "
+                        << nearest.margin[i];
+                    moved += nearest.margin[i] != other.margin[i];
+                }
+            }
+            EXPECT_GT(moved, 0) << "the mode has reached no kernel";
+        }
+    }
+}
+
+TEST(RoundingModes, LeaveNoPointWithoutAVerdict)
+{
+    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        for (const std::uint8_t region : sweep({}, {}, mode).region) {
+            EXPECT_LE(region, std::uint8_t(Region::F_minus));
+        }
+    }
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,254 @@
+// random_verdicts POINTS [SEED]: resolved verdicts and bounds of errors on POINTS random points of every
+// pulse and theory, against what is known better: the tightest run in doubles, and 50 digits
+// wherever its margin is below 1e-9. Prints a table, and names every point that is not as it should
+// be. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
+#include "verdicts/random_planes.hpp"
+
+#include "tile_run.hpp"
+
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+namespace overturn {
+namespace {
+
+constexpr Numerics tightest{.method = Method::taylor, .tolerance = 1e-14};
+constexpr double margin_that_wants_digits = 1e-9;
+constexpr double most_exceeded = 1e-5;    // share of the points of a method and tolerance
+constexpr double most_overestimated = 30; // median of bound over error
+constexpr double most_unresolved = 1e-6;  // share of the points of a pulse
+
+/// What is true of a plane.
+struct Truth {
+    std::vector<double> margin; ///< not a number where nothing is known
+    std::vector<double> error;  ///< of the margin
+    std::vector<bool> fell;
+};
+
+struct Ranking {
+    Numerics numerics;
+    std::int64_t points = 0;
+    std::int64_t exceeded = 0;
+    std::int64_t unbounded = 0; ///< an event may or may not have happened
+    std::vector<double> ratios;
+};
+
+struct Resolving {
+    Method method;
+    std::int64_t points = 0;
+    std::int64_t wrong = 0;
+    std::int64_t unresolved = 0;
+    double seconds = 0;
+    double plain_seconds = 0; ///< of the same planes at a tolerance of 1e-6
+};
+
+Tile whole(const Plane& plane)
+{
+    return Tiling(plane)[0];
+}
+
+Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
+{
+    const TileRun run(scene, plane, whole(plane), kernel);
+    Ends ends = integrate(run, tightest, std::size_t(plane.points()), {.error = true});
+    const std::vector<double> margins = run.margins(ends);
+    for (int point = 0; point < ends.size(); ++point) {
+        // Nor are half a million impacts worth the hours that they take in 50 digits.
+        const bool hopeless = ends.flags[point] & end_flag::capped;
+        if (!hopeless && !(std::abs(margins[point]) >= margin_that_wants_digits &&
+                           ends.error[point] < std::abs(margins[point]))) {
+            run.run_exactly(point, ends);
+        }
+    }
+    Truth truth{run.margins(ends), ends.error, {}};
+    for (const std::uint8_t flags : ends.flags) {
+        truth.fell.push_back(flags & end_flag::fell);
+    }
+    return truth;
+}
+
+/// What a command line would need to look at the point again.
+void name_point(const char* what, const Scene& scene, const Numerics& numerics, const Plane& plane,
+                int point, double found, double bound, const Truth& truth)
+{
+    const auto columns = int(plane.frequency.size());
+    std::printf("  %s: %s %s %s %g%s, alpha %.17g, r %.17g, Omega %.17g, a %.17g: margin %.6g, "
+                "bound %.3g, true %.6g, off by %.3g\n",
+                what, std::string(name_of(scene.pulse)).c_str(),
+                std::string(name_of(scene.theory)).c_str(),
+                std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
+                numerics.resolve ? " resolved" : "", plane.slenderness[0], plane.restitution[0],
+                plane.frequency[point % columns], plane.amplitude[point / columns], found, bound,
+                truth.margin[point], std::abs(found - truth.margin[point]));
+}
+
+void rank(Ranking& ranking, const Scene& scene, const Plane& plane, const Truth& truth,
+          Kernel kernel)
+{
+    const TileRun run(scene, plane, whole(plane), kernel);
+    Ends ends = integrate(run, ranking.numerics, std::size_t(plane.points()), {.error = true});
+    const std::vector<double> margins = run.margins(ends);
+    for (int point = 0; point < ends.size(); ++point) {
+        const bool known = std::isfinite(truth.margin[point]) &&
+                           std::isfinite(truth.error[point]) && std::isfinite(margins[point]);
+        if (!known) {
+            continue;
+        }
+        ++ranking.points;
+        const bool fell = ends.flags[point] & end_flag::fell;
+        const double error = fell == truth.fell[point]
+                                 ? std::abs(margins[point] - truth.margin[point])
+                                 : std::numeric_limits<double>::infinity();
+        if (!std::isfinite(ends.error[point])) {
+            ++ranking.unbounded;
+        } else if (error > ends.error[point] + truth.error[point]) {
+            ++ranking.exceeded;
+            name_point("bound exceeded", scene, ranking.numerics, plane, point, margins[point],
+                       ends.error[point], truth);
+        } else if (error > 2 * truth.error[point]) {
+            ranking.ratios.push_back(ends.error[point] / error);
+        }
+    }
+}
+
+template <class Work>
+double seconds(const Work& work)
+{
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void resolve(Resolving& resolving, const Scene& scene, const Plane& plane, const Truth& truth,
+             Kernel kernel)
+{
+    const Numerics plain{resolving.method, 1e-6};
+    const Numerics resolved{resolving.method, 1e-4, true};
+    const Tile tile = whole(plane);
+    const auto sweep = [&](const Numerics& numerics) {
+        return seconds([&] { sweep_tile(scene, numerics, plane, tile, {Field::region}, kernel); });
+    };
+    resolving.plain_seconds += sweep(plain);
+    resolving.seconds += sweep(resolved);
+
+    const TileFields fields = sweep_tile(scene, resolved, plane, tile,
+                                         {Field::region, Field::status, Field::margin}, kernel);
+    const auto& region = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+    const auto& flags = std::get<std::vector<std::uint8_t>>(fields.values[1]);
+    for (std::size_t point = 0; point < region.size(); ++point) {
+        ++resolving.points;
+        const bool decided = !(flags[point] & status::unresolved);
+        const bool known = truth.error[point] < std::abs(truth.margin[point]);
+        if (!decided) {
+            ++resolving.unresolved;
+            name_point("unresolved", scene, resolved, plane, int(point),
+                       std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
+        } else if (known && is_safe(Region(region[point])) != (truth.margin[point] > 0)) {
+            ++resolving.wrong;
+            name_point("WRONG", scene, resolved, plane, int(point),
+                       std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
+        }
+    }
+}
+
+double median(std::vector<double>& values)
+{
+    if (values.empty()) {
+        return 0;
+    }
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::vector<Ranking> all_rankings()
+{
+    std::vector<Ranking> rankings;
+    for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-12}) {
+        for (const Method method : {Method::rk45, Method::taylor}) {
+            rankings.push_back({.numerics = {method, tolerance}, .ratios = {}});
+        }
+    }
+    return rankings;
+}
+
+/// Resolves both methods on random planes of one scene; true if nothing is wrong.
+bool study_scene(const Scene& scene, std::int64_t points, std::mt19937_64& generator,
+                 std::vector<Ranking>& rankings)
+{
+    const Kernel kernel = widest_kernel();
+    std::vector<Resolving> resolvings{{.method = Method::rk45}, {.method = Method::taylor}};
+    for (std::int64_t done = 0; done < points;) {
+        const Plane plane = random_plane(generator);
+        const Truth truth = truth_of(scene, plane, kernel);
+        for (Resolving& resolving : resolvings) {
+            resolve(resolving, scene, plane, truth, kernel);
+        }
+        for (Ranking& ranking : rankings) {
+            rank(ranking, scene, plane, truth, kernel);
+        }
+        done += plane.points();
+    }
+    bool right = true;
+    for (const Resolving& resolving : resolvings) {
+        std::printf(
+            "%-21s %-9s %-6s resolved: %lld points, %lld wrong, %lld unresolved, "
+            "%.2f times the time at 1e-6\n",
+            std::string(name_of(scene.pulse)).c_str(), std::string(name_of(scene.theory)).c_str(),
+            std::string(name_of(resolving.method)).c_str(),
+            static_cast<long long>(resolving.points), static_cast<long long>(resolving.wrong),
+            static_cast<long long>(resolving.unresolved),
+            resolving.seconds / resolving.plain_seconds);
+        right = right && resolving.wrong == 0 &&
+                double(resolving.unresolved) <= 1 + most_unresolved * double(resolving.points);
+    }
+    std::fflush(stdout);
+    return right;
+}
+
+bool study(std::int64_t points, std::uint64_t seed)
+{
+    std::mt19937_64 generator(seed);
+    std::vector<Ranking> rankings = all_rankings();
+    bool right = true;
+    for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+        for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+            const Scene scene{.pulse = PulseKind(pulse), .theory = theory};
+            right = study_scene(scene, points, generator, rankings) && right;
+        }
+    }
+    std::printf("\n%-7s %9s %10s  %14s %12s %18s\n", "method", "tolerance", "points",
+                "error > bound", "no bound", "median bound/error");
+    for (Ranking& ranking : rankings) {
+        const auto all = double(ranking.points);
+        const double overestimated = median(ranking.ratios);
+        std::printf("%-7s %9.0e %10lld  %14.1e %12.1e %18.1f\n",
+                    std::string(name_of(ranking.numerics.method)).c_str(),
+                    ranking.numerics.tolerance, static_cast<long long>(ranking.points),
+                    double(ranking.exceeded) / all, double(ranking.unbounded) / all, overestimated);
+        // One point in a small sample is no share yet.
+        right = right && double(ranking.exceeded) <= 1 + most_exceeded * all &&
+                overestimated <= most_overestimated;
+    }
+    std::printf(right ? "every verdict is right\n" : "NOT as it should be\n");
+    return right;
+}
+
+} // namespace
+} // namespace overturn
+
+int main(int argc, char** argv)
+{
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: random_verdicts POINTS [SEED], points of every pulse and theory\n");
+        return 2;
+    }
+    const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+    return overturn::study(std::strtoll(argv[1], nullptr, 10), seed) ? 0 : 1;
+}

@@ -1,0 +1,82 @@
+"""Result files as the drawing tools read them, and what they say if one cannot be drawn."""
+
+import pathlib
+import sys
+import textwrap
+
+import h5py
+
+USAGE, FILE = 2, 74  # exit codes, as those of overturn
+HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+PICTURES = (".png", ".pdf", ".svg")
+
+
+class PlotError(Exception):
+    """What the user gets to read, and the exit code."""
+
+    def __init__(self, message, code=FILE):
+        super().__init__(message)
+        self.code = code
+
+
+def text_attribute(holder, name):
+    value = holder.attrs.get(name, "")
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def title_of(file):
+    """The job's title; with overrides, which may have made it wrong, those too."""
+    title = text_attribute(file, "title")
+    if title and "job_overrides" in file:
+        overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
+        title += ", with " + ", ".join(textwrap.shorten(words, 48) for words in overrides)
+    return title
+
+
+def plain(title, width=90):
+    """A title that fits, and whose dollars start no mathematics."""
+    return textwrap.shorten(title, width, placeholder=" …").replace("$", r"\$")
+
+
+def open_result(path, kind, wanted):
+    """The file, if it is of this kind; `wanted` tells what it should have been."""
+    try:
+        with open(path, "rb") as file:
+            signature = file.read(len(HDF5_SIGNATURE))
+        if signature != HDF5_SIGNATURE:
+            raise PlotError(f"\"{path}\" is not an HDF5 file.")
+        file = h5py.File(path, "r")
+    except OSError as error:
+        raise PlotError(f"cannot read \"{path}\": {error.strerror or error}.") from error
+    if text_attribute(file, "kind") != kind:
+        raise PlotError(f"\"{path}\" is not {wanted}.")
+    return file
+
+
+def add_picture_argument(parser):
+    parser.add_argument("-o", "--output", metavar="OUT",
+                        help="picture: .png, .pdf or .svg (default: FILE.png in this folder)")
+
+
+def name_picture(parser, arguments):
+    """Where to draw, if the user did not say."""
+    if arguments.output is None:
+        arguments.output = pathlib.Path(arguments.file).stem + ".png"
+    if pathlib.Path(arguments.output).suffix not in PICTURES:
+        parser.error(f"\"{arguments.output}\" should end in .png, .pdf or .svg")
+
+
+def save(figure, path, **how):
+    try:
+        figure.savefig(path, **how)
+    except OSError as error:
+        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    print(path)
+
+
+def run_tool(name, main):
+    try:
+        main()
+    except PlotError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        sys.exit(error.code)
