@@ -1,0 +1,118 @@
+// Blocks at the ends of what blocks can be: nearly plastic, loss-free, needles and slabs.
+#include "boundary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace overturn {
+namespace {
+
+const double limit_of_slenderness = std::asin(std::sqrt(2.0 / 3)); ///< there r_max = 0
+
+/// The verdict from a gentle to a strong push.
+void expect_right_verdicts_at_all_amplitudes(HardCase point)
+{
+    for (const PulseKind pulse : {PulseKind::one_sine, PulseKind::one_cosine,
+                                  PulseKind::symmetric_ricker, PulseKind::antisymmetric_ricker}) {
+        for (const double amplitude : {1.02, 1.3, 2.0, 3.6, 7.0}) {
+            point.pulse = pulse;
+            point.amplitude = amplitude;
+            expect_right_verdicts(point);
+        }
+    }
+}
+
+TEST(NearlyPlasticBlock, RestsAfterItsFirstImpact)
+{
+    const HardCase point{.restitution = 1e-12, .frequency = 3, .amplitude = 2};
+    const Truth truth = expect_right_verdicts(point);
+    EXPECT_TRUE(truth.rested);
+    EXPECT_EQ(truth.region, Region::S);
+    for (const Numerics& numerics : plain_numerics()) {
+        EXPECT_EQ(outcome_of(point, numerics).status, status::came_to_rest);
+    }
+}
+
+TEST(NearlyPlasticBlock, GetsItsVerdictAtAllAmplitudes)
+{
+    expect_right_verdicts_at_all_amplitudes({.restitution = 1e-12});
+}
+
+TEST(NearlyPlasticBlock, IsResolvedWhereItJustFallsOnItsOwnSide)
+{
+    const Neighbours flip = neighbours_of_root({.restitution = 1e-12}, &HardCase::amplitude, 3.64,
+                                               3.65, &Truth::margin);
+    expect_right_verdicts_around(flip, &HardCase::amplitude);
+}
+
+TEST(NearlyPlasticBlock, AtRestIsSafeHoweverLittleEnergyItKeeps)
+{
+    for (const double restitution : {1e-16, 1e-24, 1e-32}) {
+        expect_right_verdicts({.restitution = restitution, .amplitude = 0.5});
+        expect_right_verdicts({.restitution = restitution, .amplitude = 2});
+    }
+}
+
+TEST(LossFreeBlock, GetsItsVerdictAtAllAmplitudes)
+{
+    // q_min = 0: both branches of the margin meet at the top.
+    expect_right_verdicts_at_all_amplitudes({.restitution = 1});
+}
+
+TEST(LossFreeBlock, IsResolvedWhereBothBranchesOfTheMarginMeet)
+{
+    for (const auto& [low, high] : {std::array{1.2, 1.4}, std::array{3.5, 3.65}}) {
+        const auto safe = [&](double amplitude) {
+            return truth_of({.restitution = 1, .amplitude = amplitude}).margin > 0;
+        };
+        if (safe(low) != safe(high)) {
+            const Neighbours flip = neighbours_of_root({.restitution = 1}, &HardCase::amplitude,
+                                                       low, high, &Truth::margin);
+            expect_right_verdicts_around(flip, &HardCase::amplitude);
+        }
+    }
+}
+
+TEST(Block, ThatLosesLessThanAFlatBaseLetsGetsItsVerdictAtAllAmplitudes)
+{
+    // r above r_max = 0.91.
+    for (const double restitution : {0.92, 0.96, 1 - 0x1p-53}) {
+        expect_right_verdicts_at_all_amplitudes({.restitution = restitution});
+    }
+}
+
+TEST(Block, OfAnySlendernessGetsItsVerdictAtAllAmplitudes)
+{
+    for (const double alpha : {1e-6, 1.0, 1.5}) {
+        for (const double restitution : {0.1, 0.9}) {
+            expect_right_verdicts_at_all_amplitudes(
+                {.slenderness = alpha, .restitution = restitution});
+        }
+    }
+}
+
+TEST(Block, OfAnySlendernessIsResolvedWhereTheVerdictFlips)
+{
+    for (const double alpha : {1e-6, 1.0, 1.5}) {
+        // Not lifted to thrown over: there is a flip between.
+        const Neighbours flip = neighbours_of_root({.slenderness = alpha, .restitution = 0.5},
+                                                   &HardCase::amplitude, 1, 10, &Truth::margin);
+        expect_right_verdicts_around(flip, &HardCase::amplitude);
+    }
+}
+
+TEST(Block, OfLimitingSlendernessGetsItsVerdictAtAllAmplitudes)
+{
+    // r_max is about 2e-14, 2e-22, and of the last bits of alpha.
+    for (const double below : {1e-7, 1e-11, 1e-15}) {
+        const double alpha = limit_of_slenderness - below;
+        const double restitution = largest_restitution(alpha);
+        ASSERT_GT(restitution, 0);
+        expect_right_verdicts_at_all_amplitudes({.slenderness = alpha, .restitution = restitution});
+    }
+}
+
+} // namespace
+} // namespace overturn
