@@ -2,11 +2,8 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 
-#include "overturn/farm/human_units.hpp"
 #include "overturn/file/accuracy_file.hpp"
-#include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
-#include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 
 #include <fmt/format.h>
@@ -76,7 +73,7 @@ int accuracy(const AccuracyOptions& options)
     const Kernel kernel = widest_kernel();
     const Job job = read_job(options.job.path, options.job.overrides);
     const SoleWriter sole_writer(options.output);
-    expect_no_other_file(options.output);
+    expect_room_for_accuracy_file(options.output);
 
     say("settling verdicts and computing in 50 digits: about a minute");
     const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);

@@ -155,8 +155,9 @@ void write(const std::string& path, const Job& job, const AccuracySample& sample
 
 } // namespace
 
-void expect_no_other_file(const std::string& path)
+void expect_room_for_accuracy_file(const std::string& path)
 {
+    const PartFile in_its_folder(path); // which throws if there is none, or none to write in
     if (!std::filesystem::exists(path)) {
         return;
     }
@@ -178,7 +179,7 @@ void expect_no_other_file(const std::string& path)
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows)
 {
-    expect_no_other_file(path);
+    expect_room_for_accuracy_file(path);
     PartFile part(path);
     try {
         hdf5::start();

@@ -58,6 +58,11 @@ class AnAccuracyStudy(Scratch):
         self.assert_exit(result, 74, "is no accuracy study")
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 
+    def test_a_missing_folder_is_told_before_anything_is_computed(self):
+        result = self.overturn("accuracy", "small.toml", "-o", "nowhere/study.h5", *FEW)
+        self.assert_exit(result, 74, "there is no folder \"nowhere\"")
+        self.assertEqual(result.stdout, "")
+
     def test_is_drawn_with_every_method_named(self):
         self.study()
         result = self.plot("study.h5", "-o", "study.svg")

@@ -1,5 +1,5 @@
-// random_verdicts POINTS [SEED]: resolved verdicts and bounds of errors on POINTS random points of every
-// pulse and theory, against what is known better: the tightest run in doubles, and 50 digits
+// random_verdicts POINTS [SEED]: resolved verdicts and bounds of errors on POINTS random points of
+// every pulse and theory, against what is known better: the tightest run in doubles, and 50 digits
 // wherever its margin is below 1e-9. Prints a table, and names every point that is not as it should
 // be. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
 #include "verdicts/random_planes.hpp"
@@ -31,7 +31,7 @@ struct Truth {
     std::vector<bool> fell;
 };
 
-struct Ranking {
+struct BoundCheck {
     Numerics numerics;
     std::int64_t points = 0;
     std::int64_t exceeded = 0;
@@ -88,11 +88,11 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 truth.margin[point], std::abs(found - truth.margin[point]));
 }
 
-void rank(Ranking& ranking, const Scene& scene, const Plane& plane, const Truth& truth,
-          Kernel kernel)
+void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, const Truth& truth,
+                  Kernel kernel)
 {
     const TileRun run(scene, plane, whole(plane), kernel);
-    Ends ends = integrate(run, ranking.numerics, std::size_t(plane.points()), {.error = true});
+    Ends ends = integrate(run, check.numerics, std::size_t(plane.points()), {.error = true});
     const std::vector<double> margins = run.margins(ends);
     for (int point = 0; point < ends.size(); ++point) {
         const bool known = std::isfinite(truth.margin[point]) &&
@@ -100,19 +100,19 @@ void rank(Ranking& ranking, const Scene& scene, const Plane& plane, const Truth&
         if (!known) {
             continue;
         }
-        ++ranking.points;
+        ++check.points;
         const bool fell = ends.flags[point] & end_flag::fell;
         const double error = fell == truth.fell[point]
                                  ? std::abs(margins[point] - truth.margin[point])
                                  : std::numeric_limits<double>::infinity();
         if (!std::isfinite(ends.error[point])) {
-            ++ranking.unbounded;
+            ++check.unbounded;
         } else if (error > ends.error[point] + truth.error[point]) {
-            ++ranking.exceeded;
-            name_point("bound exceeded", scene, ranking.numerics, plane, point, margins[point],
+            ++check.exceeded;
+            name_point("bound exceeded", scene, check.numerics, plane, point, margins[point],
                        ends.error[point], truth);
         } else if (error > 2 * truth.error[point]) {
-            ranking.ratios.push_back(ends.error[point] / error);
+            check.ratios.push_back(ends.error[point] / error);
         }
     }
 }
@@ -167,20 +167,20 @@ double median(std::vector<double>& values)
     return *middle;
 }
 
-std::vector<Ranking> all_rankings()
+std::vector<BoundCheck> all_bound_checks()
 {
-    std::vector<Ranking> rankings;
+    std::vector<BoundCheck> checks;
     for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-12}) {
         for (const Method method : {Method::rk45, Method::taylor}) {
-            rankings.push_back({.numerics = {method, tolerance}, .ratios = {}});
+            checks.push_back({.numerics = {method, tolerance}, .ratios = {}});
         }
     }
-    return rankings;
+    return checks;
 }
 
 /// Resolves both methods on random planes of one scene; true if nothing is wrong.
 bool study_scene(const Scene& scene, std::int64_t points, std::mt19937_64& generator,
-                 std::vector<Ranking>& rankings)
+                 std::vector<BoundCheck>& checks)
 {
     const Kernel kernel = widest_kernel();
     std::vector<Resolving> resolvings{{.method = Method::rk45}, {.method = Method::taylor}};
@@ -190,8 +190,8 @@ bool study_scene(const Scene& scene, std::int64_t points, std::mt19937_64& gener
         for (Resolving& resolving : resolvings) {
             resolve(resolving, scene, plane, truth, kernel);
         }
-        for (Ranking& ranking : rankings) {
-            rank(ranking, scene, plane, truth, kernel);
+        for (BoundCheck& check : checks) {
+            check_bounds(check, scene, plane, truth, kernel);
         }
         done += plane.points();
     }
@@ -215,25 +215,25 @@ bool study_scene(const Scene& scene, std::int64_t points, std::mt19937_64& gener
 bool study(std::int64_t points, std::uint64_t seed)
 {
     std::mt19937_64 generator(seed);
-    std::vector<Ranking> rankings = all_rankings();
+    std::vector<BoundCheck> checks = all_bound_checks();
     bool right = true;
     for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
         for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
             const Scene scene{.pulse = PulseKind(pulse), .theory = theory};
-            right = study_scene(scene, points, generator, rankings) && right;
+            right = study_scene(scene, points, generator, checks) && right;
         }
     }
     std::printf("\n%-7s %9s %10s  %14s %12s %18s\n", "method", "tolerance", "points",
                 "error > bound", "no bound", "median bound/error");
-    for (Ranking& ranking : rankings) {
-        const auto all = double(ranking.points);
-        const double overestimated = median(ranking.ratios);
+    for (BoundCheck& check : checks) {
+        const auto all = double(check.points);
+        const double overestimated = median(check.ratios);
         std::printf("%-7s %9.0e %10lld  %14.1e %12.1e %18.1f\n",
-                    std::string(name_of(ranking.numerics.method)).c_str(),
-                    ranking.numerics.tolerance, static_cast<long long>(ranking.points),
-                    double(ranking.exceeded) / all, double(ranking.unbounded) / all, overestimated);
+                    std::string(name_of(check.numerics.method)).c_str(), check.numerics.tolerance,
+                    static_cast<long long>(check.points), double(check.exceeded) / all,
+                    double(check.unbounded) / all, overestimated);
         // One point in a small sample is no share yet.
-        right = right && double(ranking.exceeded) <= 1 + most_exceeded * all &&
+        right = right && double(check.exceeded) <= 1 + most_exceeded * all &&
                 overestimated <= most_overestimated;
     }
     std::printf(right ? "every verdict is right\n" : "NOT as it should be\n");
@@ -246,7 +246,8 @@ bool study(std::int64_t points, std::uint64_t seed)
 int main(int argc, char** argv)
 {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: random_verdicts POINTS [SEED], points of every pulse and theory\n");
+        std::fprintf(stderr,
+                     "usage: random_verdicts POINTS [SEED], points of every pulse and theory\n");
         return 2;
     }
     const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;

@@ -16,7 +16,8 @@ namespace overturn {
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows);
 
-/// The last part of what write_accuracy_file() would refuse, known before anything is computed.
-void expect_no_other_file(const std::string& path);
+/// What write_accuracy_file() would refuse, but for a full disk, before anything is computed: a
+/// folder that is missing or not writable, another file in the way. Throws FileError.
+void expect_room_for_accuracy_file(const std::string& path);
 
 } // namespace overturn
