@@ -1,5 +1,6 @@
-#include "exact_kernel.hpp"
 #include "tile_run.hpp"
+
+#include "overturn/integrate/fifty_digits.hpp"
 
 #include <algorithm>
 #include <array>

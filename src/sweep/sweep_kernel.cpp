@@ -8,6 +8,8 @@
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/number/pack.hpp"
 
+#include <limits>
+
 namespace overturn {
 
 namespace {
@@ -23,11 +25,8 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-/// The point in a lane; lanes beyond the last point repeat it.
-int point_at(const TilePoints& points, int lane)
+int point_at(const TilePoints& points, int i)
 {
-    const int last = points.chosen_count - 1;
-    const int i = lane < last ? lane : last;
     return points.chosen == nullptr ? i : points.chosen[i];
 }
 
@@ -66,19 +65,23 @@ void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const P
 /// four gain no more.
 constexpr int packs_in_turns = 2;
 
-/// The excitation of the points from `first` on.
+/// The excitation of the points from `first` on. Lanes beyond the last point repeat it, except that
+/// the ground never lifts their blocks; so a pack without points of its own is done at once.
 Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
 {
     double acceleration[lanes];
     double frequency[lanes];
     double uplifts[Pulse::lobes][lanes];
+    const int last = points.chosen_count - 1;
     for (int i = 0; i < lanes; ++i) {
-        const int point = point_at(points, first + i);
+        const bool spare = first + i > last;
+        const int point = point_at(points, spare ? last : first + i);
         const int row = point / points.columns;
         acceleration[i] = points.acceleration[row];
         frequency[i] = points.frequency[point - row * points.columns];
         for (int lobe = 0; lobe < Pulse::lobes; ++lobe) {
-            uplifts[lobe][i] = points.uplifts[row * Pulse::lobes + lobe];
+            uplifts[lobe][i] = spare ? std::numeric_limits<double>::infinity()
+                                     : points.uplifts[row * Pulse::lobes + lobe];
         }
     }
     Excitation<Pulse, T> excitation{.acceleration = load<T>(acceleration),

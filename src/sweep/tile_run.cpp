@@ -1,8 +1,7 @@
 #include "tile_run.hpp"
 
-#include "exact_kernel.hpp"
-
-#include "overturn/mechanics/pulse.hpp"
+#include "exact_end.hpp"
+#include "for_scene.hpp"
 
 namespace overturn {
 
@@ -16,10 +15,7 @@ namespace overturn {
 #define OVERTURN_DECLARE(isa, pulse)                                                               \
     SweepKernel sweep_kernel_##isa##_##pulse(Integrator, Theory, Recorded);
 #define OVERTURN_LIST(isa, pulse) sweep_kernel_##isa##_##pulse,
-#define OVERTURN_DECLARE_EXACT(isa, pulse) ExactEnd exact_kernel_##pulse(Theory, const PlanePoint&);
-#define OVERTURN_LIST_EXACT(isa, pulse) exact_kernel_##pulse,
 
-OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE_EXACT, any)
 OVERTURN_FOR_EACH_PULSE(OVERTURN_DECLARE, double)
 extern const FieldKernels field_kernels_double;
 #ifdef __x86_64__
@@ -40,9 +36,6 @@ constexpr SweepKernelChoice kernels[][pulse_names.size()] = {
 #endif
 };
 
-/// In the order of PulseKind.
-constexpr ExactKernel exact_kernels[] = {OVERTURN_FOR_EACH_PULSE(OVERTURN_LIST_EXACT, any)};
-
 const FieldKernels& field_kernels(Kernel kernel)
 {
 #ifdef __x86_64__
@@ -51,28 +44,6 @@ const FieldKernels& field_kernels(Kernel kernel)
     }
 #endif
     return field_kernels_double;
-}
-
-/// Calls visit.template operator()<Pulse>() for the pulse of this kind.
-template <class Visitor>
-auto with_pulse(PulseKind kind, const Visitor& visit)
-{
-    switch (kind) {
-    case PulseKind::one_cosine: return visit.template operator()<OneCosine>();
-    case PulseKind::symmetric_ricker: return visit.template operator()<SymmetricRicker>();
-    case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
-    case PulseKind::half_sine: return visit.template operator()<HalfSine>();
-    case PulseKind::rectangular: return visit.template operator()<Rectangular>();
-    case PulseKind::one_sine: break;
-    }
-    return visit.template operator()<OneSine>();
-}
-
-template <class Visitor>
-auto with_theory(Theory theory, const Visitor& visit)
-{
-    return theory == Theory::linear ? visit.template operator()<Theory::linear>()
-                                    : visit.template operator()<Theory::nonlinear>();
 }
 
 } // namespace
@@ -145,12 +116,11 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
 void TileRun::run_exactly(int point, Ends& ends) const
 {
     const int columns = int(frequency_.size());
-    const ExactEnd end = exact_kernels[std::size_t(scene_.pulse)](
-        scene_.theory, {.slenderness = block_.slenderness,
-                        .restitution = block_.restitution,
-                        .amplitude = plane_.amplitude[tile_.amplitude_begin + point / columns],
-                        .frequency = frequency_[std::size_t(point % columns)],
-                        .window = scene_.window});
+    const ExactEnd end =
+        exact_end(scene_, {.slenderness = block_.slenderness,
+                           .restitution = block_.restitution,
+                           .amplitude = plane_.amplitude[tile_.amplitude_begin + point / columns],
+                           .frequency = frequency_[std::size_t(point % columns)]});
     ends.tilt[point] = end.tilt;
     ends.rate[point] = end.rate;
     ends.side[point] = end.side;

@@ -1,7 +1,7 @@
 #include "reference.hpp"
 
-#include "overturn/integrate/forced_stage.hpp"
-#include "overturn/number/digits50.hpp"
+#include "for_scene.hpp"
+
 #include "support/one_point.hpp"
 
 namespace overturn {
@@ -22,13 +22,9 @@ template <class Pulse, Theory theory>
 Truth end_of(const HardCase& point, const Excitation<Pulse, T>& excitation, int step_limit)
 {
     const Block<T> block{T(point.slenderness), T(point.restitution)};
-    ForcedStage<Taylor<30>, Pulse, theory, Records{.impacts = true, .error = true}, T> stage(
-        block, excitation, T(tolerance));
-    for (int steps = 0; stage.is_active() && steps < step_limit; ++steps) {
-        stage.advance();
-    }
-    const ForcedEnd<T>& end = stage.end();
-    if (stage.is_active() || end.capped || end.not_finite) {
+    const ForcedEnd<T> end =
+        run_in_fifty_digits<Pulse, theory>(block, excitation, tolerance, step_limit);
+    if (end.capped || end.not_finite) {
         return {.steps = double(end.steps)};
     }
     const State<T>& state = end.state;
@@ -48,21 +44,6 @@ Truth end_of(const HardCase& point, const Excitation<Pulse, T>& excitation, int 
             .within_arc = double(arc - abs(state.rate))};
 }
 
-/// Calls visit.template operator()<Pulse>() for the pulse of this kind.
-template <class Visitor>
-auto with_pulse(PulseKind kind, const Visitor& visit)
-{
-    switch (kind) {
-    case PulseKind::one_cosine: return visit.template operator()<OneCosine>();
-    case PulseKind::symmetric_ricker: return visit.template operator()<SymmetricRicker>();
-    case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
-    case PulseKind::half_sine: return visit.template operator()<HalfSine>();
-    case PulseKind::rectangular: return visit.template operator()<Rectangular>();
-    case PulseKind::one_sine: break;
-    }
-    return visit.template operator()<OneSine>();
-}
-
 template <class Pulse, Theory theory>
 Truth end_of(const HardCase& point, int step_limit)
 {
@@ -74,9 +55,8 @@ Truth end_of(const HardCase& point, int step_limit)
 
 Truth truth_of(const HardCase& point, int step_limit)
 {
-    return with_pulse(point.pulse, [&]<class Pulse>() {
-        return point.theory == Theory::linear ? end_of<Pulse, Theory::linear>(point, step_limit)
-                                              : end_of<Pulse, Theory::nonlinear>(point, step_limit);
+    return for_scene(point.pulse, point.theory, [&]<class Pulse, Theory theory>() {
+        return end_of<Pulse, theory>(point, step_limit);
     });
 }
 

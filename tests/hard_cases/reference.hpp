@@ -1,4 +1,4 @@
-// What becomes of a hard case, in 50 digits. The templates are instantiated in reference.cpp alone.
+// What becomes of a hard case, in 50 digits.
 #pragma once
 
 #include "hard_case.hpp"

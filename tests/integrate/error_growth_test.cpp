@@ -5,7 +5,6 @@
 
 #include "overturn/integrate/error_growth.hpp"
 
-#include "overturn/number/digits50.hpp"
 #include "support/one_point.hpp"
 #include "support/random_point.hpp"
 
@@ -70,14 +69,6 @@ TEST(ErrorGrowth, SaysNothingGoodOfWhatIsNotANumber)
     EXPECT_FALSE(growth.bound(1, 1) < 1e300);
 }
 
-template <class Pulse, Theory theory, class Method, class S>
-ForcedEnd<S> watched_end(const Point<S>& point, double tolerance)
-{
-    return run_forced_stage<Method, Pulse, theory, Records{.impacts = true, .error = true}>(
-        Block<S>{point.slenderness, point.restitution}, excitation_of<Pulse, theory>(point),
-        S(tolerance));
-}
-
 TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
 {
     // A bound of first order may be missed once in 10^5 points; here are 2000.
@@ -85,12 +76,10 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
     for_every_scene([&]<class Pulse, Theory theory>() {
         for (int i = 0; i < 25; ++i) {
             const Point<double> point = random_point(generator);
-            const Point<Digits50> exact_point{point.slenderness, point.restitution, point.frequency,
-                                              point.amplitude};
-            const auto exact = forced_end<Pulse, theory, Taylor<30>>(exact_point, 1e-25);
-            const auto margin = double(margin_of<theory>(exact, exact_point));
+            const auto exact = forced_end<Pulse, theory>(in_digits(point), 1e-25);
+            const auto margin = double(margin_of<theory>(exact, in_digits(point)));
             const auto check = [&]<class Method>(double tolerance) {
-                const auto end = watched_end<Pulse, theory, Method>(point, tolerance);
+                const auto end = forced_end<Pulse, theory, Method, true>(point, tolerance);
                 EXPECT_LE(std::abs(margin_of<theory>(end, point) - margin), end.error)
                     << "tolerance " << tolerance << ", alpha " << point.slenderness << ", r "
                     << point.restitution << ", Omega " << point.frequency << ", a "
@@ -111,7 +100,7 @@ TEST(ForcedStage, EndsAlikeWhetherItsErrorIsWatchedOrNot)
         const Point<double> point = random_point(generator);
         const auto check = [&]<class Method>() {
             const auto plain = forced_end<Pulse, theory, Method>(point, 1e-6);
-            const auto watched = watched_end<Pulse, theory, Method>(point, 1e-6);
+            const auto watched = forced_end<Pulse, theory, Method, true>(point, 1e-6);
             EXPECT_EQ(plain.state.tilt, watched.state.tilt);
             EXPECT_EQ(plain.state.rate, watched.state.rate);
             EXPECT_EQ(plain.steps, watched.steps);

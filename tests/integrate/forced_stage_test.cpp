@@ -45,10 +45,9 @@ TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
             Excitation<Pulse, double> excitation{
                 point.amplitude * uplift_acceleration<theory>(point.slenderness), point.frequency,
                 uplift_phases<Pulse>(point.amplitude, 1.0), Pulse::begin(1.0), Pulse::end(1.0)};
-            const auto plain = run_forced_stage<TypeParam, Pulse, theory>(block, excitation, 1e-9);
+            const auto plain = run_in_doubles<TypeParam, Pulse, theory>(block, excitation, 1e-9);
             excitation.acceleration = -excitation.acceleration;
-            const auto mirrored =
-                run_forced_stage<TypeParam, Pulse, theory>(block, excitation, 1e-9);
+            const auto mirrored = run_in_doubles<TypeParam, Pulse, theory>(block, excitation, 1e-9);
             EXPECT_EQ(plain.fell, mirrored.fell);
             EXPECT_EQ(plain.state.tilt, mirrored.state.tilt);
             EXPECT_EQ(plain.state.rate, mirrored.state.rate);

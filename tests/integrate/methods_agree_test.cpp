@@ -1,5 +1,4 @@
 // The two methods against each other and against 50 digits, where they are hardest to keep right.
-#include "overturn/number/digits50.hpp"
 #include "support/one_point.hpp"
 #include "support/random_point.hpp"
 
@@ -11,13 +10,7 @@
 namespace overturn {
 namespace {
 
-using Reference = Taylor<30>;
 constexpr double reference_tolerance = 1e-25;
-
-Point<Digits50> in_digits(const Point<double>& point)
-{
-    return {point.slenderness, point.restitution, point.frequency, point.amplitude};
-}
 
 template <class S>
 Digits50 difference(const ForcedEnd<Digits50>& exact, const ForcedEnd<S>& end)
@@ -36,7 +29,7 @@ double sensitivity(const Point<double>& point, const ForcedEnd<Digits50>& exact)
     for (const auto coordinate : {&Point<Digits50>::frequency, &Point<Digits50>::amplitude}) {
         Point<Digits50> beside = in_digits(point);
         beside.*coordinate *= 1 + change;
-        const auto end = forced_end<Pulse, theory, Reference>(beside, reference_tolerance);
+        const auto end = forced_end<Pulse, theory>(beside, reference_tolerance);
         sum += double(difference(exact, end) / change) / point.slenderness;
     }
     return sum;
@@ -66,8 +59,7 @@ TEST(Methods, AgreeWithFiftyDigitsToWhatTheirTolerancesPromise)
     for_every_scene([&]<class Pulse, Theory theory>() {
         for (int i = 0; i < 40; ++i) {
             const Point<double> point = random_point(generator);
-            const auto exact =
-                forced_end<Pulse, theory, Reference>(in_digits(point), reference_tolerance);
+            const auto exact = forced_end<Pulse, theory>(in_digits(point), reference_tolerance);
             const double amplification = 1 + sensitivity<Pulse, theory>(point, exact);
             const auto check = [&]<class Method>(std::initializer_list<double> tolerances) {
                 for (const double tolerance : tolerances) {
@@ -88,9 +80,10 @@ TEST(Methods, AgreeWithEachOtherInFiftyDigits)
     std::mt19937_64 generator(6);
     for_every_scene([&]<class Pulse, Theory theory>() {
         const Point<double> point = random_point(generator);
-        const auto exact =
-            forced_end<Pulse, theory, Reference>(in_digits(point), reference_tolerance);
-        const auto other = forced_end<Pulse, theory, RungeKutta>(in_digits(point), 1e-13);
+        const auto exact = forced_end<Pulse, theory>(in_digits(point), reference_tolerance);
+        const auto other = run_forced_stage<RungeKutta, Pulse, theory>(
+            Block<Digits50>{point.slenderness, point.restitution},
+            excitation_of<Pulse, theory>(in_digits(point)), 1e-13);
         const double amplification = 1 + sensitivity<Pulse, theory>(point, exact);
         EXPECT_EQ(exact.impacts, other.impacts);
         EXPECT_LE(double(difference(exact, other)),
@@ -105,8 +98,8 @@ TEST(TaylorMethod, ErrorFallsWithTheTolerance)
     const int points = 100;
     for (int i = 0; i < points; ++i) {
         const Point<double> point = random_point(generator);
-        const auto exact = forced_end<OneSine, Theory::nonlinear, Reference>(in_digits(point),
-                                                                             reference_tolerance);
+        const auto exact =
+            forced_end<OneSine, Theory::nonlinear>(in_digits(point), reference_tolerance);
         const auto error = [&](double tolerance) {
             const auto end = forced_end<OneSine, Theory::nonlinear, Taylor<20>>(point, tolerance);
             return double(difference(exact, end)) + 1e-16;
@@ -178,8 +171,8 @@ TEST(Methods, MissNoImpactBesideAGraze)
                      {graze.low * (1 - offset), graze.high * (1 + offset)}) {
                     Point<double> point = graze.point;
                     point.amplitude = amplitude;
-                    const double exact = double(
-                        forced_end<Pulse, theory, Reference>(in_digits(point), 1e-20).impacts);
+                    const double exact =
+                        double(forced_end<Pulse, theory>(in_digits(point), 1e-20).impacts);
                     // The graze itself moves by the error of a run: far less than the offset.
                     expect_impacts_of_fifty_digits<Pulse, theory, RungeKutta>(point, exact,
                                                                               1e-4 * offset);

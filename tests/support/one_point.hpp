@@ -1,7 +1,8 @@
-// One point of a plane in any number type, from its four coordinates.
+// One point of a plane, from its four coordinates, and the end of its forced stage in doubles and
+// in 50 digits.
 #pragma once
 
-#include "overturn/integrate/forced_stage.hpp"
+#include "overturn/integrate/fifty_digits.hpp"
 #include "overturn/mechanics/region.hpp"
 
 namespace overturn {
@@ -24,12 +25,29 @@ Excitation<Pulse, S> excitation_of(const Point<S>& point, double window = 1)
             .end = Pulse::end(S(window))};
 }
 
-template <class Pulse, Theory theory, class Method = RungeKutta, class S>
-ForcedEnd<S> forced_end(const Point<S>& point, double tolerance, double window = 1)
+inline Point<Digits50> in_digits(const Point<double>& point)
 {
-    return run_forced_stage<Method, Pulse, theory>(Block<S>{point.slenderness, point.restitution},
-                                                   excitation_of<Pulse, theory>(point, window),
-                                                   S(tolerance));
+    return {point.slenderness, point.restitution, point.frequency, point.amplitude};
+}
+
+/// run_forced_stage(), for each of EveryMethod; watched: with a bound of the error. Compiled once
+/// per pulse, in one_point.cpp.
+template <class Method, class Pulse, Theory theory, bool watched = false>
+ForcedEnd<double> run_in_doubles(const Block<double>& block,
+                                 const Excitation<Pulse, double>& excitation, double tolerance);
+
+template <class Pulse, Theory theory, class Method = RungeKutta, bool watched = false>
+ForcedEnd<double> forced_end(const Point<double>& point, double tolerance)
+{
+    return run_in_doubles<Method, Pulse, theory, watched>(
+        {point.slenderness, point.restitution}, excitation_of<Pulse, theory>(point), tolerance);
+}
+
+template <class Pulse, Theory theory>
+ForcedEnd<Digits50> forced_end(const Point<Digits50>& point, double tolerance)
+{
+    return run_in_fifty_digits<Pulse, theory>({point.slenderness, point.restitution},
+                                              excitation_of<Pulse, theory>(point), tolerance);
 }
 
 /// Calls visit.template operator()<Pulse, theory>() for every pulse and theory.

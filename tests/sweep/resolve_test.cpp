@@ -1,5 +1,4 @@
 // Verdicts in doubt are settled with more digits, and only those.
-#include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 #include "support/one_point.hpp"
 
@@ -43,10 +42,8 @@ constexpr Numerics resolved_taylor{Method::taylor, 1e-4, true};
 
 Digits50 true_margin(const Point<double>& point)
 {
-    const Point<Digits50> exact{point.slenderness, point.restitution, point.frequency,
-                                point.amplitude};
     return margin_of<Theory::nonlinear>(
-        forced_end<OneSine, Theory::nonlinear, Taylor<30>>(exact, 1e-28), exact);
+        forced_end<OneSine, Theory::nonlinear>(in_digits(point), 1e-28), in_digits(point));
 }
 
 /// The last amplitude below 1.5 that the paper's block survives, and the first that it does not:

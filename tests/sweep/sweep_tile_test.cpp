@@ -147,10 +147,8 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
                                   plane.restitution_ratio(tile.slenderness, tile.restitution),
                                   plane.frequency[tile.frequency_begin + i % tile.frequency_count],
                                   plane.amplitude[tile.amplitude_begin + i / tile.frequency_count]};
-        const auto end = run_forced_stage<RungeKutta, OneSine, Theory::nonlinear,
-                                          Records{.impacts = true, .error = true}>(
-            Block<double>{point.slenderness, point.restitution},
-            excitation_of<OneSine, Theory::nonlinear>(point), Numerics{}.tolerance);
+        const auto end =
+            forced_end<OneSine, Theory::nonlinear, RungeKutta, true>(point, Numerics{}.tolerance);
         const std::size_t k = std::size_t(i);
         ASSERT_EQ(angles[k], end.state.side * end.state.tilt);
         ASSERT_EQ(velocities[k], end.state.side * end.state.rate);

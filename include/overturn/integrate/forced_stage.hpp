@@ -91,7 +91,14 @@ public:
     }
 
     /// Where the lanes have ended, once none is active.
-    const ForcedEnd<T>& end() const { return end_of_run_; }
+    ForcedEnd<T> end() const
+    {
+        ForcedEnd<T> end = end_of_run_;
+        if constexpr (records.error) {
+            end.error = margin_error();
+        }
+        return end;
+    }
 
 private:
     /// Puts the lanes to rest until the ground lifts the block next; those that it lifts no more
@@ -116,9 +123,6 @@ private:
     /// Freezes the lanes with the state that they have.
     void finish(const Mask& lanes)
     {
-        if constexpr (records.error) {
-            end_of_run_.error = select<T>(lanes, margin_error(), end_of_run_.error);
-        }
         State<T>& state = end_of_run_.state;
         const T tilt = select<T>(now_.tilt > zero_, now_.tilt, zero_);
         state.tilt = select<T>(lanes, tilt, state.tilt);
@@ -171,23 +175,24 @@ private:
         using std::abs;
         using std::fma;
         const T rounding(std::numeric_limits<S>::epsilon());
-        const T duration = (step.phase - now_.phase) / excitation_.frequency;
         const T rate = abs(now_.rate) + abs(step.rate);
         const T acceleration = abs(excitation_.acceleration) + block_.slenderness; // at most
-        const T late = abs(step.phase) / excitation_.frequency; // the phase is rounded, too
+        // Over the step; and the phase is rounded, too.
+        const T time = ((step.phase - now_.phase) + abs(step.phase)) / excitation_.frequency;
         growth_.pass(step.errors.variation, lanes);
-        growth_.add(step.errors.tilt, step.errors.rate,
-                    T(rounding * fma(duration + late, rate, step.tilt)),
-                    T(rounding * fma(duration + late, acceleration, rate)), lanes);
+        growth_.add(step.errors.tilt, step.errors.rate, T(rounding * fma(time, rate, step.tilt)),
+                    T(rounding * fma(time, acceleration, rate)), lanes);
 
         // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
-        const T radius = growth_.bound(T(S(1)), zero_);
-        const T turn = step.errors.turning_tilt;
-        const Mask inward = now_.rate < zero_ && step.rate > zero_ && !step.falls;
-        const Mask outward = now_.rate > zero_ && step.rate < zero_ && !step.strikes;
-        const Mask met =
-            (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
-        doubtful_ = doubtful_ || (lanes && met);
+        const Mask inward = lanes && now_.rate < zero_ && step.rate > zero_ && !step.falls;
+        const Mask outward = lanes && now_.rate > zero_ && step.rate < zero_ && !step.strikes;
+        if (any<T>(inward || outward)) {
+            const T radius = growth_.bound(T(S(1)), zero_);
+            const T turn = step.errors.turning_tilt;
+            const Mask met =
+                (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
+            doubtful_ = doubtful_ || met;
+        }
     }
 
     /// What is known to first order is trusted as long as the square of the speed is known to a

@@ -1,14 +1,12 @@
-// One point in 50 digits: what settles a verdict that doubles cannot.
+// One point of a plane in 50 digits: what settles a verdict that doubles cannot.
 #pragma once
 
 #include "sweep_kernel.hpp"
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/scene.hpp"
 
 namespace overturn {
-
-/// A step takes half a millisecond. Whoever needs more than these bounces without end.
-inline constexpr int most_exact_steps = 20000;
 
 /// A point of a plane; its coordinates are taken as exact.
 struct PlanePoint {
@@ -16,7 +14,6 @@ struct PlanePoint {
     double restitution; ///< r [1]
     double amplitude;   ///< a [1]
     double frequency;   ///< Omega [1]
-    double window;      ///< of a Ricker wavelet [pulse periods]
 };
 
 /// Its end, rounded to doubles after region, margin and error were told.
@@ -29,6 +26,6 @@ struct ExactEnd {
     double error; ///< of the margin
 };
 
-using ExactKernel = ExactEnd (*)(Theory theory, const PlanePoint& point);
+ExactEnd exact_end(const Scene& scene, const PlanePoint& point);
 
 } // namespace overturn
