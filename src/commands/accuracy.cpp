@@ -43,11 +43,20 @@ void print_head(const AccuracySample& sample)
 {
     say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n",
                     sample.plane.points(), sample.settled, sample.in_digits));
-    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>9}", "", "",
-                    "time per", "", "evalu-", "error of the margin", "wrong", "error", "bound /"));
-    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:>9} {:>9} {:>9}  {:>8} {:>6} {:>9}",
+    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>6} {:>9}", "", "",
+                    "time per", "", "evalu-", "error of the margin", "wrong", "unde-", "error",
+                    "bound /"));
+    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:>9} {:>9} {:>9}  {:>8} {:>6} {:>6} {:>9}",
                     "method", "tolerance", "point", "steps", "ations", "median", "99 %", "largest",
-                    "verdicts", "> bound", "error"));
+                    "verdicts", "cided", "> bound", "error"));
+}
+
+std::string wrong(const AccuracyRow& row, const AccuracySample& sample)
+{
+    if (sample.settled == 0) {
+        return "-";
+    }
+    return row.flips == 0 ? "0" : fmt::format("{:.1e}", double(row.flips) / double(sample.settled));
 }
 
 void print_row(const AccuracyRow& row, const AccuracySample& sample)
@@ -57,13 +66,12 @@ void print_row(const AccuracyRow& row, const AccuracySample& sample)
     const auto share = [](double value) {
         return std::isnan(value) ? std::string("-") : fmt::format("{:.2g}", value);
     };
-    say(fmt::format(
-        "{:<15} {:>9.0e} {:>6.3f} us {:>7.1f} {:>6.0f}   {:>9.1e} {:>9.1e} {:>9.1e}  "
-        "{:>8} {:>6} {:>9}",
-        name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps, row.evaluations,
-        row.margin[0], row.margin[2], row.margin[4],
-        row.flips == 0 ? "0" : fmt::format("{:.1e}", double(row.flips) / double(sample.settled)),
-        share(row.bound_exceeded), share(row.bound_over_error)));
+    say(fmt::format("{:<15} {:>9.0e} {:>6.3f} us {:>7.1f} {:>6.0f}   {:>9.1e} {:>9.1e} {:>9.1e}  "
+                    "{:>8} {:>6} {:>6} {:>9}",
+                    name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps,
+                    row.evaluations, row.margin[0], row.margin[2], row.margin[4],
+                    wrong(row, sample), row.undecided, share(row.bound_exceeded),
+                    share(row.bound_over_error)));
 }
 
 } // namespace
@@ -75,7 +83,8 @@ int accuracy(const AccuracyOptions& options)
     const SoleWriter sole_writer(options.output);
     expect_room_for_accuracy_file(options.output);
 
-    say("settling verdicts and computing in 50 digits: about a minute");
+    say(fmt::format("settling verdicts, and computing up to {} points in 50 digits, some {} s",
+                    options.digits, std::ceil(0.02 * double(options.digits))));
     const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);
     print_head(study.sample());
     std::vector<AccuracyRow> rows;

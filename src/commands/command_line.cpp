@@ -58,8 +58,15 @@ constexpr const char* accuracy_help = R"(Example:
   overturn accuracy jobs/figure_07a.toml -o accuracy.h5
   tools/plot_accuracy accuracy.h5
 
-Runs every method at tolerances from 1e-2 to 1e-14 on a sample of the job's plane, and tells time per
-point, errors against 50 digits, and how many verdicts are wrong. It runs on one core.)";
+Runs both methods at tolerances from 1e-2 to 1e-14, and resolved, on a sample of the job's plane, on one
+core; the job's own [numerics] and fields do not matter. Its columns, which OUT.h5 has in more detail:
+  evaluations      of the acceleration (rk45), or of its series (taylor), per point
+  error            of the margin, against 50 digits; inf where a block fell that should not have, or
+                   the other way round
+  wrong verdicts   share of the points whose true verdict is known
+  undecided        points without a verdict
+  error > bound    share of the points whose error exceeds what the field "error" says
+  bound / error    its median)";
 
 constexpr const char* info_help = R"(Example:
   overturn info smoke.h5)";

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <numeric>
 
 namespace overturn {
 
@@ -76,18 +77,26 @@ void add_counts(hid_t file, const char* name, const char* dimension, const Count
     attach_dimensions(file, open(file, name), std::array{dimension});
 }
 
+void add_regions(hid_t file)
+{
+    std::vector<std::uint8_t> codes(decided_regions);
+    std::iota(codes.begin(), codes.end(), std::uint8_t(0));
+    const Handle regions =
+        create_dataset(file, "region", H5T_STD_U8LE, {codes.size()}, dataset_creation());
+    hdf5::check(H5Dwrite(regions, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, codes.data()));
+    write_attribute(regions, "long_name", "region of the block's state at the end of the pulse");
+    write_attribute(regions, "flag_values", codes);
+    write_attribute(regions, "flag_meanings",
+                    "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus");
+    make_dimension(file, "region");
+}
+
 void add_coordinates(hid_t file, const std::vector<AccuracyRow>& rows)
 {
     add_bare_dimension(file, setting, std::int64_t(rows.size()));
     add_coordinate(file, "quantile", error_quantiles,
                    "share of the points with at most this error");
-    std::array<double, decided_regions> regions{};
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        regions[i] = double(i);
-    }
-    add_coordinate(file, "region", regions, "region of the block's state at the end of the pulse");
-    write_attribute(open(file, "region"), "flag_meanings",
-                    "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus");
+    add_regions(file);
     add_coordinate(file, "distance", distance_limits, "class of |margin|: below this");
 }
 

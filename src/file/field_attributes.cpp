@@ -82,9 +82,11 @@ void write_field_attributes(hid_t dataset, Field field)
         break;
     case Field::error:
         describe_number(dataset, "bound of the error of the margin", "1");
-        write_attribute(dataset, "comment",
-                        "infinite where an event may or may not have happened; a verdict holds "
-                        "where the margin is larger");
+        write_attribute(
+            dataset, "comment",
+            "to first order; infinite where it is not known: an impact or a fall may or "
+            "may not have happened, or was close; a verdict holds where the margin is "
+            "larger");
         break;
     case Field::steps: describe_steps(dataset); break;
     }

@@ -24,9 +24,6 @@ constexpr double largest_tolerance = 1e-2;
 // Enough for all but one verdict in some thousand, and the cheapest at which errors are known well.
 constexpr double tolerance_to_resolve_from = 1e-4;
 
-// Longer steps of Runge and Kutta do not see their own errors.
-constexpr double largest_tolerance_with_error = 1e-4;
-
 double read_window(const Entry& entry, PulseKind pulse)
 {
     if (!has_window(pulse)) {
@@ -98,13 +95,13 @@ void expect_known_errors(const Entry& job, const Numerics& numerics,
     const bool asked =
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && numerics.method == Method::rk45 &&
-        numerics.tolerance > largest_tolerance_with_error) {
+        numerics.tolerance > largest_rk45_tolerance_with_error) {
         refuse(
             *find(*find(job, "numerics"), "tolerance"),
             fmt::format(" = {} is too loose for {}: at more than {} the steps of \"rk45\" are too "
                         "long to see their own errors. Lower it, or take method = \"taylor\".",
                         numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
-                        largest_tolerance_with_error));
+                        largest_rk45_tolerance_with_error));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "overturn/sweep/accuracy.hpp"
 
+#include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 #include "tile_run.hpp"
 
@@ -59,9 +60,10 @@ ErrorDistribution distribution(std::vector<double> errors)
 {
     ErrorDistribution result{};
     std::sort(errors.begin(), errors.end());
-    for (std::size_t i = 0; i < result.size() && !errors.empty(); ++i) {
-        const double last = double(errors.size() - 1);
-        result[i] = errors[std::size_t(std::ceil(error_quantiles[i] * last))];
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const double last = double(errors.size()) - 1;
+        result[i] = errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                   : errors[std::size_t(std::ceil(error_quantiles[i] * last))];
     }
     return result;
 }
@@ -74,12 +76,6 @@ double median(std::vector<double> values)
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
-}
-
-/// Errors of Runge-Kutta steps are not known at looser tolerances, see RungeKuttaStepper::errors().
-bool knows_errors(const Numerics& numerics)
-{
-    return numerics.method == Method::taylor || numerics.tolerance <= 1e-4;
 }
 
 template <class T>
@@ -99,6 +95,7 @@ std::vector<Numerics> accuracy_ladder()
         for (const Method method : {Method::rk45, Method::taylor}) {
             for (const double tolerance : tolerances) {
                 const Numerics numerics{method, tolerance, resolve};
+                // From a finer first pass on there is nothing left to resolve.
                 if (!resolve || (knows_errors(numerics) && tolerance >= 1e-8)) {
                     ladder.push_back(numerics);
                 }
@@ -140,6 +137,16 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
     const Tiling tiling(sample_.plane);
     const std::int64_t points = sample_.plane.points();
     const double stride = std::max(1.0, double(points) / double(wanted));
+    // Rows come in turn; that no frequency is left out, the golden ratio chooses among a row's.
+    double column = 0.5;
+    const auto spread_over_columns = [&](int point, const Tile& tile) {
+        if (stride < 2) {
+            return point;
+        }
+        column = std::fmod(column + 0.6180339887498949, 1.0);
+        const auto columns = int(tile.frequency_count);
+        return point - point % columns + int(column * columns);
+    };
     std::int64_t before = 0;
     double next = 0.5 * stride;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
@@ -147,13 +154,13 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
         const TileRun run(scene_, sample_.plane, tile, kernel_);
         Ends ends(std::size_t(tile.points()), {.error = true});
         for (; next < double(before + tile.points()); next += stride) {
-            const int point = int(std::int64_t(next) - before);
-            run.run_exactly(point, ends);
+            const int point = spread_over_columns(int(std::int64_t(next) - before), tile);
+            run.run_exactly<Digits50>(point, ends);
             if (!(ends.flags[point] & end_flag::undecided)) {
                 in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
                                       ends.side[point] * ends.tilt[point],
                                       ends.side[point] * ends.rate[point],
-                                      ends.exact.back().margin});
+                                      ends.settled.back().margin});
             }
         }
         before += tile.points();

@@ -2,19 +2,14 @@
 
 #include "for_scene.hpp"
 
-#include "overturn/integrate/fifty_digits.hpp"
+#include "overturn/integrate/more_digits.hpp"
 
 namespace overturn {
 
 namespace {
 
-using T = Digits50;
-
-/// Leaves 25 digits and more at the end of a pulse, in the time of a hundred steps or so.
-constexpr double tolerance = 1e-30;
-
-template <class Pulse, Theory theory>
-ExactEnd exact_end(const PlanePoint& point, const T& window)
+template <class T, class Pulse, Theory theory>
+ExactEnd end_of(const PlanePoint& point, const T& window)
 {
     const T slenderness(point.slenderness);
     const Block<T> block{slenderness, T(point.restitution)};
@@ -24,7 +19,7 @@ ExactEnd exact_end(const PlanePoint& point, const T& window)
         .uplifts = uplift_phases<Pulse>(T(point.amplitude), window),
         .begin = Pulse::begin(window),
         .end = Pulse::end(window)};
-    const ForcedEnd<T> end = run_in_fifty_digits<Pulse, theory>(block, excitation, tolerance);
+    const ForcedEnd<T> end = run_in_more_digits<T, Pulse, theory>(block, excitation);
     const T margin = end.fell ? margin_of_fall<theory>(end.state.rate, block)
                               : margin_after_pulse<theory>(end.state, block);
     const Region fallen = end.state.side > 0 ? Region::F_plus : Region::F_minus;
@@ -38,16 +33,21 @@ ExactEnd exact_end(const PlanePoint& point, const T& window)
             .steps = double(end.steps),
             .region = end.fell ? fallen : region_after_pulse<theory>(end.state, block),
             .margin = double(margin),
-            .error = double(end.error)};
+            // And the margin is rounded.
+            .error = double(end.error) + std::abs(double(margin)) * 0x1p-53};
 }
 
 } // namespace
 
+template <class T>
 ExactEnd exact_end(const Scene& scene, const PlanePoint& point)
 {
     return for_scene(scene.pulse, scene.theory, [&]<class Pulse, Theory theory>() {
-        return exact_end<Pulse, theory>(point, T(scene.window));
+        return end_of<T, Pulse, theory>(point, T(scene.window));
     });
 }
+
+template ExactEnd exact_end<long double>(const Scene&, const PlanePoint&);
+template ExactEnd exact_end<Digits50>(const Scene&, const PlanePoint&);
 
 } // namespace overturn

@@ -1,4 +1,4 @@
-// One point of a plane in 50 digits: what settles a verdict that doubles cannot.
+// One point of a plane in more digits: what settles a verdict that doubles cannot.
 #pragma once
 
 #include "sweep_kernel.hpp"
@@ -26,6 +26,8 @@ struct ExactEnd {
     double error; ///< of the margin
 };
 
+/// T: long double or Digits50.
+template <class T>
 ExactEnd exact_end(const Scene& scene, const PlanePoint& point);
 
 } // namespace overturn

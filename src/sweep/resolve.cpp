@@ -1,6 +1,6 @@
 #include "tile_run.hpp"
 
-#include "overturn/integrate/fifty_digits.hpp"
+#include "overturn/integrate/more_digits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,9 @@ std::vector<int> in_doubt(const TileRun& tile, const std::vector<int>& points, E
         // Not so if a number is not one. More digits do not help where there are too many steps.
         const bool capped = ends.flags[point] & end_flag::capped;
         if (capped) {
-            give_up(point, ends);
+            if (!tile.settle_low_bounces(point, ends)) {
+                give_up(point, ends);
+            }
         } else if (!(ends.error[point] < std::abs(margins[point]))) {
             doubtful.push_back(point);
         }
@@ -37,22 +39,18 @@ std::vector<int> in_doubt(const TileRun& tile, const std::vector<int>& points, E
     return doubtful;
 }
 
-void settle_exactly(const TileRun& tile, const std::vector<int>& points, Ends& ends)
+template <class T>
+bool settle_in(const TileRun& tile, int point, Ends& ends)
 {
-    for (const int point : points) {
-        // Fifty digits need as many steps for a series of bounces as doubles do.
-        if (ends.steps[point] > most_exact_steps) {
-            give_up(point, ends);
-            continue;
-        }
-        tile.run_exactly(point, ends);
-        const ExactPoint& exact = ends.exact.back();
-        const bool settled = ends.error[point] < std::abs(exact.margin) &&
-                             !(ends.flags[point] & end_flag::undecided);
-        if (!settled) {
-            give_up(point, ends);
-        }
+    // More digits need as many steps for a series of bounces as doubles do.
+    const bool hopeless = std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
+                          ends.steps[point] > MoreDigits<T>::most_steps;
+    if (hopeless) {
+        return false;
     }
+    tile.run_exactly<T>(point, ends);
+    return ends.error[point] < std::abs(ends.settled.back().margin) &&
+           !(ends.flags[point] & end_flag::undecided);
 }
 
 } // namespace
@@ -71,7 +69,14 @@ Ends integrate(const TileRun& tile, const Numerics& numerics, std::size_t points
         std::vector<int> doubtful = in_doubt(tile, all, ends);
         tile.run(finest_in_doubles, doubtful, ends);
         doubtful = in_doubt(tile, doubtful, ends);
-        settle_exactly(tile, doubtful, ends);
+        for (const int point : doubtful) {
+            const bool settled = tile.settle_low_bounces(point, ends) ||
+                                 settle_in<long double>(tile, point, ends) ||
+                                 settle_in<Digits50>(tile, point, ends);
+            if (!settled) {
+                give_up(point, ends);
+            }
+        }
     }
     return ends;
 }

@@ -3,6 +3,11 @@
 #include "exact_end.hpp"
 #include "for_scene.hpp"
 
+#include "overturn/mechanics/low_bounces.hpp"
+#include "overturn/number/digits50.hpp"
+
+#include <algorithm>
+
 namespace overturn {
 
 #define OVERTURN_FOR_EACH_PULSE(X, isa)                                                            \
@@ -113,14 +118,15 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
     sweep(points, ends.pointers());
 }
 
+template <class T>
 void TileRun::run_exactly(int point, Ends& ends) const
 {
     const int columns = int(frequency_.size());
-    const ExactEnd end =
-        exact_end(scene_, {.slenderness = block_.slenderness,
-                           .restitution = block_.restitution,
-                           .amplitude = plane_.amplitude[tile_.amplitude_begin + point / columns],
-                           .frequency = frequency_[std::size_t(point % columns)]});
+    const ExactEnd end = exact_end<T>(
+        scene_, {.slenderness = block_.slenderness,
+                 .restitution = block_.restitution,
+                 .amplitude = plane_.amplitude[tile_.amplitude_begin + point / columns],
+                 .frequency = frequency_[std::size_t(point % columns)]});
     ends.tilt[point] = end.tilt;
     ends.rate[point] = end.rate;
     ends.side[point] = end.side;
@@ -133,7 +139,47 @@ void TileRun::run_exactly(int point, Ends& ends) const
     };
     put(ends.impacts, end.impacts);
     put(ends.steps, end.steps);
-    ends.exact.push_back({point, end.region, end.margin});
+    ends.settled.push_back({point, end.region, end.margin});
+}
+
+template void TileRun::run_exactly<long double>(int, Ends&) const;
+template void TileRun::run_exactly<Digits50>(int, Ends&) const;
+
+bool TileRun::settle_low_bounces(int point, Ends& ends) const
+{
+    const std::size_t columns = frequency_.size();
+    const std::size_t row = std::size_t(point) / columns;
+    const auto bounds = for_scene(scene_.pulse, scene_.theory, [&]<class Pulse, Theory theory>() {
+        Excitation<Pulse, double> excitation{.acceleration = acceleration_[row],
+                                             .frequency = frequency_[std::size_t(point) % columns],
+                                             .uplifts = {},
+                                             .begin = begin_,
+                                             .end = end_};
+        std::copy_n(uplifts_.begin() + std::ptrdiff_t(row * Pulse::lobes), Pulse::lobes,
+                    excitation.uplifts.begin());
+        return bound_of_low_bounces<theory>(block_.slenderness, excitation);
+    });
+    if (!bounds) {
+        return false;
+    }
+    // The margin is that of a block at rest, 1, but for these: no distance to a limit of the rate
+    // changes by more than the tilt and the rate do.
+    const double largest = with_theory(scene_.theory, [&]<Theory theory>() {
+        return separatrix_rate<theory>(0.0, block_.slenderness);
+    });
+    const double error = (bounds->tilt + bounds->rate) / largest;
+    if (!(error < 1)) {
+        return false;
+    }
+    std::uint8_t& flags = ends.flags[std::size_t(point)];
+    if (flags & end_flag::capped) {
+        flags = 0;
+        ends.tilt[std::size_t(point)] = 0;
+        ends.rate[std::size_t(point)] = 0;
+    }
+    ends.error[std::size_t(point)] = error;
+    ends.settled.push_back({point, Region::S, 1});
+    return true;
 }
 
 std::vector<std::uint8_t> TileRun::regions(Ends& ends) const
@@ -141,8 +187,8 @@ std::vector<std::uint8_t> TileRun::regions(Ends& ends) const
     std::vector<std::uint8_t> codes(ends.flags.size());
     field_kernels(kernel_).regions(scene_.theory, block_, ends.pointers(), ends.size(),
                                    codes.data());
-    for (const ExactPoint& exact : ends.exact) {
-        codes[exact.point] = std::uint8_t(exact.region);
+    for (const SettledPoint& settled : ends.settled) {
+        codes[settled.point] = std::uint8_t(settled.region);
     }
     for (const int point : ends.unresolved) {
         codes[point] = std::uint8_t(Region::undecided);
@@ -155,9 +201,9 @@ std::vector<double> TileRun::margins(Ends& ends) const
     std::vector<double> values(ends.flags.size());
     field_kernels(kernel_).margins(scene_.theory, block_, ends.pointers(), ends.size(),
                                    values.data());
-    for (const ExactPoint& exact : ends.exact) {
-        if (!(ends.flags[exact.point] & end_flag::undecided)) {
-            values[exact.point] = exact.margin;
+    for (const SettledPoint& settled : ends.settled) {
+        if (!(ends.flags[settled.point] & end_flag::undecided)) {
+            values[settled.point] = settled.margin;
         }
     }
     return values;

@@ -20,8 +20,9 @@ struct Asked {
     bool steps = false;
 };
 
-/// A point whose end was found in 50 digits: what doubles would spoil.
-struct ExactPoint {
+/// A point of which more is known than its end in doubles tells: computed in more digits, or
+/// bounded.
+struct SettledPoint {
     int point = 0; ///< counted row by row
     Region region = Region::undecided;
     double margin = 0;
@@ -41,8 +42,8 @@ struct Ends {
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags;
     std::vector<double> impacts, error, steps;
-    std::vector<ExactPoint> exact; ///< seldom any, as of the next
-    std::vector<int> unresolved;   ///< points that stay in doubt
+    std::vector<SettledPoint> settled; ///< seldom any, as of the next
+    std::vector<int> unresolved;       ///< points that stay in doubt
 };
 
 /// One tile, made ready to run; of a plane that lives longer.
@@ -54,8 +55,13 @@ public:
     void run(const Numerics& numerics, Ends& ends) const;
     void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
 
-    /// Integrates one point in 50 digits.
+    /// Integrates one point in more digits, T: long double or Digits50.
+    template <class T>
     void run_exactly(int point, Ends& ends) const;
+
+    /// Settles a point that provably only bounces low: it is safe, its margin what is left open by
+    /// bound_of_low_bounces(). If its bounces were too many to follow, it is at rest but for that.
+    bool settle_low_bounces(int point, Ends& ends) const;
 
     std::vector<std::uint8_t> regions(Ends& ends) const;
     std::vector<double> margins(Ends& ends) const; ///< not a number where undecided

@@ -64,34 +64,51 @@ TEST(BounceSeries, WithoutLossAndHardlyLiftedEndsAtTheCapOfStepsAndSaysSo)
 {
     // Lifted by a millionth of the threshold it would bounce for millions of times.
     const HardCase point{.restitution = 1, .frequency = 3, .amplitude = 1 + 1e-6};
-    for (const Numerics& numerics :
-         {Numerics{.method = Method::rk45, .tolerance = 1e-9},
-          Numerics{.method = Method::taylor, .tolerance = 1e-4, .resolve = true}}) {
+    const Outcome outcome = expect_right_verdict(point, {.method = Method::rk45, .tolerance = 1e-9},
+                                                 {}, {.most_steps = 1 << 20, .undecided = true});
+    EXPECT_EQ(outcome.region, Region::undecided);
+    EXPECT_EQ(outcome.status, status::cap_was_hit);
+    EXPECT_EQ(outcome.steps, 1u << 20);
+    EXPECT_EQ(outcome.impacts, impact_count::largest);
+}
+
+TEST(BounceSeries, ThatProvablyStaysLowIsSafeHoweverLong)
+{
+    // The same, and one that doubles follow for some hundred thousand bounces.
+    const HardCase endless{.restitution = 1, .frequency = 3, .amplitude = 1 + 1e-6};
+    const HardCase long_one{.pulse = PulseKind::one_cosine,
+                            .slenderness = 0.01070179327811405,
+                            .restitution = 1,
+                            .frequency = 5.7031251127720424,
+                            .amplitude = 1.0000077846945923};
+    for (const HardCase& point : {endless, long_one}) {
         const Outcome outcome = expect_right_verdict(
-            point, numerics, {}, {.most_steps = 1 << 20, .undecided = true, .unresolved = true});
-        EXPECT_EQ(outcome.region, Region::undecided);
-        EXPECT_EQ(outcome.status, numerics.resolve ? status::cap_was_hit | status::unresolved
-                                                   : status::cap_was_hit);
-        EXPECT_EQ(outcome.steps, 1u << 20);
-        EXPECT_EQ(outcome.impacts, impact_count::largest);
+            point, {.method = Method::taylor, .tolerance = 1e-4, .resolve = true}, {},
+            {.most_steps = 1 << 20});
+        EXPECT_EQ(outcome.region, Region::S);
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_EQ(outcome.margin, 1);
+        EXPECT_LT(outcome.error, 0.1);
+        EXPECT_LE(std::abs(outcome.angle) + std::abs(outcome.velocity),
+                  outcome.error * point.slenderness);
     }
 }
 
-TEST(BounceSeries, TooLongForFiftyDigitsIsGivenUpBeforeTheyAreTried)
+TEST(BounceSeries, TooLongForMoreDigitsIsGivenUpBeforeTheyAreTried)
 {
-    // Doubles follow some hundred thousand bounces to the end of the pulse, in a second; 50 digits
-    // would take minutes, and stop half way.
+    // The second lobe lifts what bounces before it, so nobody can tell without following it.
+    // Doubles do so for half a minute of 19 digits, and lose count.
     const HardCase point{.pulse = PulseKind::one_cosine,
-                         .slenderness = 0.01070179327811405,
+                         .slenderness = 0.3,
                          .restitution = 1,
-                         .frequency = 5.7031251127720424,
-                         .amplitude = 1.0000077846945923};
+                         .frequency = 0.02,
+                         .amplitude = 1.00002};
     const Outcome outcome =
         expect_right_verdict(point, {.method = Method::taylor, .tolerance = 1e-4, .resolve = true},
                              {}, {.most_steps = 1 << 20, .unresolved = true});
     EXPECT_EQ(outcome.region, Region::undecided);
-    EXPECT_EQ(outcome.status, status::unresolved);
-    EXPECT_GT(outcome.steps, 100000);
+    EXPECT_EQ(outcome.status & status::unresolved, status::unresolved);
+    EXPECT_GT(outcome.steps, 20000);
 }
 
 TEST(BounceSeries, WithHardlyAnyLossIsFollowedImpactByImpact)

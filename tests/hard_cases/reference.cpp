@@ -23,7 +23,7 @@ Truth end_of(const HardCase& point, const Excitation<Pulse, T>& excitation, int 
 {
     const Block<T> block{T(point.slenderness), T(point.restitution)};
     const ForcedEnd<T> end =
-        run_in_fifty_digits<Pulse, theory>(block, excitation, tolerance, step_limit);
+        run_in_more_digits<T, Pulse, theory>(block, excitation, tolerance, step_limit);
     if (end.capped || end.not_finite) {
         return {.steps = double(end.steps)};
     }

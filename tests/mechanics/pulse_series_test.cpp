@@ -125,6 +125,36 @@ void expect_parity(double parity)
     }
 }
 
+template <class Pulse>
+void expect_terms_to_follow_as_told()
+{
+    constexpr int known = 24;
+    constexpr int all = 60;
+    for (const double window : {1.0, 2.0, 5.0}) {
+        for (const double phase : phases<Pulse>(window)) {
+            const auto series = pulse_series<Pulse, all>(Digits50(1), Digits50(phase), Digits50(1));
+            for (const double step : {0.1, 0.5, 1.0, 2.0, 3.0}) {
+                const auto term = [&](int k) -> Digits50 {
+                    return abs(series[k]) * pow(Digits50(step), k);
+                };
+                const Digits50 ratio =
+                    following_ratio<Pulse, known>(Digits50(phase), Digits50(step));
+                const Digits50 last = std::max(term(known - 1), Digits50(ratio * term(known - 2)));
+                for (int j = 1; known - 1 + j < all; ++j) {
+                    EXPECT_LE(term(known - 1 + j), last * pow(ratio, j) * (1 + Digits50(1e-40)))
+                        << "phase " << phase << ", step " << step << ", j " << j;
+                }
+            }
+        }
+    }
+}
+
+TEST(PulseSeries, OfTheWaveletsGoOnNoFasterThanTold)
+{
+    expect_terms_to_follow_as_told<SymmetricRicker>();
+    expect_terms_to_follow_as_told<AntisymmetricRicker>();
+}
+
 TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
 {
     expect_parity<OneSine>(-1);

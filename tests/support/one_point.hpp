@@ -2,7 +2,7 @@
 // in 50 digits.
 #pragma once
 
-#include "overturn/integrate/fifty_digits.hpp"
+#include "overturn/integrate/more_digits.hpp"
 #include "overturn/mechanics/region.hpp"
 
 namespace overturn {
@@ -46,8 +46,8 @@ ForcedEnd<double> forced_end(const Point<double>& point, double tolerance)
 template <class Pulse, Theory theory>
 ForcedEnd<Digits50> forced_end(const Point<Digits50>& point, double tolerance)
 {
-    return run_in_fifty_digits<Pulse, theory>({point.slenderness, point.restitution},
-                                              excitation_of<Pulse, theory>(point), tolerance);
+    return run_in_more_digits<Digits50, Pulse, theory>(
+        {point.slenderness, point.restitution}, excitation_of<Pulse, theory>(point), tolerance);
 }
 
 /// Calls visit.template operator()<Pulse, theory>() for every pulse and theory.

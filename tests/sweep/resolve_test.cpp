@@ -73,7 +73,7 @@ TEST(ResolvedVerdicts, AreRightToTheLastBitOfTheAmplitude)
         EXPECT_LT(compute(numerics, point).margin, 0);
         // Doubles alone could not tell: the margin is of the order of their round-off.
         EXPECT_LT(std::abs(compute(numerics, point).margin), 1e-14);
-        EXPECT_LT(compute(numerics, point).error, 1e-20);
+        EXPECT_LT(compute(numerics, point).error, std::abs(compute(numerics, point).margin));
         EXPECT_EQ(compute(numerics, point).flags, 0);
     }
 }
@@ -92,10 +92,10 @@ TEST(ResolvedVerdicts, StayThoseOfTheFirstRunWhereItIsSure)
 
 TEST(ResolvedVerdicts, AreNotGuessedWhereNoDigitsHelp)
 {
-    // Without loss the block bounces half a million times, see README: too many steps.
-    const Found found = compute(resolved_taylor, {0.1745716, 1, 3, 1 + 1e-6});
+    // Without loss the block bounces for a hundred thousand times, and a slow pulse lifts it again.
+    const Found found = compute(resolved_taylor, {0.3, 1, 0.02, 1.00002});
     EXPECT_EQ(found.region, Region::undecided);
-    EXPECT_EQ(found.flags, status::cap_was_hit | status::unresolved);
+    EXPECT_EQ(found.flags, status::unresolved);
 }
 
 TEST(ResolvedVerdicts, KnowABlockThatIsNeverLifted)

@@ -1,47 +1,129 @@
-// Random planes of 16 x 16 points: half of them like real blocks and pulses, half of them spread
-// over whatever a job may ask for and a pulse can still move.
+// Random planes of 32 x 32 points: half of them like real blocks and pulses, half of them spread
+// over whatever a job may ask for and a pulse can still move; half of each drawn close to a
+// boundary between safe and unsafe, if a line of amplitudes crosses one.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/sweep/plane.hpp"
+#include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <utility>
 
 namespace overturn {
 
-inline Plane random_plane(std::mt19937_64& generator)
-{
-    constexpr int side = 16;
-    std::uniform_real_distribution<double> uniform(0, 1);
-    const auto between = [&](double low, double high) {
-        return low + (high - low) * uniform(generator);
-    };
-    const auto log_between = [&](double low, double high) {
+struct RandomPlane {
+    Scene scene;
+    Plane plane;
+    bool beside_boundary;
+};
+
+class RandomPlanes {
+public:
+    RandomPlanes(const Scene& scene, Kernel kernel, std::mt19937_64& generator)
+        : scene_(scene), kernel_(kernel), generator_(generator)
+    {}
+
+    RandomPlane next()
+    {
+        if (has_window(scene_.pulse)) {
+            scene_.window = uniform() < 0.5 ? 1 : log_between(0.1, 8);
+        }
+        Plane plane;
+        const bool real = uniform() < 0.5;
+        const double slenderness = real ? between(0.08, 0.45) : log_between(0.01, 1.3);
+        const double restitution =
+            real ? largest_restitution(slenderness) * between(0.55, 1) : between(0.02, 1);
+        plane.slenderness = Axis(AxisList{slenderness});
+        // Some blocks lose nothing at all.
+        plane.restitution = Axis(AxisList{uniform() < 0.1 ? 1 : restitution});
+        plane.frequency = axis([&] { return real ? between(0.5, 9.5) : log_between(0.03, 30); });
+        plane.amplitude =
+            axis([&] { return real ? between(1.05, 11.05) : 0.9 + log_between(1e-2, 1e2); });
+        const bool drawn = uniform() < 0.5 && draw_close_to_a_boundary(plane);
+        return {scene_, plane, drawn};
+    }
+
+private:
+    static constexpr int side = 32;
+
+    double uniform() { return std::uniform_real_distribution<double>(0, 1)(generator_); }
+    double between(double low, double high) { return low + (high - low) * uniform(); }
+    double log_between(double low, double high)
+    {
         return std::exp(between(std::log(low), std::log(high)));
-    };
-    const auto axis = [&](const auto& value) {
+    }
+
+    template <class Value>
+    static Axis axis(const Value& value)
+    {
         AxisList values(side);
         std::generate(values.begin(), values.end(), value);
         std::sort(values.begin(), values.end());
         return Axis(values);
-    };
-    Plane plane;
-    if (uniform(generator) < 0.5) {
-        const double slenderness = between(0.08, 0.45);
-        plane.slenderness = Axis(AxisList{slenderness});
-        plane.restitution = Axis(AxisList{largest_restitution(slenderness) * between(0.55, 1)});
-        plane.frequency = axis([&] { return between(0.5, 9.5); });
-        plane.amplitude = axis([&] { return between(1.05, 11.05); });
-    } else {
-        plane.slenderness = Axis(AxisList{log_between(0.01, 1.3)});
-        // Some blocks lose nothing at all.
-        plane.restitution = Axis(AxisList{uniform(generator) < 0.1 ? 1 : between(0.02, 1)});
-        plane.frequency = axis([&] { return log_between(0.03, 30); });
-        plane.amplitude = axis([&] { return 0.9 + log_between(1e-2, 1e2); });
     }
-    return plane;
-}
+
+    /// Two neighbours among these amplitudes, one of which is safe and the other not.
+    std::optional<std::pair<double, double>> flip_among(Plane line, const AxisList& amplitudes)
+    {
+        line.amplitude = Axis(amplitudes);
+        const TileFields fields = sweep_tile(scene_, {Method::taylor, 1e-13}, line, Tiling(line)[0],
+                                             {Field::region}, kernel_);
+        const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+        std::vector<std::pair<double, double>> flips;
+        for (std::size_t i = 1; i < regions.size(); ++i) {
+            if (is_safe(Region(regions[i - 1])) != is_safe(Region(regions[i]))) {
+                flips.emplace_back(amplitudes[i - 1], amplitudes[i]);
+            }
+        }
+        if (flips.empty()) {
+            return std::nullopt;
+        }
+        return flips[std::size_t(uniform() * double(flips.size()))];
+    }
+
+    /// False if there is none.
+    bool draw_close_to_a_boundary(Plane& plane)
+    {
+        Plane line = plane;
+        const double frequency = plane.frequency[side / 2];
+        line.frequency = Axis(AxisList{frequency});
+        AxisList amplitudes;
+        for (double amplitude = 1.01; amplitude < 30; amplitude *= 1.06) {
+            amplitudes.push_back(amplitude);
+        }
+        auto flip = flip_among(line, amplitudes);
+        if (!flip) {
+            return false;
+        }
+        while (flip && flip->second - flip->first > 1e-14 * flip->first) {
+            amplitudes.clear();
+            for (int i = 0; i < side; ++i) {
+                amplitudes.push_back(flip->first + (flip->second - flip->first) * i / (side - 1));
+            }
+            const auto finer = flip_among(line, amplitudes);
+            if (!finer) { // as close as doubles come
+                break;
+            }
+            flip = finer;
+        }
+        // Relative distances of 0.3 to 1e-8, some of them down to 1e-15.
+        const auto beside = [&](double value) {
+            const double distance =
+                std::pow(10, -(uniform() < 0.95 ? between(0.5, 8) : between(8, 15)));
+            return value * (1 + (uniform() < 0.5 ? distance : -distance));
+        };
+        plane.frequency = axis([&] { return beside(frequency); });
+        plane.amplitude = axis([&] { return beside(flip->first); });
+        return true;
+    }
+
+    Scene scene_;
+    Kernel kernel_;
+    std::mt19937_64& generator_;
+};
 
 } // namespace overturn

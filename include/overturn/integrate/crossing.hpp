@@ -29,7 +29,7 @@ T upper_bound(const Quintic<T>& c)
 template <Number T>
 Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
 {
-    using std::fma;
+    using arithmetic::fma;
     const T one(scalar_t<T>(1));
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = 0; i + level < c.size(); ++i) {
@@ -69,8 +69,8 @@ T dip_of_round_off(const T& slenderness, const T& h)
 template <Number T>
 T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 {
+    using arithmetic::fma;
     using std::abs;
-    using std::fma;
     using S = scalar_t<T>;
     T low(S(0));
     T high(S(1));
@@ -109,7 +109,7 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 template <Number T>
 T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wanted)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     const T one(S(1));
     const T half(S(0.5));

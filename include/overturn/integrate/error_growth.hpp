@@ -40,7 +40,7 @@ public:
     /// P becomes V P V^T.
     void pass(const Variation<T>& by, const Mask& lanes)
     {
-        using std::fma;
+        using arithmetic::fma;
         const auto& [tt, tr, rt, rr] = by;
         const T tilt_tilt = fma(tt, tilt_tilt_, tr * tilt_rate_);
         const T tilt_rate = fma(tt, tilt_rate_, tr * rate_rate_);
@@ -58,7 +58,7 @@ public:
     void add(const T& tilt, const T& rate, const T& tilt_round_off, const T& rate_round_off,
              const Mask& lanes)
     {
-        using std::fma;
+        using arithmetic::fma;
         using std::sqrt;
         const T tiny(S(0x1p-500)); // instead of 0 / 0
         const T before = greater<T>(sqrt(tilt_tilt_ + rate_rate_), tiny);
@@ -76,7 +76,7 @@ public:
     /// The largest error of by_tilt * tilt + by_rate * rate.
     T bound(const T& by_tilt, const T& by_rate) const
     {
-        using std::fma;
+        using arithmetic::fma;
         using std::sqrt;
         const T a = by_tilt * by_tilt * tilt_tilt_;
         const T b = by_rate * by_rate * rate_rate_;

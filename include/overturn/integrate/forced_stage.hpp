@@ -46,7 +46,7 @@ public:
     ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
         : block_(block), excitation_(excitation), end_(excitation.end), zero_(S(0)),
           stepper_(block, excitation, tolerance), now_{T(excitation.begin), zero_, zero_, T(S(1))},
-          active_(zero_ == zero_), doubtful_(!active_)
+          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_), doubtful_(!active_)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -108,12 +108,14 @@ private:
         const T never(std::numeric_limits<S>::infinity());
         T next = never;
         for (const T& uplift : excitation_.uplifts) {
-            next = select<T>(uplift >= now_.phase && uplift < next, uplift, next);
+            next =
+                select<T>(uplift >= now_.phase && uplift > lifted_ && uplift < next, uplift, next);
         }
         const Mask lifted = lanes && next < end_;
         now_.tilt = select<T>(lanes, zero_, now_.tilt);
         now_.rate = select<T>(lanes, zero_, now_.rate);
         now_.phase = select<T>(lifted, next, now_.phase);
+        lifted_ = select<T>(lifted, next, lifted_);
         const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
         finish(lanes && !lifted);
@@ -172,16 +174,20 @@ private:
     /// Errors grow over a step, and its own come on top.
     void pass_errors(const WatchedStepEnd<T>& step, const Mask& lanes)
     {
+        using arithmetic::fma;
         using std::abs;
-        using std::fma;
         const T rounding(std::numeric_limits<S>::epsilon());
         const T rate = abs(now_.rate) + abs(step.rate);
         const T acceleration = abs(excitation_.acceleration) + block_.slenderness; // at most
-        // Over the step; and the phase is rounded, too.
-        const T time = ((step.phase - now_.phase) + abs(step.phase)) / excitation_.frequency;
+        // What is wrong by a rounding all the time, such as the peak of the pulse, adds up; that of
+        // the phase and the state is random.
+        const T duration = (step.phase - now_.phase) / excitation_.frequency;
+        const T late = abs(step.phase) / excitation_.frequency;
         growth_.pass(step.errors.variation, lanes);
-        growth_.add(step.errors.tilt, step.errors.rate, T(rounding * fma(time, rate, step.tilt)),
-                    T(rounding * fma(time, acceleration, rate)), lanes);
+        growth_.add(fma(rounding * duration, rate, step.errors.tilt),
+                    fma(rounding * duration, acceleration + acceleration, step.errors.rate),
+                    T(rounding * fma(late, rate, step.tilt)),
+                    T(rounding * fma(late, acceleration, rate)), lanes);
 
         // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
         const Mask inward = lanes && now_.rate < zero_ && step.rate > zero_ && !step.falls;
@@ -217,21 +223,40 @@ private:
     /// Bound of the error of the margin where the lanes are.
     T margin_error() const
     {
+        using arithmetic::fma;
         using std::abs;
+        using std::sqrt;
         const State<T> state{now_.tilt, now_.rate, now_.side};
         const T radius = growth_.bound(T(S(1)), zero_);
         const T largest = separatrix_rate<theory>(zero_, block_.slenderness);
         const T roundings(8 * std::numeric_limits<S>::epsilon());
 
-        const MarginGradient<T> gradient = margin_gradient<theory>(state, block_);
+        // The margin is the smaller of two distances, and either may turn out smaller than it
+        // looks. The lower one is convex in c, so its gradient is largest at one end of what c may
+        // be.
         const SafeRates<T> safe = safe_rates<theory>(state.tilt, block_);
-        // Of the branch that counts: far from it, the other one may be of any size.
-        const T limit = select<T>(gradient.by_rate < zero_, abs(safe.outward), safe.inward);
-        const T standing = growth_.bound(gradient.by_tilt, gradient.by_rate) +
-                           roundings * (abs(state.rate) + limit) / largest;
+        const T slope = separatrix_slope<theory>(state.tilt, block_.slenderness);
+        const auto round_off = [&](const T& limit) -> T {
+            return roundings * (abs(state.rate) + abs(limit)) / largest;
+        };
+        const auto below_gradient = [&](const T& c) -> T {
+            const T inward = sqrt(fma(c, c, safe.minus_q_min));
+            return c / select<T>(inward > zero_, inward, largest);
+        };
+        const T one(S(1));
+        const T above = (safe.outward - state.rate) / largest;
+        const T below = (state.rate + safe.inward) / largest;
+        const T above_error = growth_.bound(slope, -one) / largest + round_off(safe.outward);
+        const T below_error =
+            greater<T>(growth_.bound(T(slope * below_gradient(safe.outward - radius)), one),
+                       growth_.bound(T(slope * below_gradient(safe.outward + radius)), one)) /
+                largest +
+            round_off(safe.inward);
+        const T margin = lesser<T>(above, below);
+        const T standing =
+            greater<T>(below_error - (below - margin), above_error - (above - margin));
         // Just before an impact and just after, the margin differs by sqrt r.
-        const T loss = T(S(1)) / sqrt_restitution_ - T(S(1));
-        const T jump = abs(margin_after_pulse<theory>(state, block_)) * loss;
+        const T jump = abs(margin) * (one / sqrt_restitution_ - one);
         const T near_impact = select<T>(state.tilt < radius, jump, zero_);
 
         // On its way to pi/2, at the acceleration a, the square of its speed v changes by
@@ -246,10 +271,11 @@ private:
         const Mask& fell = end_of_run_.fell;
         const Mask either =
             (fell && left * now_.rate < radius) || (!fell && T(pi<S>() / 2) - now_.tilt < radius);
-        // The energy of a fall is bounded away from zero, its distance from the separatrix is not:
-        // that distance has grown like the error, which must be a small share of it.
-        const Mask barely =
-            fell && !(T(S(4)) * standing < abs(margin_after_pulse<theory>(state, block_)));
+        // Nor whether it lies at all, unless it comes down with some energy. That is bounded away
+        // from zero, its distance from the separatrix is not: that distance has grown like the
+        // error, which must be a small share of it.
+        const Mask barely = fell && !(T(S(4)) * standing < abs(margin) &&
+                                      lying * largest * largest < now_.rate * now_.rate);
         const T error = select<T>(fell, lying, standing + near_impact);
         const Mask known = growth_.bound(T(S(1)), T(S(1))) < T(unknown_error<S> * S(0x1p-100));
         const Mask unknown = doubtful_ || end_of_run_.capped || end_of_run_.not_finite || either ||
@@ -265,6 +291,7 @@ private:
 
     typename Method::template Stepper<Pulse, theory, T, records.error> stepper_;
     Rocking<T> now_;
+    T lifted_; // phase of the latest uplift: no flank of a lobe lifts a block twice
     Mask active_;
     ForcedEnd<T> end_of_run_;
 

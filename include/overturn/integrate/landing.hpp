@@ -23,7 +23,7 @@ struct Landing {
 template <Number T>
 Landing<T> land(const T& gap, const T& rate, const T& acceleration)
 {
-    using std::fma;
+    using arithmetic::fma;
     using std::sqrt;
     const T zero(scalar_t<T>(0));
     const T one(scalar_t<T>(1));

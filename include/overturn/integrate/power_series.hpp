@@ -11,7 +11,7 @@ namespace overturn {
 template <int first, int count, Number T, class Term>
 T sum_of_powers(const T& t, const Term& term)
 {
-    using std::fma;
+    using arithmetic::fma;
     static_assert(count >= 2);
     const T square = t * t;
     constexpr int last = first + count - 1;

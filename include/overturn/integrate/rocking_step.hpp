@@ -33,4 +33,21 @@ struct WatchedStepEnd : StepEnd<T> {
     StepErrors<T> errors;
 };
 
+/// Where the rate changes its sign within a step: the tilt there, if the ground or pi/2 may be
+/// near, and otherwise one that is nearer. lowest, highest: bounds of the tilt within the step
+/// [rad]; tilt_at_turn(lanes) finds it in the lanes in which there is a turn.
+template <Number T, class Find>
+T turning_tilt(const T& slenderness, const T& start_rate, const T& end_rate, const T& lowest,
+               const T& highest, const Find& tilt_at_turn)
+{
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const T near_ground = slenderness * T(S(1) / 16);
+    const T near_flat(pi<S>() / 2 - S(1) / 16);
+    const mask_t<T> turns = start_rate * end_rate < zero;
+    const mask_t<T> suspect = turns && (lowest < near_ground || highest > near_flat);
+    const T nearer = select<T>(start_rate < zero, near_ground, near_flat);
+    return any<T>(suspect) ? select<T>(suspect, tilt_at_turn(turns), nearer) : nearer;
+}
+
 } // namespace overturn

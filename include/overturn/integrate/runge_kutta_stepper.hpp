@@ -67,7 +67,7 @@ public:
         const T h = select<T>(landing_, landing_step_, select<T>(last, left, step_size_));
         const T phase_step = h * excitation_.frequency;
         const auto acceleration = [&](const S& node, const T& tilt) {
-            using std::fma;
+            using arithmetic::fma;
             const T push = now.side * excitation_.ground(fma(T(node), phase_step, now.phase));
             return rocking_acceleration<theory>(tilt, block_.slenderness, push);
         };
@@ -117,8 +117,8 @@ private:
     /// bounces would carry that on.
     T relative_error(const Step<T>& step, const T& h) const
     {
+        using arithmetic::fma;
         using std::abs;
-        using std::fma;
         const T& alpha = block_.slenderness;
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
@@ -142,7 +142,7 @@ private:
 
     Sample sample(const T& side, const T& tilt, const T& rate, const T& phase) const
     {
-        using std::fma;
+        using arithmetic::fma;
         const auto push = pulse_series<Pulse, 2>(T(side * excitation_.acceleration), phase,
                                                  excitation_.frequency);
         const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
@@ -175,8 +175,8 @@ private:
     StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
                          const T& h, const Sample& last) const
     {
+        using arithmetic::fma;
         using std::abs;
-        using std::fma;
         const Motion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);
         const T middle_tilt =
@@ -198,38 +198,29 @@ private:
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
         // A constant push has no phase; there the block's own time says what is long.
         const T length = std::same_as<Pulse, Rectangular> ? h : phase_step;
-        const T blind = select<T>(length > T(S(2)), T(unknown_error<S>), zero_);
+        const T longest = T(S(longest_variation));
+        const T blind = select<T>(length > T(S(2)) || h > longest, T(unknown_error<S>), zero_);
         const T two(S(2));
-        return {.variation =
-                    variation_over<T>(h, first.stiffness, middle.stiffness, last.stiffness),
+        const T one(S(1));
+        const auto tilt_at_turn = [&](const Mask& turns) -> T {
+            T s =
+                select<T>(turns, start.rate, zero_) / select<T>(turns, start.rate - end.rate, one);
+            for (int i = 0; i < 3; ++i) { // Newton's method; the secant alone would be too rough
+                const Quintic<T> after = restricted(tilt, s, one);
+                const T slope = after[1] - after[0];
+                const T bend = T(S(4)) * (after[2] - after[1] - slope);
+                const T next = s - (one - s) * slope / select<T>(bend != zero_, bend, one);
+                s = select<T>(turns && next > zero_ && next < one, next, s);
+            }
+            return restricted(tilt, zero_, s).back();
+        };
+        return {.variation = variation_over<T>(lesser<T>(h, longest), first.stiffness,
+                                               middle.stiffness, last.stiffness),
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), blind),
-                .turning_tilt = turning_tilt(start, end, tilt)};
-    }
-
-    /// Where the rate changes its sign within the step: the tilt there, if the ground or pi/2 may
-    /// be near, and otherwise one that is nearer.
-    T turning_tilt(const Motion<T>& start, const Motion<T>& end, const Quintic<T>& tilt) const
-    {
-        const T one(S(1));
-        const T near_ground = block_.slenderness * T(S(1) / 16);
-        const T near_flat(pi<S>() / 2 - S(1) / 16);
-        const Mask turns = start.rate * end.rate < zero_;
-        const Mask suspect =
-            turns && (lower_bound(tilt) < near_ground || upper_bound(tilt) > near_flat);
-        const T nearer = select<T>(start.rate < zero_, near_ground, near_flat);
-        if (!any<T>(suspect)) {
-            return nearer;
-        }
-        T s = select<T>(turns, start.rate, zero_) / select<T>(turns, start.rate - end.rate, one);
-        for (int i = 0; i < 3; ++i) { // Newton's method; a step is too long for the secant alone
-            const Quintic<T> after = restricted(tilt, s, one);
-            const T slope = after[1] - after[0];
-            const T bend = T(S(4)) * (after[2] - after[1] - slope);
-            const T next = s - (one - s) * slope / select<T>(bend != zero_, bend, one);
-            s = select<T>(turns && next > zero_ && next < one, next, s);
-        }
-        return select<T>(suspect, restricted(tilt, zero_, s).back(), nearer);
+                .turning_tilt =
+                    turning_tilt<T>(block_.slenderness, start.rate, end.rate, lower_bound(tilt),
+                                    upper_bound(tilt), tilt_at_turn)};
     }
 
     /// Finds the first impact or fall within an accepted step, and sets the lanes that have one to

@@ -29,7 +29,7 @@ using Quintic = std::array<T, 6>;
 template <Number T>
 Quintic<T> dense_output(const Motion<T>& start, const Motion<T>& end, const T& h)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     const T fifth = h * T(value_of<S, Ratio{1, 5}>());
     const T bend = h * h * T(value_of<S, Ratio{1, 20}>());
@@ -54,7 +54,7 @@ struct Step {
 template <auto row, std::size_t count, Number T>
 T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     T sum = T(value_of<S, row[0]>()) * x[0];
     const auto add = [&]<std::size_t j>() {
@@ -75,7 +75,7 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 template <Number T, class Acceleration>
 Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration& acceleration)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     using Table = DormandPrince;
     std::array<T, Table::stages> rate{start.rate};

@@ -28,11 +28,13 @@ class TaylorStepper {
     static constexpr int known_order =
         !watched ? order : order + (theory == Theory::linear ? 3 : 1);
     using KnownSeries = RockingSeries<known_order, T>;
+    static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
 
 public:
     TaylorStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
         : slenderness_(block.slenderness), excitation_(excitation), end_(excitation.end)
     {
+        using std::abs;
         const T one(S(1));
         const T frequency = excitation.frequency;
         fastest_ = select<T>(frequency > one, frequency, one);
@@ -41,6 +43,21 @@ public:
         tolerance_ = T(tolerance);
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
+        if constexpr (wavelet) {
+            // |f| <= z^3 exp(-z^2 / 2), z^2 = phase^2 / 2 or / 3: solved by iteration.
+            using std::sqrt;
+            const T ratio = abs(excitation.acceleration) / block.slenderness;
+            const T log2_ratio =
+                rough_log2(T(ratio * T(S(1024) / std::numeric_limits<S>::epsilon())));
+            T square(S(100));
+            for (int i = 0; i < 4; ++i) {
+                const T log2_z = rough_log2(square) * T(S(0.5));
+                square =
+                    (log2_ratio + log2_z * T(S(3))) * T(2 * boost::math::constants::ln_two<S>());
+                square = greater<T>(square, T(S(36)));
+            }
+            lost_ = sqrt(square * T(S(std::same_as<Pulse, SymmetricRicker> ? 2 : 3)));
+        }
         if constexpr (watched) {
             unrolled<terms_looked_at>([&]<int i>() {
                 constexpr int k = order + 1 - terms_looked_at + i;
@@ -61,8 +78,8 @@ public:
     /// One step in every lane; what the lanes that are not active do means nothing.
     auto step(const Rocking<T>& now, const Mask& active) const
     {
-        const auto push = pulse_series<Pulse, known_order>(T(now.side * excitation_.acceleration),
-                                                           now.phase, phase_per_unit_);
+        const auto push =
+            pulse_series<Pulse, known_order>(acceleration(now), now.phase, phase_per_unit_);
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
                                                                slenderness_, push, unit_);
         const Series series = leading<order>(known);
@@ -97,13 +114,25 @@ public:
             land_on_event(end, event.strikes, event.falls, acceleration, excitation_);
         }
         if constexpr (watched) {
-            return WatchedStepEnd<T>{end, errors(now, known, bounds, end, h)};
+            return WatchedStepEnd<T>{end, errors(now, known, push, bounds, end, h)};
         } else {
             return end;
         }
     }
 
 private:
+    /// Of the ground towards the block, over g, at the peak of the pulse; nothing from where on a
+    /// wavelet is lost in the round-off of the block's own acceleration.
+    T acceleration(const Rocking<T>& now) const
+    {
+        const T towards = now.side * excitation_.acceleration;
+        if constexpr (wavelet) {
+            return select<T>(now.phase < lost_, towards, T(S(0)));
+        } else {
+            return towards;
+        }
+    }
+
     struct Event {
         T time; ///< the end of the step: at the event, or before one that is not certain yet
         Mask strikes;
@@ -132,7 +161,14 @@ private:
         unrolled<terms_looked_at - 1>([&]<int i>() {
             longest = lesser<T>(longest, log2_longest.template operator()<order - 1 - i>());
         });
-        return rough_power_of_two(longest);
+        if constexpr (wavelet) {
+            // In a wavelet's tail terms are small that grow. They shall fall by a quarter each.
+            const T ratio = following_ratio<Pulse, order>(now.phase, phase_per_unit_);
+            const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
+            return lesser<T>(rough_power_of_two(longest), falling);
+        } else {
+            return rough_power_of_two(longest);
+        }
     }
 
     /// What the series leaves out: the next terms, which are known, and all that follow. Those go
@@ -142,18 +178,23 @@ private:
     ///
     ///     |rate[k] h^k| ratio^(last - k) / (1 - ratio)
     ///
-    /// The largest of these, twice: where all of the last terms happen to be small, those that
-    /// follow are not. In the linear theory terms fall faster than any geometric series, beyond the
-    /// known ones by a third each and more. Twice the sum of all this: in one of 10^5 points it was
-    /// up to 1.6 times too small.
+    /// The largest of these: where all of the last terms happen to be small, those that follow are
+    /// not. In the linear theory the motion's own terms fall faster than any geometric series,
+    /// beyond the known ones by a third each and more. The push of a wavelet comes on top. Twice
+    /// the sum of all this: in one of 10^5 points it was up to 1.6 times too small.
     StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known,
-                         const Enclosure<T>& bounds, const StepEnd<T>& end, const T& h) const
+                         const Coefficients<known_order, T>& push, const Enclosure<T>& bounds,
+                         const StepEnd<T>& end, const T& h) const
     {
+        using arithmetic::fma;
         using std::abs;
         T next(S(0));
         T following(S(0));
         T power = h;
         unrolled<order - terms_looked_at>([&]<int>() { power = power * h; });
+        if constexpr (wavelet) {
+            next = left_out_of(push, now.phase, h, power);
+        }
         unrolled<terms_looked_at + known_order - order>([&]<int i>() {
             constexpr int k = order + 1 - terms_looked_at + i;
             const T term = abs(known.rate[k]) * power;
@@ -173,39 +214,45 @@ private:
         };
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
-        return {.variation = variation_over<T>(h * unit_, stiffness(now.tilt, now.phase),
-                                               stiffness(value_of_series(series.tilt, middle),
-                                                         T(now.phase + middle * phase_per_unit_)),
-                                               stiffness(end.tilt, end.phase)),
+        const auto tilt_at_turn = [&](const Mask& turns) -> T {
+            const T zero(S(0));
+            const T one(S(1));
+            T time = h * (now.rate / select<T>(turns, now.rate - end.rate, one));
+            for (int i = 0; i < 3; ++i) { // Newton's method; the secant alone would be too rough
+                const T slope = slope_of_series(series.rate, time);
+                const T newton = time - value_of_series(series.rate, time) /
+                                            select<T>(turns && slope != zero, slope, one);
+                time = select<T>(turns, lesser<T>(greater<T>(newton, zero), h), zero);
+            }
+            return value_of_series(series.tilt, time);
+        };
+        const T duration = h * unit_;
+        const T longest = T(S(longest_variation));
+        const T blind = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
+        return {.variation =
+                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, now.phase),
+                                      stiffness(value_of_series(series.tilt, middle),
+                                                T(now.phase + middle * phase_per_unit_)),
+                                      stiffness(end.tilt, end.phase)),
                 .tilt = left_out * h * T(S(1) / (order + 2)),
-                .rate = left_out * fastest_,
-                .turning_tilt = turning_tilt(now, series, bounds, end, h)};
+                .rate = fma(left_out, fastest_, blind),
+                .turning_tilt =
+                    turning_tilt<T>(slenderness_, now.rate, end.rate, lower_bound(bounds.lower()),
+                                    upper_bound(bounds.upper()), tilt_at_turn)};
     }
 
-    /// Where the rate changes its sign within the step: the tilt there, if the ground or pi/2 may
-    /// be near, and otherwise one that is nearer.
-    T turning_tilt(const Rocking<T>& now, const Series& series, const Enclosure<T>& bounds,
-                   const StepEnd<T>& end, const T& h) const
+    /// What the push of a wavelet adds to the rate beyond the known series: its term f[k] h^k gives
+    /// f[k] h^(k+1) / (k + 1), and they fall at least as fast as a geometric series.
+    /// power: h^(order + 1 - terms_looked_at).
+    T left_out_of(const Coefficients<known_order, T>& push, const T& phase, const T& h,
+                  T power) const
     {
-        const T zero(S(0));
-        const T one(S(1));
-        const T near_ground = slenderness_ * T(S(1) / 16);
-        const T near_flat(pi<S>() / 2 - S(1) / 16);
-        const Mask turns = now.rate * end.rate < zero;
-        const Mask suspect = turns && (lower_bound(bounds.lower()) < near_ground ||
-                                       upper_bound(bounds.upper()) > near_flat);
-        const T nearer = select<T>(now.rate < zero, near_ground, near_flat);
-        if (!any<T>(suspect)) {
-            return nearer;
-        }
-        T time = h * (now.rate / select<T>(turns, now.rate - end.rate, one));
-        for (int i = 0; i < 3; ++i) { // Newton's method; a step is too long for the secant alone
-            const T slope = slope_of_series(series.rate, time);
-            const T newton = time - value_of_series(series.rate, time) /
-                                        select<T>(turns && slope != zero, slope, one);
-            time = select<T>(turns, lesser<T>(greater<T>(newton, zero), h), zero);
-        }
-        return select<T>(suspect, value_of_series(series.tilt, time), nearer);
+        using std::abs;
+        constexpr int last = known_order - 1;
+        unrolled<last - 1 - (order + 1 - terms_looked_at)>([&]<int>() { power = power * h; });
+        const T ratio = following_ratio<Pulse, known_order>(phase, T(phase_per_unit_ * h));
+        const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
+        return term * ratio / (T(S(1)) - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
     }
 
     struct Gap {
@@ -258,10 +305,14 @@ private:
         const Mask stuck = share < T(S(0x1p-40));
         const Mask closes =
             here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
-        // To third order, and once more. The landing at the end of the step is the third time.
-        const T close = time + land(here.width, here.rate, acceleration).delay;
-        const Gap there = gap_at(series, close, falls);
-        const T landing_time = close + land(there.width, there.rate, acceleration).delay;
+        // To third order, and once more. The landing at the end of the step is the third time, and
+        // enough for doubles: what was 0.2 of the time is less than 1e-18.
+        T landing_time = time + land(here.width, here.rate, acceleration).delay;
+        constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
+        for (int i = 0; i < more; ++i) {
+            const Gap there = gap_at(series, landing_time, falls);
+            landing_time = landing_time + land(there.width, there.rate, acceleration).delay;
+        }
         const Mask sure = near && closes && landing_time <= h;
         const T end = select<T>(near, time, h);
         return {select<T>(sure, landing_time, end), sure && !falls, sure && falls};
@@ -282,7 +333,9 @@ private:
     T tolerance_;
     T log2_tolerance_;
     T log2_most_allowed_;
-    std::array<T, watched ? terms_looked_at : 0> following_per_; // see errors()
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing> lost_; // see acceleration()
+    std::array<T, watched ? terms_looked_at : 0> following_per_;         // see errors()
 };
 
 /// The method as a choice.

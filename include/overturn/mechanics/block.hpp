@@ -56,7 +56,7 @@ T uplift_acceleration(const T& slenderness)
 template <Theory theory, Number T>
 T rocking_acceleration(const T& tilt, const T& slenderness, const T& push)
 {
-    using std::fma;
+    using arithmetic::fma;
     const T y = slenderness - tilt;
     if constexpr (theory == Theory::linear) {
         return -(y + push);

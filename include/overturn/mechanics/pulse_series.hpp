@@ -26,7 +26,7 @@ Coefficients<count, T> harmonic_series(const T& value, const T& slope, const T& 
 template <int count, Number T>
 Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slope)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     const T linear = -(slope * z);
     const T quadratic = -(slope * slope);
@@ -41,7 +41,7 @@ Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slop
 template <std::size_t count, std::size_t terms, Number T>
 std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, count>& g)
 {
-    using std::fma;
+    using arithmetic::fma;
     std::array<T, count> f;
     for (std::size_t k = 0; k < count; ++k) {
         f[k] = p[0] * g[k];
@@ -57,7 +57,7 @@ std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, 
 template <class Pulse, int count, Number T>
 Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rate)
 {
-    using std::fma;
+    using arithmetic::fma;
     using std::sqrt;
     using S = scalar_t<T>;
     if constexpr (std::same_as<Pulse, Rectangular>) {
@@ -90,6 +90,27 @@ Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rat
             return harmonic_series<count>(T(scale * sine), T(scale * rate * cosine), rate);
         }
     }
+}
+
+/// How fast the terms of a wavelet's series at most go on: with q = following_ratio, if two terms
+/// f[k] t^k in a row are at most M / q and M in size, k = count - 1 for the second, the j-th one
+/// after is at most M q^j. From the recurrence for the m-th derivative of a Gaussian at z, x =
+/// slope t:
+///
+///     k f[k] t^k = -z x f[k-1] t^(k-1) - x^2 (1 + m / (k - 1)) f[k-2] t^(k-2)
+///
+/// phase, step = rate t [rad].
+template <class Pulse, int count, Number T>
+requires std::derived_from<Pulse, CutByWindow> T following_ratio(const T& phase, const T& step)
+{
+    using arithmetic::fma;
+    using std::abs;
+    using std::sqrt;
+    using S = scalar_t<T>;
+    constexpr int m = std::same_as<Pulse, SymmetricRicker> ? 2 : 3; // and z = phase / sqrt(m)
+    const T linear = abs(phase) * step * T(S(1) / m);
+    const T square = step * step * T(S(4 * count) / m * (S(1) + S(m) / (count - 1)));
+    return (linear + sqrt(fma(linear, linear, square))) * T(S(1) / (2 * count));
 }
 
 } // namespace overturn

@@ -54,19 +54,20 @@ struct SafeRates {
     T outward; ///< c: above it the block falls on its own side, without impact
     T inward;  ///< sqrt(c^2 - q_min): beyond it the block falls on the other side, after one impact
     T largest; ///< sqrt(q_max): the rate with which an upright block just does not fall (Eq. 16)
+    T minus_q_min; ///< [rad^2]
 };
 
 ///     q_max = 4 sin^2(alpha/2),   q_min = q_max (1 - 1/r)       (Eqs. 16, 18)
 template <Theory theory, Number T>
 SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
 {
-    using std::fma;
+    using arithmetic::fma;
     using std::sqrt;
     const T c = separatrix_rate<theory>(tilt, block.slenderness);
     const T largest = separatrix_rate<theory>(T(scalar_t<T>(0)), block.slenderness);
     const T one = T(scalar_t<T>(1));
     const T minus_q_min = largest * largest * ((one - block.restitution) / block.restitution);
-    return {c, sqrt(fma(c, c, minus_q_min)), largest};
+    return {c, sqrt(fma(c, c, minus_q_min)), largest, minus_q_min};
 }
 
 /// How far the verdict is from flipping, over sqrt(q_max): positive where the block is safe,
@@ -82,28 +83,16 @@ T margin_after_pulse(const State<T>& state, const Block<T>& block)
     return select<T>(above < below, above, below) / safe.largest;
 }
 
-/// How the margin changes with the state [1/rad].
-template <Number T>
-struct MarginGradient {
-    T by_tilt;
-    T by_rate;
-};
-
-/// The gradient of margin_after_pulse(), on that side of its kink on which the state is.
+/// The slope of the separatrix: d c / d|theta|, between -1 and 0 on the block's side of the top.
 template <Theory theory, Number T>
-MarginGradient<T> margin_gradient(const State<T>& state, const Block<T>& block)
+T separatrix_slope(const T& tilt, const T& slenderness)
 {
     using S = scalar_t<T>;
-    const T one(S(1));
-    const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
-    T slope = -one; // of the separatrix rate c
-    if constexpr (theory == Theory::nonlinear) {
-        slope = -sine_and_cosine(T((block.slenderness - state.tilt) * T(S(0.5)))).cosine;
+    if constexpr (theory == Theory::linear) {
+        return T(S(-1));
+    } else {
+        return -sine_and_cosine(T((slenderness - tilt) * T(S(0.5)))).cosine;
     }
-    const mask_t<T> above = safe.outward - state.rate < state.rate + safe.inward;
-    const T inward = select<T>(safe.inward > T(S(0)), safe.outward / safe.inward, one);
-    return {slope * select<T>(above, one, inward) / safe.largest,
-            select<T>(above, -one, one) / safe.largest};
 }
 
 /// The margin of a block that reached |theta| = pi/2 during the pulse: -theta'^2 / q_max.

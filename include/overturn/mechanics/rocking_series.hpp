@@ -37,11 +37,13 @@ constexpr void newest_last(const Body& body)
 ///
 /// y = tilt - alpha. Products become sums over coefficients; unit^2 goes into s and c.
 /// The newest terms of each sum come last: the next coefficient waits for nothing else.
-template <Theory theory, int order, Number T>
-RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& slenderness,
-                                       const Coefficients<order, T>& push, const T& unit)
+template <Theory theory, int order, Number T, std::size_t count>
+requires(count >= order) RockingSeries<order, T> rocking_series(const T& tilt, const T& rate,
+                                                                const T& slenderness,
+                                                                const std::array<T, count>& push,
+                                                                const T& unit)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     const T square = unit * unit;
     RockingSeries<order, T> series;

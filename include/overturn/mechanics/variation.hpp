@@ -22,7 +22,7 @@ struct Variation {
 template <Theory theory, Number T>
 T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
 {
-    using std::fma;
+    using arithmetic::fma;
     if constexpr (theory == Theory::linear) {
         return T(scalar_t<T>(1));
     } else {
@@ -31,24 +31,41 @@ T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
     }
 }
 
+/// Of longer times variation_over() knows nothing [1/p].
+inline constexpr double longest_variation = 12;
+
 /// Over a time h [1/p] without an event, from the stiffness at its beginning, its middle and its
-/// end: the classical Runge-Kutta step for delta'' = k(t) delta, written out. Off by about
-/// (k h^2)^(5/2) / 120, which is enough for the size of an error.
+/// end: the classical Runge-Kutta step for delta'' = k(t) delta, written out, and beyond it the
+/// series of cosh and sinh for the mean of k, as steps of the linear theory are long. Off by less
+/// than 2 % of its largest entry if k is constant, or h is below 1 and k varies by less than
+/// itself.
 template <Number T>
 Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T& end)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     const T one(S(1));
     const T square = h * h;
     const T sixth = square * T(S(1) / 6);
     const T corner = square * square * T(S(1) / 24) * middle;
     const T two_middle = middle + middle;
-    return {.tilt_by_tilt = fma(corner, begin, fma(sixth, begin + two_middle, one)),
-            .tilt_by_rate = h * fma(sixth, middle, one),
-            .rate_by_tilt = h * fma(T(S(0.5)) * sixth * middle, begin + end,
-                                    T(S(1) / 6) * (begin + two_middle + two_middle + end)),
-            .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one))};
+    const T mean = T(S(1) / 6) * (begin + two_middle + two_middle + end);
+    const T x = mean * square;
+    // sum of x^n / (2n)! from n = 3 on, and of x^n / (2n + 1)! from n = 2 on.
+    T even = one;
+    for (const double divisor : {380, 306, 240, 182, 132, 90, 56}) {
+        even = fma(x * T(S(1) / S(divisor)), even, one);
+    }
+    T odd = one;
+    for (const double divisor : {342, 272, 210, 156, 110, 72, 42}) {
+        odd = fma(x * T(S(1) / S(divisor)), odd, one);
+    }
+    even = x * x * x * T(S(1) / 720) * even;
+    odd = x * x * T(S(1) / 120) * odd;
+    return {.tilt_by_tilt = fma(corner, begin, fma(sixth, begin + two_middle, one)) + even,
+            .tilt_by_rate = h * (fma(sixth, middle, one) + odd),
+            .rate_by_tilt = h * fma(T(S(0.5)) * sixth * middle, begin + end, fma(mean, odd, mean)),
+            .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one)) + even};
 }
 
 /// Over an impact at the speed w: a tilt that is too large by d strikes later by d / w, and has
@@ -59,7 +76,7 @@ template <Number T>
 Variation<T> variation_over_impact(const T& sqrt_restitution, const T& speed, const T& before,
                                    const T& after)
 {
-    using std::fma;
+    using arithmetic::fma;
     return {.tilt_by_tilt = -sqrt_restitution,
             .tilt_by_rate = T(scalar_t<T>(0)),
             .rate_by_tilt = -fma(sqrt_restitution, before, after) / speed,

@@ -36,7 +36,7 @@ inline constexpr std::array<double, 7> cosine{
 template <Number T, std::size_t N>
 T polynomial(const std::array<double, N>& c, const T& t)
 {
-    using std::fma;
+    using arithmetic::fma;
     T sum(c[N - 1]);
     for (std::size_t i = N - 1; i-- > 0;) {
         sum = fma(sum, t, T(c[i]));
@@ -48,8 +48,8 @@ T polynomial(const std::array<double, N>& c, const T& t)
 template <Number T>
 SineAndCosine<T> sine_and_cosine(const T& x)
 {
+    using arithmetic::fma;
     using std::cos;
-    using std::fma;
     using std::sin;
     if constexpr (std::same_as<scalar_t<T>, double>) {
         const T t = x * x;
@@ -65,7 +65,7 @@ SineAndCosine<T> sine_and_cosine(const T& x)
 template <Number T>
 SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 {
-    using std::fma;
+    using arithmetic::fma;
     using S = scalar_t<T>;
     if constexpr (std::same_as<S, double>) {
         // pi in two parts: with at most 2 half turns the first product is exact under fma.
@@ -88,8 +88,8 @@ SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 template <Number T>
 T exponential_decay(const T& x)
 {
+    using arithmetic::fma;
     using std::exp;
-    using std::fma;
     if constexpr (std::same_as<scalar_t<T>, double>) {
         // exp(-x) = 2^-k exp(k ln 2 - x), k the integer nearest to x / ln 2, found by rounding at
         // 1.5 * 2^52; |k ln 2 - x| <= ln(2)/2, where the Taylor series to 1/13! leaves 4e-18.

@@ -1,5 +1,5 @@
-// What a number is: the seam through which one text of the physics runs in double, in SIMD lanes
-// and in 50 digits. A new number type specialises number_traits; nothing else is overloaded.
+// What a number is: the seam through which one text of the physics runs in double, in SIMD lanes,
+// in long double and in 50 digits. A new number type specialises number_traits.
 #pragma once
 
 #include <array>
@@ -9,6 +9,19 @@
 #include <cstdint>
 
 namespace overturn {
+
+/// The fused multiply-add of the physics. Of a long double x87 has none, and the C library's takes
+/// half a microsecond: there it is a product and a sum.
+namespace arithmetic {
+[[gnu::always_inline]] inline double fma(double a, double b, double c)
+{
+    return std::fma(a, b, c);
+}
+[[gnu::always_inline]] inline long double fma(long double a, long double b, long double c)
+{
+    return a * b + c;
+}
+} // namespace arithmetic
 
 template <class T>
 struct number_traits;
@@ -32,6 +45,9 @@ struct scalar_number_traits {
         return body();
     }
 };
+
+template <>
+struct number_traits<long double> : scalar_number_traits<long double> {};
 
 /// A positive number is mantissa * 2^exponent.
 template <class T>

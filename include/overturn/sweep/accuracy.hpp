@@ -30,8 +30,9 @@ struct AccuracyRow {
     Numerics numerics;
     double seconds_per_point = 0; ///< of compute_regions(), on one core; left to the caller [s]
     double steps = 0;             ///< tried, per point; with resolve, of the last integration alone
-    double evaluations = 0;    ///< per point: of the acceleration (rk45), or of its series (taylor)
-    ErrorDistribution angle{}; ///< [rad]; infinite from where on points end otherwise
+    double evaluations = 0; ///< per point: of the acceleration (rk45), or of its series (taylor)
+    ErrorDistribution
+        angle{}; ///< [rad]; infinite from where on points end otherwise, not a number of none
     ErrorDistribution velocity{};                                ///< [rad]
     ErrorDistribution margin{};                                  ///< [1]
     std::int64_t flips = 0;                                      ///< verdicts that are wrong
@@ -91,7 +92,7 @@ private:
 };
 
 /// The methods and tolerances that `overturn accuracy` compares: both at every decade from 1e-2 to
-/// 1e-14, and resolved from those at which errors are known.
+/// 1e-14, and resolved from those at which errors are known, down to 1e-8.
 std::vector<Numerics> accuracy_ladder();
 
 } // namespace overturn

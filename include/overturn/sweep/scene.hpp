@@ -66,4 +66,14 @@ struct Numerics {
     bool resolve = false;    ///< whether verdicts in doubt are settled with more digits
 };
 
+/// Longer steps of Runge and Kutta do not see their own errors.
+inline constexpr double largest_rk45_tolerance_with_error = 1e-4;
+
+/// Whether a point's error is bounded well.
+constexpr bool knows_errors(const Numerics& numerics)
+{
+    return numerics.method == Method::taylor ||
+           numerics.tolerance <= largest_rk45_tolerance_with_error;
+}
+
 } // namespace overturn

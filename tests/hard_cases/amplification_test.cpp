@@ -1,0 +1,99 @@
+// Slow pulses that hardly lift the block: what is small at uplift is 1e6 to 1e15 times larger at
+// the end. Each of these points once had a bound that its error exceeded, and a wrong verdict.
+#include "verdicts.hpp"
+
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+TEST(Amplification, OverOneLongStepIsPartOfTheError)
+{
+    const HardCase half_sine{.pulse = PulseKind::half_sine,
+                             .theory = Theory::linear,
+                             .slenderness = 0.2190266147968824,
+                             .restitution = 0.6791215840390759,
+                             .frequency = 0.07738004675203289};
+    for (const double amplitude : {1.002989367514313, 1.0029893666116225}) {
+        HardCase point = half_sine;
+        point.amplitude = amplitude;
+        expect_right_verdicts(point);
+    }
+    expect_right_verdicts({.pulse = PulseKind::one_sine,
+                           .theory = Theory::linear,
+                           .slenderness = 0.10404824387895703,
+                           .restitution = 0.7977967923716414,
+                           .frequency = 0.14174589673876217,
+                           .amplitude = 1.0098991655281153});
+    expect_right_verdicts({.pulse = PulseKind::one_cosine,
+                           .theory = Theory::linear,
+                           .slenderness = 0.07801151972840942,
+                           .restitution = 0.8444568454495585,
+                           .frequency = 0.1041095381152212,
+                           .amplitude = 1.0054021134247213});
+}
+
+TEST(Amplification, OfImpactsOnALongWayIsPartOfTheError)
+{
+    expect_right_verdicts({.pulse = PulseKind::one_cosine,
+                           .slenderness = 0.2972200856338059,
+                           .restitution = 0.6468045609643587,
+                           .frequency = 0.07631388066955715,
+                           .amplitude = 1.0027857893189558});
+}
+
+TEST(Amplification, OfRoundOffThatIsWrongAllTheTimeIsPartOfTheError)
+{
+    // The peak of the pulse is rounded once, and pushes too hard in every step.
+    for (const double frequency :
+         {0.15277345754571803, 0.15277345754571806, 0.1527734575457181, 0.15277345754571825}) {
+        expect_right_verdicts({.pulse = PulseKind::symmetric_ricker,
+                               .theory = Theory::linear,
+                               .slenderness = 0.2012045907792478,
+                               .restitution = 0.8738038594108882,
+                               .frequency = frequency,
+                               .amplitude = 1.0169943886935842});
+    }
+    for (const double frequency : {0.10064001335369872, 0.10067400725881652, 0.10070800116393433}) {
+        expect_right_verdicts({.pulse = PulseKind::rectangular,
+                               .slenderness = 0.49354261318154147,
+                               .restitution = 0.5,
+                               .frequency = frequency,
+                               .amplitude = 1.0000000000000042});
+    }
+}
+
+TEST(Amplification, InFiftyDigitsLeavesTheirErrorWithinItsBound)
+{
+    // Eight impacts that amplify the errors of their landings, too.
+    const HardCase point{.pulse = PulseKind::antisymmetric_ricker,
+                         .theory = Theory::linear,
+                         .slenderness = 0.30232279446291216,
+                         .restitution = 0.5913205839355178,
+                         .frequency = 0.2930857843949017,
+                         .amplitude = 1.044489325114106,
+                         .window = 1.4735407876265727};
+    expect_right_verdicts(point);
+    // From tolerances of 1e-36 and 1e-42, and from another program.
+    EXPECT_NEAR(truth_of(point).margin, -0.002851210435169135554626, 4e-19);
+}
+
+TEST(Uplift, HappensOnceOnAFlank)
+{
+    // Lifted by a last bit, the block is down again before a step of 1e-4 sees it rise.
+    for (const double amplitude : {1 + 0x1p-52, 1 + 1e-12}) {
+        const HardCase point{.pulse = PulseKind::one_cosine,
+                             .slenderness = 0.4675,
+                             .restitution = 0.5,
+                             .frequency = 0.2858,
+                             .amplitude = amplitude};
+        expect_right_verdicts(point);
+        for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+            EXPECT_LT(outcome_of(point, {.method = Method::rk45, .tolerance = tolerance}).steps,
+                      50);
+        }
+    }
+}
+
+} // namespace
+} // namespace overturn
