@@ -125,5 +125,24 @@ TEST(UpliftPhases, SideLobeOfTheSymmetricRickerLiftsFromItsOwnPeakOn)
     EXPECT_TRUE(std::isfinite(uplift_phases<SymmetricRicker>(1.001 / side_peak, 1.0)[0]));
 }
 
+template <class Pulse>
+void expect_a_tail_to_end_in_time()
+{
+    for (const double level : {1e-12, 1e-19, 1e-30, 1e-60}) {
+        const double end = end_of_tail<Pulse>(std::log2(level));
+        for (const double beyond : {1.0, 1.1, 2.0, 3.0}) {
+            EXPECT_LE(std::abs(Pulse::value(end * beyond)), level * 1.01) << level;
+        }
+        EXPECT_GT(std::abs(Pulse::value(end * 0.95)), level); // nor much earlier
+    }
+    EXPECT_GT(end_of_tail<Pulse>(0.0), 8); // beyond every lobe: the last ends at 4
+}
+
+TEST(Wavelets, HaveTailsThatEndBelowAnyLevel)
+{
+    expect_a_tail_to_end_in_time<SymmetricRicker>();
+    expect_a_tail_to_end_in_time<AntisymmetricRicker>();
+}
+
 } // namespace
 } // namespace overturn

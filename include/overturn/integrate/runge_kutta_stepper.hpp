@@ -21,6 +21,7 @@ template <class Pulse, Theory theory, Number T, bool watched = false>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
+    static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
 
 public:
     RungeKuttaStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation,
@@ -30,6 +31,7 @@ public:
           landing_(zero_ != zero_)
     {
         const T frequency = excitation.frequency;
+        using std::abs;
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
         first_step_ = step_error_power(T(tolerance)) / fastest;
         step_size_ = first_step_;
@@ -37,6 +39,11 @@ public:
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
+            if constexpr (wavelet) {
+                const T unfelt = T(tolerance) * T(S(1) / 128) * block.slenderness;
+                tail_end_ = end_of_tail<Pulse>(
+                    T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
+            }
         }
     }
 
@@ -171,7 +178,8 @@ private:
     /// What is amiss is the error of the solution of order 5, and a smaller one of the formula. For
     /// that a part of the embedded estimate e, an error of order 5, comes on top: of order 7, as
     /// (e / size)^(2/5) goes with h^2. Twice the sum covers what still longer steps miss; of
-    /// steps that are longer than an angle of the pulse of 2 nothing is known.
+    /// steps that are longer than an angle of the pulse of 2 nothing is known. In 4 of 10^6 points
+    /// it was up to twice too small.
     StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
                          const T& h, const Sample& last) const
     {
@@ -196,8 +204,12 @@ private:
                                     start.rate);
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
-        // A constant push has no phase; there the block's own time says what is long.
-        const T length = std::same_as<Pulse, Rectangular> ? h : phase_step;
+        // Where the push is constant, or is not felt any more, the block's own time says what is
+        // long.
+        T length = std::same_as<Pulse, Rectangular> ? h : phase_step;
+        if constexpr (wavelet) {
+            length = select<T>(now.phase < tail_end_, length, h);
+        }
         const T longest = T(S(longest_variation));
         const T blind = select<T>(length > T(S(2)) || h > longest, T(unknown_error<S>), zero_);
         const T two(S(2));
@@ -262,6 +274,7 @@ private:
     struct Nothing {};
     [[no_unique_address]] std::conditional_t<watched, Sample, Nothing> sample_; // at the beginning
     [[no_unique_address]] std::conditional_t<watched, T, Nothing> embedded_share_; // see errors()
+    [[no_unique_address]] std::conditional_t<watched && wavelet, T, Nothing> tail_end_; // likewise
 };
 
 /// The method as a choice: Dormand-Prince 5(4).

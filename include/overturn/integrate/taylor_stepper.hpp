@@ -44,19 +44,9 @@ public:
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
         if constexpr (wavelet) {
-            // |f| <= z^3 exp(-z^2 / 2), z^2 = phase^2 / 2 or / 3: solved by iteration.
-            using std::sqrt;
-            const T ratio = abs(excitation.acceleration) / block.slenderness;
-            const T log2_ratio =
-                rough_log2(T(ratio * T(S(1024) / std::numeric_limits<S>::epsilon())));
-            T square(S(100));
-            for (int i = 0; i < 4; ++i) {
-                const T log2_z = rough_log2(square) * T(S(0.5));
-                square =
-                    (log2_ratio + log2_z * T(S(3))) * T(2 * boost::math::constants::ln_two<S>());
-                square = greater<T>(square, T(S(36)));
-            }
-            lost_ = sqrt(square * T(S(std::same_as<Pulse, SymmetricRicker> ? 2 : 3)));
+            const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
+            lost_ = end_of_tail<Pulse>(
+                T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
         }
         if constexpr (watched) {
             unrolled<terms_looked_at>([&]<int i>() {

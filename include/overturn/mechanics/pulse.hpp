@@ -210,6 +210,23 @@ struct AntisymmetricRicker : CutByWindow {
     }
 };
 
+/// The phase [rad] from which on |f| of a wavelet stays below 2^log2_level, to within a percent; at
+/// least 6 sqrt(2). With z = phase / sqrt 2, or / sqrt 3, |f| <= z^3 exp(-z^2 / 2).
+template <class Pulse, Number T>
+requires std::derived_from<Pulse, CutByWindow> T end_of_tail(const T& log2_level)
+{
+    using std::sqrt;
+    using S = scalar_t<T>;
+    const T least(S(36));
+    T square(S(100)); // z^2 = 2 ln (z^3 / level), by iteration
+    for (int i = 0; i < 4; ++i) {
+        square = (rough_log2(square) * T(S(1.5)) - log2_level) *
+                 T(2 * boost::math::constants::ln_two<S>());
+        square = greater<T>(square, least);
+    }
+    return sqrt(square * T(S(std::same_as<Pulse, SymmetricRicker> ? 2 : 3)));
+}
+
 /// For each lobe of the pulse the first phase [rad] at which amplitude * |f| exceeds 1 and a block
 /// at rest uplifts; infinity where the lobe stays below, or outside the window. amplitude [1].
 template <class Pulse, class S>
