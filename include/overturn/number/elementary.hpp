@@ -131,7 +131,7 @@ T rough_log2(const T& x)
         return polynomial(cubic, mantissa) + exponent;
     } else {
         using std::log2;
-        return log2(x);
+        return x == T(0) ? T(-200000) : T(log2(x)); // which would be infinite
     }
 }
 
