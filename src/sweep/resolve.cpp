@@ -11,7 +11,7 @@ namespace overturn {
 
 namespace {
 
-/// Fine enough that of a plane's points one in billions is left in doubt, and still doubles.
+/// Fine enough to settle almost every point that a first pass left in doubt, and still doubles.
 constexpr Numerics finest_in_doubles{.method = Method::taylor, .tolerance = 1e-13};
 
 void give_up(int point, Ends& ends)

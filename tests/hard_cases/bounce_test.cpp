@@ -96,8 +96,8 @@ TEST(BounceSeries, ThatProvablyStaysLowIsSafeHoweverLong)
 
 TEST(BounceSeries, TooLongForMoreDigitsIsGivenUpBeforeTheyAreTried)
 {
-    // The second lobe lifts what bounces before it, so nobody can tell without following it.
-    // Doubles do so for half a minute of 19 digits, and lose count.
+    // The second lobe lifts what bounces before it, so nobody can tell without following it; and
+    // more digits would need as many steps as doubles.
     const HardCase point{.pulse = PulseKind::one_cosine,
                          .slenderness = 0.3,
                          .restitution = 1,
