@@ -31,7 +31,7 @@ TEST(ErrorGrowth, HoldsTheWorstThatErrorsMayAddUpTo)
             step = {variation_over<double>(0.3, uniform(generator), 1, 1),
                     std::abs(uniform(generator)), std::abs(uniform(generator))};
             growth.pass(step.by, true);
-            growth.add(step.tilt, step.rate, 0, 0, true);
+            growth.add(step.tilt, step.rate, true);
         }
         // Carried back to a step, the wanted combination tells which signs of its errors are worst.
         for (const auto& [a, b] : {std::pair(1.0, 0.0), {0.0, 1.0}, {1.0, -1.0}, {0.3, 2.0}}) {
@@ -56,17 +56,54 @@ TEST(ErrorGrowth, OfErrorsOfOneKindIsTheirSum)
     const Variation<double> still{1, 0, 0, 1};
     for (int step = 0; step < 10; ++step) {
         growth.pass(still, true);
-        growth.add(0, 0.5, 0, 0, true);
+        growth.add(0, 0.5, true);
     }
     // Ten errors of 0.5 in the rate; a 2^-13 more for what variations are not sure of.
     EXPECT_NEAR(growth.bound(0, 1), 5, 5 * 0x1p-12);
     EXPECT_EQ(growth.bound(1, 0), 0);
 }
 
+TEST(ErrorGrowth, KeepsALongThinEllipseThin)
+{
+    // A thousand low bounces: with more rate, a block is ahead by more and more tilt.
+    ErrorGrowth<double> growth;
+    const double shear = 100;
+    const int steps = 1000;
+    const double own = 1e-16;
+    for (int step = 0; step < steps; ++step) {
+        growth.pass({1, shear, 0, 1}, true);
+        growth.add(own, own, true);
+    }
+    // At worst the rate is off by the sum of all, the tilt by that times the steps since. A bound
+    // by the root of steps * sum of squares, as here, is at most twice that; what begins as the
+    // 65th step is weighed so that another factor of sqrt(1 + 64 / steps) comes on top. The
+    // rectangle's ellipse is sqrt(2) larger than it is.
+    const double rate = steps * own;
+    const double tilt = shear * own * steps * (steps - 1) / 2 + steps * own;
+    EXPECT_GE(growth.bound(0, 1), rate);
+    EXPECT_LE(growth.bound(0, 1), 3 * rate);
+    EXPECT_GE(growth.bound(1, 0), tilt);
+    EXPECT_LE(growth.bound(1, 0), 3 * tilt);
+}
+
+TEST(ErrorGrowth, OfTheTimeIsAlongTheMotion)
+{
+    ErrorGrowth<double> growth;
+    const double time = 1e-14;
+    const double speed = 0.5;
+    const double acceleration = -2;
+    growth.add_round_off(0, 0, time, speed, acceleration, true);
+    EXPECT_NEAR(growth.bound(1, 0), time * speed, time * speed * 0x1p-12);
+    EXPECT_NEAR(growth.bound(0, 1), time * 2, time * 2 * 0x1p-12);
+    // The energy stays, but for the 2^-12 of the squares that variations are not sure of.
+    const double energy = growth.bound(acceleration, -speed);
+    EXPECT_LE(energy, 1.01 * 0x1p-6 * std::sqrt(2.0) * time * std::abs(speed * acceleration));
+}
+
 TEST(ErrorGrowth, EndsWhereTheBlockRests)
 {
     ErrorGrowth<double> growth;
-    growth.add(0.1, 0.2, 0, 0, true);
+    growth.add(0.1, 0.2, true);
     growth.forget(true);
     EXPECT_EQ(growth.bound(1, 1), 0);
 }
@@ -75,7 +112,7 @@ TEST(ErrorGrowth, SaysNothingGoodOfWhatIsNotANumber)
 {
     const UntrappedFloatingPoint untrapped;
     ErrorGrowth<double> growth;
-    growth.add(0.1, std::numeric_limits<double>::infinity(), 0, 0, true);
+    growth.add(0.1, std::numeric_limits<double>::infinity(), true);
     EXPECT_FALSE(growth.bound(1, 1) < 1e300);
 }
 

@@ -20,6 +20,7 @@ struct StepErrors {
     Variation<T> variation; ///< of its end with its beginning
     T tilt;                 ///< at most left out by its formula [rad]
     T rate;                 ///< [rad]
+    T acceleration;         ///< at its end [rad]
     T turning_tilt;         ///< the tilt where the rate changes its sign, if it does [rad]
 };
 
@@ -52,25 +53,44 @@ public:
     }
 
     /// Adds the error of a step, at most `tilt` and `rate` in size. Of all ellipses of their kind
-    /// the smallest that holds this rectangle has diag(tilt, rate) (tilt + rate), and the smallest
-    /// that holds the sum of two, of sizes a and b, (a + b) (P / a + Q / b); a size is the square
-    /// root of a trace. Round-off [rad] is random, and its squares simply add up.
-    void add(const T& tilt, const T& rate, const T& tilt_round_off, const T& rate_round_off,
-             const Mask& lanes)
+    /// the smallest that holds this rectangle has diag(tilt, rate) (tilt + rate), and one that
+    /// holds the sum of two is
+    ///
+    ///     (1 + 1 / w) P + (1 + w) Q     for any w > 0.
+    ///
+    /// Where errors pile up along one direction, the ratio of sizes (square roots of traces) is the
+    /// best w. After thousands of bounces P is long and thin, as those with more energy are ahead
+    /// by more and more: a rectangle as small as its width is then not to be weighed by its length,
+    /// and the number of steps, as in Cauchy's inequality, is the better w.
+    void add(const T& tilt, const T& rate, const Mask& lanes)
     {
         using arithmetic::fma;
         using std::sqrt;
         const T tiny(S(0x1p-500)); // instead of 0 / 0
-        const T before = greater<T>(sqrt(tilt_tilt_ + rate_rate_), tiny);
-        const T size = before + (tilt + rate);
-        const T grown = size / before;
-        const auto sum = [&](const T& to, const T& error, const T& round_off) -> T {
-            const T added = fma(size, error, round_off * round_off);
-            return select<T>(lanes, fma(grown, to, added), to);
-        };
-        tilt_tilt_ = sum(tilt_tilt_, tilt, tilt_round_off);
+        const T own = tilt + rate;
+        const T size = sqrt(tilt_tilt_ + rate_rate_);
+        steps_ = select<T>(lanes, steps_ + T(S(1)), steps_);
+        const T weight = greater<T>(lesser<T>(size, own * steps_), tiny); // w (tilt + rate)
+        const T grown = (weight + own) / weight;
+        tilt_tilt_ = select<T>(lanes, fma(grown, tilt_tilt_, (weight + own) * tilt), tilt_tilt_);
         tilt_rate_ = select<T>(lanes, grown * tilt_rate_, tilt_rate_);
-        rate_rate_ = sum(rate_rate_, rate, rate_round_off);
+        rate_rate_ = select<T>(lanes, fma(grown, rate_rate_, (weight + own) * rate), rate_rate_);
+    }
+
+    /// Adds round-off, which is random, so that its squares simply add up: of tilt and rate each
+    /// for itself, and of the time, which shifts both along the motion. [rad, 1/p]
+    void add_round_off(const T& tilt, const T& rate, const T& time, const T& speed,
+                       const T& acceleration, const Mask& lanes)
+    {
+        using arithmetic::fma;
+        const T along = time * speed;
+        const T faster = time * acceleration;
+        const auto sum = [&](const T& to, const T& own, const T& shift) -> T {
+            return select<T>(lanes, to + fma(own, own, shift), to);
+        };
+        tilt_tilt_ = sum(tilt_tilt_, tilt, along * along);
+        tilt_rate_ = sum(tilt_rate_, zero_, along * faster);
+        rate_rate_ = sum(rate_rate_, rate, faster * faster);
     }
 
     /// The largest error of by_tilt * tilt + by_rate * rate.
@@ -91,6 +111,7 @@ private:
     T tilt_tilt_ = zero_;
     T tilt_rate_ = zero_;
     T rate_rate_ = zero_;
+    T steps_ = T(S(64)); // so that the first ones are weighed by their size
 };
 
 } // namespace overturn

@@ -185,9 +185,9 @@ private:
         const T late = abs(step.phase) / excitation_.frequency;
         growth_.pass(step.errors.variation, lanes);
         growth_.add(fma(rounding * duration, rate, step.errors.tilt),
-                    fma(rounding * duration, acceleration + acceleration, step.errors.rate),
-                    T(rounding * fma(late, rate, step.tilt)),
-                    T(rounding * fma(late, acceleration, rate)), lanes);
+                    fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
+        growth_.add_round_off(T(rounding * step.tilt), T(rounding * rate), T(rounding * late),
+                              step.rate, step.errors.acceleration, lanes);
 
         // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
         const Mask inward = lanes && now_.rate < zero_ && step.rate > zero_ && !step.falls;
@@ -217,6 +217,7 @@ private:
         const Mask known =
             share * square_error < speed * speed && T(S(4)) * radius < block_.slenderness;
         doubtful_ = doubtful_ || (lanes && !(known && now_.rate < zero_));
+        growth_.forget(doubtful_); // it would only grow to numbers that are too large
         growth_.pass(variation_over_impact<T>(sqrt_restitution_, speed, before, after), lanes);
     }
 

@@ -230,6 +230,7 @@ private:
                                                middle.stiffness, last.stiffness),
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), blind),
+                .acceleration = last.acceleration,
                 .turning_tilt =
                     turning_tilt<T>(block_.slenderness, start.rate, end.rate, lower_bound(tilt),
                                     upper_bound(tilt), tilt_at_turn)};

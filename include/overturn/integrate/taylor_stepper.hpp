@@ -226,6 +226,7 @@ private:
                                       stiffness(end.tilt, end.phase)),
                 .tilt = left_out * h * T(S(1) / (order + 2)),
                 .rate = fma(left_out, fastest_, blind),
+                .acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_),
                 .turning_tilt =
                     turning_tilt<T>(slenderness_, now.rate, end.rate, lower_bound(bounds.lower()),
                                     upper_bound(bounds.upper()), tilt_at_turn)};
