@@ -2,6 +2,7 @@
 
 #include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
+#include "sample.hpp"
 #include "tile_run.hpp"
 
 #include <algorithm>
@@ -12,37 +13,6 @@ namespace overturn {
 namespace {
 
 constexpr Numerics settling{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
-
-/// About `count` values of an axis, its ends among them.
-Axis spread(const Axis& axis, std::int64_t count)
-{
-    if (axis.size() <= count) {
-        return Axis(axis.values());
-    }
-    AxisList values;
-    for (std::int64_t i = 0; i < count; ++i) {
-        values.push_back(axis[count == 1 ? axis.size() / 2 : i * (axis.size() - 1) / (count - 1)]);
-    }
-    return Axis(values);
-}
-
-Plane sample_of(const Plane& plane, std::int64_t points)
-{
-    constexpr std::int64_t most_of_a_block = 3; // slendernesses, restitutions
-    Plane sample = plane;
-    sample.slenderness = spread(plane.slenderness, most_of_a_block);
-    sample.restitution = spread(plane.restitution, most_of_a_block);
-    const double left =
-        double(points) / double(sample.slenderness.size()) / double(sample.restitution.size());
-    const auto side = std::int64_t(std::sqrt(left));
-    const std::int64_t amplitudes = std::clamp<std::int64_t>(
-        std::int64_t(left / double(std::min(side, plane.frequency.size()))), 1,
-        plane.amplitude.size());
-    sample.amplitude = spread(plane.amplitude, amplitudes);
-    sample.frequency =
-        spread(plane.frequency, std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
-    return sample;
-}
 
 bool fell(std::uint8_t region)
 {
@@ -135,26 +105,11 @@ void AccuracyStudy::settle_verdicts()
 void AccuracyStudy::compute_in_digits(std::int64_t wanted)
 {
     const Tiling tiling(sample_.plane);
-    const std::int64_t points = sample_.plane.points();
-    const double stride = std::max(1.0, double(points) / double(wanted));
-    // Rows come in turn; that no frequency is left out, the golden ratio chooses among a row's.
-    double column = 0.5;
-    const auto spread_over_columns = [&](int point, const Tile& tile) {
-        if (stride < 2) {
-            return point;
-        }
-        column = std::fmod(column + 0.6180339887498949, 1.0);
-        const auto columns = int(tile.frequency_count);
-        return point - point % columns + int(column * columns);
-    };
-    std::int64_t before = 0;
-    double next = 0.5 * stride;
+    const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const Tile tile = tiling[i];
-        const TileRun run(scene_, sample_.plane, tile, kernel_);
-        Ends ends(std::size_t(tile.points()), {.error = true});
-        for (; next < double(before + tile.points()); next += stride) {
-            const int point = spread_over_columns(int(std::int64_t(next) - before), tile);
+        const TileRun run(scene_, sample_.plane, tiling[i], kernel_);
+        Ends ends(std::size_t(run.points()), {.error = true});
+        for (const int point : chosen[std::size_t(i)]) {
             run.run_exactly<Digits50>(point, ends);
             if (!(ends.flags[point] & end_flag::undecided)) {
                 in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
@@ -163,7 +118,6 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
                                       ends.settled.back().margin});
             }
         }
-        before += tile.points();
     }
     sample_.in_digits = std::int64_t(in_digits_.size());
 }

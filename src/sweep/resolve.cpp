@@ -1,4 +1,4 @@
-#include "tile_run.hpp"
+#include "resolve.hpp"
 
 #include "overturn/integrate/more_digits.hpp"
 
@@ -55,16 +55,15 @@ bool settle_in(const TileRun& tile, int point, Ends& ends)
 
 } // namespace
 
-Ends integrate(const TileRun& tile, const Numerics& numerics, std::size_t points,
-               const Asked& asked)
+Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
 {
     Asked recorded = asked;
     recorded.error = asked.error || numerics.resolve;
     recorded.steps = asked.steps || numerics.resolve;
-    Ends ends(points, recorded);
+    Ends ends(std::size_t(tile.points()), recorded);
     tile.run(numerics, ends);
     if (numerics.resolve) {
-        std::vector<int> all(points);
+        std::vector<int> all(ends.tilt.size());
         std::iota(all.begin(), all.end(), 0);
         std::vector<int> doubtful = in_doubt(tile, all, ends);
         tile.run(finest_in_doubles, doubtful, ends);

@@ -1,6 +1,6 @@
 #include "overturn/sweep/sweep_tile.hpp"
 
-#include "tile_run.hpp"
+#include "resolve.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -71,10 +71,10 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
     const TileRun run(scene, plane, tile, kernel);
-    Ends ends = integrate(run, numerics, std::size_t(tile.points()),
-                          {.impacts = wanted(Field::impacts),
-                           .error = wanted(Field::error),
-                           .steps = wanted(Field::steps)});
+    Ends ends = ends_of(run, numerics,
+                        {.impacts = wanted(Field::impacts),
+                         .error = wanted(Field::error),
+                         .steps = wanted(Field::steps)});
     TileFields result;
     for (const Field field : fields) {
         result.values.push_back(field_values(field, run, ends));

@@ -51,6 +51,8 @@ class TileRun {
 public:
     TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel);
 
+    int points() const { return int(tile_.points()); }
+
     /// Integrates every point, or the chosen ones.
     void run(const Numerics& numerics, Ends& ends) const;
     void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
@@ -77,10 +79,5 @@ private:
     std::vector<double> acceleration_, uplifts_, frequency_;
     double begin_, end_;
 };
-
-/// Integrates every point of a tile; if the job wants its verdicts resolved, those in doubt again,
-/// with more and more digits. What stays in doubt gets end_flag::unresolved.
-Ends integrate(const TileRun& tile, const Numerics& numerics, std::size_t points,
-               const Asked& asked);
 
 } // namespace overturn

@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -77,6 +78,17 @@ class AnAccuracyStudy(Scratch):
         result = self.plot("spectrum.h5")
         self.assertEqual(result.returncode, 74)
         self.assertIn("is not a study written by overturn accuracy", result.stderr)
+
+    def test_without_a_known_point_is_not_drawn(self):
+        self.study()
+        for known in ("points_settled", "points_in_50_digits"):
+            shutil.copy(self.folder / "study.h5", self.folder / "nothing_known.h5")
+            with h5py.File(self.folder / "nothing_known.h5", "r+") as file:
+                file.attrs[known] = 0
+            result = self.plot("nothing_known.h5", "-o", "nothing_known.png")
+            self.assertEqual(result.returncode, 74)
+            self.assertIn("nothing to compare with", result.stderr)
+            self.assertFalse((self.folder / "nothing_known.png").exists())
 
 
 class ResolvedJobs(Scratch):

@@ -78,6 +78,43 @@ TEST(Amplification, InFiftyDigitsLeavesTheirErrorWithinItsBound)
     EXPECT_NEAR(truth_of(point).margin, -0.002851210435169135554626, 4e-19);
 }
 
+TEST(Amplification, ThatIsUndoneOnTheWayDownLeavesRoundOffOfTheBoundItself)
+{
+    // Twice from top to top without loss: errors grow to a tenth of alpha, and shrink to less than
+    // a bound in doubles can hold beside them.
+    expect_right_verdicts({.pulse = PulseKind::symmetric_ricker,
+                           .theory = Theory::linear,
+                           .slenderness = 0.051923607403811856,
+                           .restitution = 1,
+                           .frequency = 0.4462874609702015,
+                           .amplitude = 1.0948520953270426,
+                           .window = 4.8589922388857376});
+}
+
+TEST(Amplification, OfThousandsOfBouncesIsKnownInDoubles)
+{
+    // Bounces after a first lobe that hardly lifts, and after one of two that hardly do. In long
+    // double either is known to 1e-6; the bound of doubles is that times a few thousand.
+    const HardCase side_lobe{.pulse = PulseKind::symmetric_ricker,
+                             .slenderness = 0.024413150530126933,
+                             .restitution = 1,
+                             .frequency = 6.3,
+                             .amplitude = 2.2409966655330615};
+    const HardCase two_lobes{
+        .slenderness = 0.026, .restitution = 1, .frequency = 0.05, .amplitude = 1.0001156};
+    for (const HardCase& point : {side_lobe, two_lobes}) {
+        const Outcome outcome = expect_right_verdict(
+            point, {.method = Method::taylor, .tolerance = 1e-4, .resolve = true}, {},
+            {.most_steps = 20000});
+        EXPECT_EQ(outcome.region, Region::S);
+        EXPECT_GT(outcome.impacts, 10000);
+        EXPECT_LT(outcome.error, 1e-3 * outcome.margin);
+        const Outcome finest = outcome_of(point, {.method = Method::taylor, .tolerance = 1e-13});
+        EXPECT_LE(std::abs(finest.margin - outcome.margin), finest.error + outcome.error);
+        EXPECT_LT(finest.error, 1e-3 * finest.margin);
+    }
+}
+
 TEST(Uplift, HappensOnceOnAFlank)
 {
     // Lifted by a last bit, the block is down again before a step of 1e-4 sees it rise.

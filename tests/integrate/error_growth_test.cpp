@@ -86,6 +86,26 @@ TEST(ErrorGrowth, KeepsALongThinEllipseThin)
     EXPECT_LE(growth.bound(1, 0), 3 * tilt);
 }
 
+TEST(ErrorGrowth, LeavesWhatIsLeftWhereErrorsShrinkAgain)
+{
+    // Up to the top and down again: what was stretched by e^20 is as small as it was.
+    ErrorGrowth<double> growth;
+    growth.add(1e-10, 1e-10, true);
+    const double before = growth.bound(1, 1);
+    const Variation<double> up = variation_over<double>(4, 1, 1, 1);
+    for (int i = 0; i < 5; ++i) {
+        growth.pass(up, true);
+    }
+    const double at_the_top = growth.bound(1, 1);
+    EXPECT_NEAR(at_the_top / before, std::exp(20.0), 1e-3 * std::exp(20.0));
+    for (int i = 0; i < 5; ++i) {
+        growth.pass({up.tilt_by_tilt, -up.tilt_by_rate, -up.rate_by_tilt, up.rate_by_rate}, true);
+    }
+    EXPECT_GE(growth.bound(1, 1), before);
+    // The round-off of squares at the top, stretched the other way.
+    EXPECT_LE(growth.bound(1, 1), std::sqrt(8 * 0x1p-52) * at_the_top * std::exp(20.0));
+}
+
 TEST(ErrorGrowth, OfTheTimeIsAlongTheMotion)
 {
     ErrorGrowth<double> growth;

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 namespace overturn {
 namespace {
@@ -63,29 +66,67 @@ TEST(VariationOverAStep, IsThatOfAnInvertedPendulumHoweverLong)
     EXPECT_LT(distance(variation_over<double>(3, 1, 1, 1), exact_variation(3, 1)), 3e-10);
 }
 
+/// From a step's beginning to its end, in parts whose errors are 1e10 times smaller in all.
+template <class Stiffness>
+Variation<double> composed_variation(double h, const Stiffness& stiffness)
+{
+    constexpr int parts = 300;
+    Variation<double> all{1, 0, 0, 1};
+    for (int i = 0; i < parts; ++i) {
+        const auto at = [&](double part) { return stiffness(h * (i + part) / parts); };
+        const auto next = variation_over<double>(h / parts, at(0), at(0.5), at(1));
+        all = {next.tilt_by_tilt * all.tilt_by_tilt + next.tilt_by_rate * all.rate_by_tilt,
+               next.tilt_by_tilt * all.tilt_by_rate + next.tilt_by_rate * all.rate_by_rate,
+               next.rate_by_tilt * all.tilt_by_tilt + next.rate_by_rate * all.rate_by_tilt,
+               next.rate_by_tilt * all.tilt_by_rate + next.rate_by_rate * all.rate_by_rate};
+    }
+    return all;
+}
+
 TEST(VariationOverAStep, HasOrderFourWhereTheStiffnessVaries)
 {
     const auto stiffness = [](double t) { return 1 + t; };
-    const auto over = [&](double from, double h) {
-        return variation_over<double>(h, stiffness(from), stiffness(from + h / 2),
-                                      stiffness(from + h));
-    };
     const auto error = [&](int steps) {
         const double h = 1.0 / steps;
-        Variation<double> exact{1, 0, 0, 1};
-        constexpr int parts = 1000; // whose errors are 1e12 times smaller in all
-        for (int i = 0; i < parts; ++i) {
-            const Variation<double> next = over(h * i / parts, h / parts);
-            exact = {
-                next.tilt_by_tilt * exact.tilt_by_tilt + next.tilt_by_rate * exact.rate_by_tilt,
-                next.tilt_by_tilt * exact.tilt_by_rate + next.tilt_by_rate * exact.rate_by_rate,
-                next.rate_by_tilt * exact.tilt_by_tilt + next.rate_by_rate * exact.rate_by_tilt,
-                next.rate_by_tilt * exact.tilt_by_rate + next.rate_by_rate * exact.rate_by_rate};
-        }
-        return distance(over(0, h), exact);
+        return distance(variation_over<double>(h, stiffness(0), stiffness(h / 2), stiffness(h)),
+                        composed_variation(h, stiffness));
     };
     EXPECT_LT(error(1), 0.02);
     EXPECT_NEAR(observed_order({4, 6, 8, 12, 16}, error), 5, 0.1); // of one step
+}
+
+TEST(VariationOverAStep, SaysHowUnsureItIs)
+{
+    // Steps of up to 2, over up to 2 rad of a push that is up to ten times as strong as gravity.
+    std::mt19937_64 generator(4);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    constexpr int draws = 2000;
+    int too_little = 0;
+    std::vector<double> shares;
+    for (int i = 0; i < draws; ++i) {
+        const double h = std::pow(10, -2 + 2.3 * uniform(generator));
+        const double frequency = 2 * uniform(generator) / h;
+        const double push = std::pow(10, -1.5 + 2.5 * uniform(generator));
+        const double phase = 7 * uniform(generator);
+        const auto stiffness = [&](double t) {
+            return 0.8 + push * std::sin(frequency * t + phase);
+        };
+        const Variation<double> found =
+            variation_over<double>(h, stiffness(0), stiffness(h / 2), stiffness(h));
+        const Variation<double> exact = composed_variation(h, stiffness);
+        const double share =
+            std::max({std::abs(found.rate_by_tilt - exact.rate_by_tilt),
+                      std::abs(found.tilt_by_tilt - exact.tilt_by_tilt) / h,
+                      std::abs(found.rate_by_rate - exact.rate_by_rate) / h,
+                      std::abs(found.tilt_by_rate - exact.tilt_by_rate) / (h * h)}) /
+            found.unsure;
+        too_little += share > 1;
+        shares.push_back(share);
+    }
+    EXPECT_LT(too_little, draws / 50);
+    std::sort(shares.begin(), shares.end());
+    EXPECT_LT(shares.back(), 5);
+    EXPECT_GT(shares[draws / 2], 1.0 / 30) << "what is unsure is told too large";
 }
 
 TEST(VariationOverAStep, KeepsAreas)

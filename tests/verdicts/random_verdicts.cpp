@@ -4,7 +4,7 @@
 // be. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
 #include "verdicts/random_planes.hpp"
 
-#include "tile_run.hpp"
+#include "resolve.hpp"
 
 #include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
@@ -60,7 +60,7 @@ Tile whole(const Plane& plane)
 Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
 {
     const TileRun run(scene, plane, whole(plane), kernel);
-    Ends ends = integrate(run, tightest, std::size_t(plane.points()), {.error = true});
+    Ends ends = ends_of(run, tightest, {.error = true});
     const std::vector<double> margins = run.margins(ends);
     for (int point = 0; point < ends.size(); ++point) {
         // Nor are half a million impacts worth the hours that they take in 50 digits.
@@ -97,7 +97,7 @@ void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, con
                   Kernel kernel)
 {
     const TileRun run(scene, plane, whole(plane), kernel);
-    Ends ends = integrate(run, check.numerics, std::size_t(plane.points()), {.error = true});
+    Ends ends = ends_of(run, check.numerics, {.error = true});
     const std::vector<double> margins = run.margins(ends);
     for (int point = 0; point < ends.size(); ++point) {
         const bool known = std::isfinite(truth.margin[point]) &&
@@ -176,6 +176,17 @@ double median(std::vector<double>& values)
     return *middle;
 }
 
+std::string ratio_of_times(const Resolving& resolving, int without_loss)
+{
+    if (resolving.plain_seconds[without_loss] == 0) {
+        return "-"; // no such plane
+    }
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2f",
+                  resolving.seconds[without_loss] / resolving.plain_seconds[without_loss]);
+    return text;
+}
+
 std::vector<BoundCheck> all_bound_checks()
 {
     std::vector<BoundCheck> checks;
@@ -212,13 +223,12 @@ bool study_scene(const Scene& kind, std::int64_t points, std::mt19937_64& genera
     for (const Resolving& resolving : resolvings) {
         std::printf(
             "%-21s %-9s %-6s resolved: %lld points, %lld wrong, %lld unresolved, "
-            "%.2f times the time at 1e-6, without loss %.2f times\n",
+            "%s times the time at 1e-6, without loss %s times\n",
             std::string(name_of(kind.pulse)).c_str(), std::string(name_of(kind.theory)).c_str(),
             std::string(name_of(resolving.method)).c_str(),
             static_cast<long long>(resolving.points), static_cast<long long>(resolving.wrong),
-            static_cast<long long>(resolving.unresolved),
-            resolving.seconds[0] / resolving.plain_seconds[0],
-            resolving.seconds[1] / resolving.plain_seconds[1]);
+            static_cast<long long>(resolving.unresolved), ratio_of_times(resolving, 0).c_str(),
+            ratio_of_times(resolving, 1).c_str());
         right = right && resolving.wrong == 0 &&
                 double(resolving.unresolved) <= 1 + most_unresolved * double(resolving.points);
     }

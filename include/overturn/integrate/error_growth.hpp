@@ -38,18 +38,32 @@ public:
         rate_rate_ = select<T>(lanes, zero_, rate_rate_);
     }
 
-    /// P becomes V P V^T.
+    /// P becomes V P V^T. What V is unsure of, and round-off, come on top: where errors shrink
+    /// along one direction while they grow along another, P is a small difference of large numbers,
+    /// and would lose what is left.
     void pass(const Variation<T>& by, const Mask& lanes)
     {
         using arithmetic::fma;
-        const auto& [tt, tr, rt, rr] = by;
+        const T& tt = by.tilt_by_tilt;
+        const T& tr = by.tilt_by_rate;
+        const T& rt = by.rate_by_tilt;
+        const T& rr = by.rate_by_rate;
         const T tilt_tilt = fma(tt, tilt_tilt_, tr * tilt_rate_);
         const T tilt_rate = fma(tt, tilt_rate_, tr * rate_rate_);
         const T rate_tilt = fma(rt, tilt_tilt_, rr * tilt_rate_);
         const T rate_rate = fma(rt, tilt_rate_, rr * rate_rate_);
-        tilt_tilt_ = select<T>(lanes, fma(tilt_tilt, tt, tilt_rate * tr), tilt_tilt_);
+        // At most four roundings of twice these sums, and as much off the diagonal.
+        const T round_off(8 * std::numeric_limits<S>::epsilon());
+        const T lost_tilt = round_off * fma(tt * tt, tilt_tilt_, tr * tr * rate_rate_);
+        const T lost_rate = round_off * fma(rt * rt, tilt_tilt_, rr * rr * rate_rate_);
+        const T time = by.time * by.time;
+        const T unsure = by.unsure * by.unsure * fma(time, rate_rate_, tilt_tilt_);
+        tilt_tilt_ =
+            select<T>(lanes, fma(tilt_tilt, tt, fma(tilt_rate, tr, fma(time, unsure, lost_tilt))),
+                      tilt_tilt_);
         tilt_rate_ = select<T>(lanes, fma(tilt_tilt, rt, tilt_rate * rr), tilt_rate_);
-        rate_rate_ = select<T>(lanes, fma(rate_tilt, rt, rate_rate * rr), rate_rate_);
+        rate_rate_ = select<T>(lanes, fma(rate_tilt, rt, fma(rate_rate, rr, lost_rate + unsure)),
+                               rate_rate_);
     }
 
     /// Adds the error of a step, at most `tilt` and `rate` in size. Of all ellipses of their kind

@@ -301,7 +301,8 @@ private:
         T landing_time = time + land(here.width, here.rate, acceleration).delay;
         constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
         for (int i = 0; i < more; ++i) {
-            const Gap there = gap_at(series, landing_time, falls);
+            const T somewhere = select<T>(near && closes, landing_time, time); // and not far out
+            const Gap there = gap_at(series, somewhere, falls);
             landing_time = landing_time + land(there.width, there.rate, acceleration).delay;
         }
         const Mask sure = near && closes && landing_time <= h;

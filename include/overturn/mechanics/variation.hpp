@@ -14,6 +14,10 @@ struct Variation {
     T tilt_by_rate; ///< [1/p]
     T rate_by_tilt; ///< [p]
     T rate_by_rate; ///< [1]
+    /// How far off rate_by_tilt may be [p]; the entries of its row and column are by this times
+    /// `time` [1/p], tilt_by_rate by this times its square.
+    T unsure = T(scalar_t<T>(0));
+    T time = T(scalar_t<T>(0));
 };
 
 /// d(|theta|'') / d|theta| of Eq. 47 with y = alpha - |theta| and the push B:
@@ -36,13 +40,15 @@ inline constexpr double longest_variation = 12;
 
 /// Over a time h [1/p] without an event, from the stiffness at its beginning, its middle and its
 /// end: the classical Runge-Kutta step for delta'' = k(t) delta, written out, and beyond it the
-/// series of cosh and sinh for the mean of k, as steps of the linear theory are long. Off by less
-/// than 2 % of its largest entry if k is constant, or h is below 1 and k varies by less than
-/// itself.
+/// series of cosh and sinh for the mean of k, as steps of the linear theory are long. For a
+/// constant k it is off by less than 2 % of its largest entry at the longest h, and by 3e-10 at 3.
+/// What it is unsure of grows with d, what k varies by, and is seldom too little, and in the median
+/// ten times too much.
 template <Number T>
 Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T& end)
 {
     using arithmetic::fma;
+    using std::abs;
     using S = scalar_t<T>;
     const T one(S(1));
     const T square = h * h;
@@ -62,10 +68,14 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
     }
     even = x * x * x * T(S(1) / 720) * even;
     odd = x * x * T(S(1) / 120) * odd;
+    const T tilt_by_rate = h * (fma(sixth, middle, one) + odd);
+    const T varies = abs(begin - middle) + abs(end - middle);
     return {.tilt_by_tilt = fma(corner, begin, fma(sixth, begin + two_middle, one)) + even,
-            .tilt_by_rate = h * (fma(sixth, middle, one) + odd),
+            .tilt_by_rate = tilt_by_rate,
             .rate_by_tilt = h * fma(T(S(0.5)) * sixth * middle, begin + end, fma(mean, odd, mean)),
-            .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one)) + even};
+            .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one)) + even,
+            .unsure = tilt_by_rate * varies * fma(square, T(S(0.25)) * varies, T(S(1) / 32)),
+            .time = h};
 }
 
 /// Over an impact at the speed w: a tilt that is too large by d strikes later by d / w, and has

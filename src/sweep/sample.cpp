@@ -1,0 +1,73 @@
+#include "sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace overturn {
+
+namespace {
+
+/// About `count` values of an axis, its ends among them.
+Axis spread(const Axis& axis, std::int64_t count)
+{
+    if (axis.size() <= count) {
+        return Axis(axis.values());
+    }
+    AxisList values;
+    for (std::int64_t i = 0; i < count; ++i) {
+        values.push_back(axis[count == 1 ? axis.size() / 2 : i * (axis.size() - 1) / (count - 1)]);
+    }
+    return Axis(values);
+}
+
+} // namespace
+
+Plane sample_of(const Plane& plane, std::int64_t points)
+{
+    constexpr std::int64_t most_of_a_block = 3; // slendernesses, restitutions
+    Plane sample = plane;
+    sample.slenderness = spread(plane.slenderness, most_of_a_block);
+    sample.restitution = spread(plane.restitution, most_of_a_block);
+    const double left =
+        double(points) / double(sample.slenderness.size()) / double(sample.restitution.size());
+    const auto side = std::int64_t(std::sqrt(left));
+    const std::int64_t amplitudes = std::clamp<std::int64_t>(
+        std::int64_t(left / double(std::min(side, plane.frequency.size()))), 1,
+        plane.amplitude.size());
+    sample.amplitude = spread(plane.amplitude, amplitudes);
+    sample.frequency =
+        spread(plane.frequency, std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
+    return sample;
+}
+
+std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t wanted)
+{
+    std::int64_t points = 0;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        points += tiling[i].points();
+    }
+    const double stride = std::max(1.0, double(points) / double(wanted));
+    const bool all = stride < 2;
+    std::vector<std::vector<int>> chosen;
+    std::int64_t before = 0;
+    double next = all ? 0 : 0.5 * stride;
+    // Rows come in turn; that no column is left out, the golden ratio chooses among a row's.
+    double share = 0.5;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        const Tile tile = tiling[i];
+        const auto columns = int(tile.frequency_count);
+        std::set<int> of_tile;
+        for (; next < double(before + tile.points()); next += all ? 1 : stride) {
+            const auto point = int(std::int64_t(next) - before);
+            share = std::fmod(share + 0.6180339887498949, 1.0);
+            const int column = all ? point % columns : int(share * columns);
+            of_tile.insert(point - point % columns + column);
+        }
+        chosen.emplace_back(of_tile.begin(), of_tile.end());
+        before += tile.points();
+    }
+    return chosen;
+}
+
+} // namespace overturn
