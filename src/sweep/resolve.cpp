@@ -61,7 +61,7 @@ Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
     recorded.error = asked.error || numerics.resolve;
     recorded.steps = asked.steps || numerics.resolve;
     Ends ends(std::size_t(tile.points()), recorded);
-    tile.run(numerics, ends);
+    tile.run(numerics, ends, numerics.resolve ? InDoubt::ends : InDoubt::goes_on);
     if (numerics.resolve) {
         std::vector<int> all(ends.tilt.size());
         std::iota(all.begin(), all.end(), 0);

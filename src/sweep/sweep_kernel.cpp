@@ -101,7 +101,7 @@ void sweep(const TilePoints& points, const PointEnds& ends)
     const Block<T> block{T(points.slenderness), T(points.restitution)};
     const auto stage_from = [&](int first) {
         return ForcedStage<Method, Pulse, theory, records, T>(block, excitation_from(points, first),
-                                                              points.tolerance);
+                                                              points.tolerance, points.in_doubt);
     };
     for (int first = 0; first < points.chosen_count; first += packs_in_turns * lanes) {
         std::array stages{stage_from(first), stage_from(first + lanes)};

@@ -2,6 +2,7 @@
 // compiled for one pulse and one instruction set, see sweep_kernel.cpp.
 #pragma once
 
+#include "overturn/integrate/in_doubt.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/sweep/integrator.hpp"
 
@@ -21,6 +22,7 @@ struct TilePoints {
     double begin;               ///< phases at which the pulse begins and ends [rad]
     double end;
     double tolerance; ///< see Numerics
+    InDoubt in_doubt;
 
     const int* chosen; ///< which points to compute, counted row by row; nullptr: all
     int chosen_count;

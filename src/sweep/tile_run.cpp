@@ -84,19 +84,20 @@ TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kerne
     });
 }
 
-void TileRun::run(const Numerics& numerics, Ends& ends) const
+void TileRun::run(const Numerics& numerics, Ends& ends, InDoubt in_doubt) const
 {
-    run(numerics, nullptr, ends.size(), ends);
+    run(numerics, nullptr, ends.size(), ends, in_doubt);
 }
 
 void TileRun::run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const
 {
     if (!chosen.empty()) {
-        run(numerics, chosen.data(), int(chosen.size()), ends);
+        run(numerics, chosen.data(), int(chosen.size()), ends, InDoubt::goes_on);
     }
 }
 
-void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& ends) const
+void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
+                  InDoubt in_doubt) const
 {
     const TilePoints points{.slenderness = block_.slenderness,
                             .restitution = block_.restitution,
@@ -108,6 +109,7 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
                             .begin = begin_,
                             .end = end_,
                             .tolerance = numerics.tolerance,
+                            .in_doubt = in_doubt,
                             .chosen = chosen,
                             .chosen_count = count};
     const Recorded recorded = !ends.error.empty()     ? Recorded::error

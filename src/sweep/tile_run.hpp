@@ -54,7 +54,7 @@ public:
     int points() const { return int(tile_.points()); }
 
     /// Integrates every point, or the chosen ones.
-    void run(const Numerics& numerics, Ends& ends) const;
+    void run(const Numerics& numerics, Ends& ends, InDoubt in_doubt = InDoubt::goes_on) const;
     void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
 
     /// Integrates one point in more digits, T: long double or Digits50.
@@ -69,7 +69,8 @@ public:
     std::vector<double> margins(Ends& ends) const; ///< not a number where undecided
 
 private:
-    void run(const Numerics& numerics, const int* chosen, int count, Ends& ends) const;
+    void run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
+             InDoubt in_doubt) const;
 
     Scene scene_;
     const Plane& plane_;

@@ -1,6 +1,7 @@
 // Verdicts in doubt are settled with more digits, and only those.
 #include "overturn/sweep/sweep_tile.hpp"
 #include "support/one_point.hpp"
+#include "tile_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -96,6 +97,39 @@ TEST(ResolvedVerdicts, AreNotGuessedWhereNoDigitsHelp)
     const Found found = compute(resolved_taylor, {0.3, 1, 0.02, 1.00002});
     EXPECT_EQ(found.region, Region::undecided);
     EXPECT_EQ(found.flags, status::unresolved);
+}
+
+TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
+{
+    // Without loss, from hardly lifted to thrown over.
+    Plane plane = plane_of({0.2, 1, 0, 0});
+    plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
+    plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
+    for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
+        const TileRun run({}, plane, Tiling(plane)[0], widest_kernel());
+        Ends whole(std::size_t(run.points()), {.error = true, .steps = true});
+        Ends ended = whole;
+        run.run(numerics, whole, InDoubt::goes_on);
+        run.run(numerics, ended, InDoubt::ends);
+        double steps_of_doubtful = 0;
+        double steps_until_doubt = 0;
+        for (std::size_t i = 0; i < whole.tilt.size(); ++i) {
+            EXPECT_EQ(std::isinf(whole.error[i]), std::isinf(ended.error[i]));
+            if (std::isinf(whole.error[i])) {
+                steps_of_doubtful += whole.steps[i];
+                steps_until_doubt += ended.steps[i];
+            } else {
+                EXPECT_EQ(whole.tilt[i], ended.tilt[i]);
+                EXPECT_EQ(whole.rate[i], ended.rate[i]);
+                EXPECT_EQ(whole.error[i], ended.error[i]);
+                EXPECT_EQ(whole.steps[i], ended.steps[i]);
+            }
+        }
+        EXPECT_LE(steps_until_doubt, steps_of_doubtful);
+        if (numerics.method == Method::rk45) {
+            EXPECT_LT(steps_until_doubt, 0.8 * steps_of_doubtful);
+        }
+    }
 }
 
 TEST(ResolvedVerdicts, KnowABlockThatIsNeverLifted)

@@ -90,6 +90,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
                             .begin = OneSine::begin(work.scene.window),
                             .end = OneSine::end(work.scene.window),
                             .tolerance = work.numerics.tolerance,
+                            .in_doubt = InDoubt::goes_on,
                             .chosen = nullptr,
                             .chosen_count = int(work.tile.points())};
     const std::size_t count = std::size_t(work.tile.points());

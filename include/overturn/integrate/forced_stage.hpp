@@ -3,6 +3,7 @@
 // Lanes run in lockstep, each with its own step size; a lane that is done is frozen.
 #pragma once
 
+#include "overturn/integrate/in_doubt.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
@@ -43,10 +44,13 @@ class ForcedStage {
     using Mask = mask_t<T>;
 
 public:
-    ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
+    /// in_doubt: matters only where errors are recorded.
+    ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance,
+                InDoubt in_doubt = InDoubt::goes_on)
         : block_(block), excitation_(excitation), end_(excitation.end), zero_(S(0)),
           stepper_(block, excitation, tolerance), now_{T(excitation.begin), zero_, zero_, T(S(1))},
-          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_), doubtful_(!active_)
+          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
+          doubtful_(!active_), in_doubt_(in_doubt)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -169,6 +173,11 @@ private:
             wait_for_uplift(rests);
         }
         stepper_.turn(now_, lanes && active_);
+        if constexpr (records.error) {
+            if (in_doubt_ == InDoubt::ends) {
+                finish(active_ && doubtful_);
+            }
+        }
     }
 
     /// Errors grow over a step, and its own come on top.
@@ -299,6 +308,7 @@ private:
     struct Nothing {};
     [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, Nothing> growth_;
     Mask doubtful_; // an event may or may not have happened
+    InDoubt in_doubt_;
 };
 
 /// Steps every stage in turn until all are done.

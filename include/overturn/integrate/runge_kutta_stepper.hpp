@@ -22,6 +22,8 @@ class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
+    /// Of the pulse, within a step whose error is known [rad].
+    static constexpr double longest_angle = 2;
 
 public:
     RungeKuttaStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation,
@@ -35,15 +37,16 @@ public:
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
         first_step_ = step_error_power(T(tolerance)) / fastest;
         step_size_ = first_step_;
+        if constexpr (wavelet) {
+            longest_seen_ = T(S(longest_angle)) / frequency;
+            const T unfelt = T(tolerance) * T(S(1) / 128) * block.slenderness;
+            tail_end_ = end_of_tail<Pulse>(
+                T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
+        }
         if constexpr (watched) {
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
-            if constexpr (wavelet) {
-                const T unfelt = T(tolerance) * T(S(1) / 128) * block.slenderness;
-                tail_end_ = end_of_tail<Pulse>(
-                    T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
-            }
         }
     }
 
@@ -70,8 +73,9 @@ public:
     {
         const Motion<T> start{now.tilt, now.rate, acceleration_};
         const T left = (end_ - now.phase) / excitation_.frequency;
-        const Mask last = !landing_ && step_size_ >= left;
-        const T h = select<T>(landing_, landing_step_, select<T>(last, left, step_size_));
+        const T longest = longest_step(now);
+        const Mask last = !landing_ && longest >= left;
+        const T h = select<T>(landing_, landing_step_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
         const auto acceleration = [&](const S& node, const T& tilt) {
             using arithmetic::fma;
@@ -117,6 +121,18 @@ public:
     }
 
 private:
+    /// What the step size control wants; in a wavelet no more than an angle that its lobes are seen
+    /// in, as long as it is felt: a step over all of its tail finds it flat at every node.
+    T longest_step(const Rocking<T>& now) const
+    {
+        if constexpr (wavelet) {
+            return lesser<T>(step_size_,
+                             select<T>(now.phase < tail_end_, longest_seen_, step_size_));
+        } else {
+            return step_size_;
+        }
+    }
+
     /// Local error in units of what is allowed: the tolerance times the size of the motion, at
     /// most alpha, and round-off on top: of the motion, and of an acceleration of order alpha over
     /// the step. Were it alpha throughout, a block lifted by a millionth
@@ -211,7 +227,9 @@ private:
             length = select<T>(now.phase < tail_end_, length, h);
         }
         const T longest = T(S(longest_variation));
-        const T blind = select<T>(length > T(S(2)) || h > longest, T(unknown_error<S>), zero_);
+        const T longest_length(S(1.001 * longest_angle)); // whatever its rounding
+        const T blind =
+            select<T>(length > longest_length || h > longest, T(unknown_error<S>), zero_);
         const T two(S(2));
         const T one(S(1));
         const auto tilt_at_turn = [&](const Mask& turns) -> T {
@@ -275,7 +293,9 @@ private:
     struct Nothing {};
     [[no_unique_address]] std::conditional_t<watched, Sample, Nothing> sample_; // at the beginning
     [[no_unique_address]] std::conditional_t<watched, T, Nothing> embedded_share_; // see errors()
-    [[no_unique_address]] std::conditional_t<watched && wavelet, T, Nothing> tail_end_; // likewise
+    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing>
+        tail_end_; // of what is felt [rad]
+    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing> longest_seen_; // [1/p]
 };
 
 /// The method as a choice: Dormand-Prince 5(4).
