@@ -23,8 +23,11 @@ void give_up(int point, Ends& ends)
 /// Which of these points have a verdict that their error could turn.
 std::vector<int> in_doubt(const TileRun& tile, const std::vector<int>& points, Ends& ends)
 {
-    const std::vector<double> margins = tile.margins(ends);
     std::vector<int> doubtful;
+    if (points.empty()) {
+        return doubtful; // as in most tiles the second time; the margins of a tile take their time
+    }
+    const std::vector<double> margins = tile.margins(ends);
     for (const int point : points) {
         // Not so if a number is not one. More digits do not help where there are too many steps.
         const bool capped = ends.flags[point] & end_flag::capped;
