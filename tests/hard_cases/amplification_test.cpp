@@ -115,6 +115,40 @@ TEST(Amplification, OfThousandsOfBouncesIsKnownInDoubles)
     }
 }
 
+TEST(Amplification, OfThousandsOfLandingsIsPartOfTheErrorOfRungeKuttaSteps)
+{
+    // A landing moves the end of its step. Left out of the linearised motion, that was enough to
+    // turn errors of the time into errors of the energy and back, and the bound through zero.
+    HardCase linear{.pulse = PulseKind::symmetric_ricker,
+                    .theory = Theory::linear,
+                    .slenderness = 1.1,
+                    .restitution = 0.999,
+                    .frequency = 0.3070407213106455,
+                    .amplitude = 1.0021419320614147};
+    HardCase nonlinear{.pulse = PulseKind::symmetric_ricker,
+                       .slenderness = 0.1745716,
+                       .restitution = 0.999,
+                       .frequency = 0.19687717211015124,
+                       .amplitude = 1.002276791226567};
+    int bounded = 0;
+    for (HardCase point : {linear, nonlinear}) {
+        const double amplitude = point.amplitude;
+        for (int i = -20; i < 20; ++i) {
+            point.amplitude = amplitude * (1 + 5e-7 * i);
+            const Outcome truth = outcome_of(point, {.method = Method::taylor, .tolerance = 1e-13});
+            EXPECT_LT(truth.error, 1e-6);
+            for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+                const Outcome found =
+                    outcome_of(point, {.method = Method::rk45, .tolerance = tolerance});
+                EXPECT_LE(std::abs(found.margin - truth.margin), found.error + truth.error)
+                    << point << ", " << tolerance;
+                bounded += std::isfinite(found.error);
+            }
+        }
+    }
+    EXPECT_GT(bounded, 80); // at 1e-9 at least
+}
+
 TEST(Uplift, HappensOnceOnAFlank)
 {
     // Lifted by a last bit, the block is down again before a step of 1e-4 sees it rise.

@@ -13,13 +13,6 @@
 #include <cmath>
 #include <limits>
 
-namespace overturn {
-
-template <>
-struct number_traits<long double> : scalar_number_traits<long double> {};
-
-} // namespace overturn
-
 namespace overturn::benchmarks {
 
 template <class S>

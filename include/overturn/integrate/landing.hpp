@@ -36,10 +36,11 @@ Landing<T> land(const T& gap, const T& rate, const T& acceleration)
 }
 
 /// Moves a step's end onto the event beside it: the ground in the lanes that strike it, pi/2 in
-/// those that fall. acceleration: d^2|theta| / d tau^2 at the step's end.
+/// those that fall. acceleration: d^2|theta| / d tau^2 at the step's end. Returns by how much later
+/// it ends, of either sign [1/p].
 template <class Pulse, Number T>
-void land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
-                   const T& acceleration, const Excitation<Pulse, T>& excitation)
+T land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
+                const T& acceleration, const Excitation<Pulse, T>& excitation)
 {
     using S = scalar_t<T>;
     const T zero(S(0));
@@ -56,6 +57,7 @@ void land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& f
     end.phase = select<T>(hits, select<T>(delayed < last, delayed, last), end.phase);
     end.tilt = select<T>(hits, select<T>(falls, quarter_turn, zero), end.tilt);
     end.rate = select<T>(hits, select<T>(falls, landing.closing, -landing.closing), end.rate);
+    return select<T>(hits, landing.delay, zero);
 }
 
 } // namespace overturn
