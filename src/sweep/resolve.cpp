@@ -62,13 +62,15 @@ Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
 {
     Asked recorded = asked;
     recorded.error = asked.error || numerics.resolve;
-    recorded.steps = asked.steps || numerics.resolve;
     Ends ends(std::size_t(tile.points()), recorded);
     tile.run(numerics, ends, numerics.resolve ? InDoubt::ends : InDoubt::goes_on);
     if (numerics.resolve) {
         std::vector<int> all(ends.tilt.size());
         std::iota(all.begin(), all.end(), 0);
         std::vector<int> doubtful = in_doubt(tile, all, ends);
+        if (!doubtful.empty()) {
+            ends.steps.resize(ends.tilt.size()); // tell whether more digits are worth a try
+        }
         tile.run(finest_in_doubles, doubtful, ends);
         doubtful = in_doubt(tile, doubtful, ends);
         for (const int point : doubtful) {
