@@ -17,6 +17,7 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<Pulse, T
     if (stage.is_active()) {
         end.capped = true;
         end.error = std::numeric_limits<T>::infinity();
+        end.in_doubt = true;
     }
     return end;
 }

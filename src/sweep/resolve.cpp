@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 
 namespace overturn {
@@ -20,22 +19,17 @@ void give_up(int point, Ends& ends)
     ends.unresolved.push_back(point);
 }
 
-/// Which of these points have a verdict that their error could turn.
+/// Which of these points have a verdict that their error could turn. More digits do not help where
+/// there are too many steps.
 std::vector<int> in_doubt(const TileRun& tile, const std::vector<int>& points, Ends& ends)
 {
     std::vector<int> doubtful;
-    if (points.empty()) {
-        return doubtful; // as in most tiles the second time; the margins of a tile take their time
-    }
-    const std::vector<double> margins = tile.margins(ends);
     for (const int point : points) {
-        // Not so if a number is not one. More digits do not help where there are too many steps.
-        const bool capped = ends.flags[point] & end_flag::capped;
-        if (capped) {
+        if (ends.flags[point] & end_flag::capped) {
             if (!tile.settle_low_bounces(point, ends)) {
                 give_up(point, ends);
             }
-        } else if (!(ends.error[point] < std::abs(margins[point]))) {
+        } else if (ends.flags[point] & end_flag::in_doubt) {
             doubtful.push_back(point);
         }
     }
@@ -52,8 +46,7 @@ bool settle_in(const TileRun& tile, int point, Ends& ends)
         return false;
     }
     tile.run_exactly<T>(point, ends);
-    return ends.error[point] < std::abs(ends.settled.back().margin) &&
-           !(ends.flags[point] & end_flag::undecided);
+    return !(ends.flags[point] & (end_flag::in_doubt | end_flag::undecided));
 }
 
 } // namespace

@@ -44,16 +44,17 @@ void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const P
     put(end.state.tilt, to.tilt);
     put(end.state.rate, to.rate);
     put(end.state.side, to.side);
-    put(flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
-            flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite),
-        to.flags);
+    T flags = flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
+              flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite);
+    if constexpr (records.error) {
+        flags = flags + flagged(end.in_doubt, end_flag::in_doubt);
+        put(end.error, to.error);
+    }
+    put(flags, to.flags);
     if constexpr (records.impacts) {
         if (to.impacts != nullptr) {
             put(end.impacts, to.impacts);
         }
-    }
-    if constexpr (records.error) {
-        put(end.error, to.error);
     }
     if (to.steps != nullptr) {
         put(end.steps, to.steps);

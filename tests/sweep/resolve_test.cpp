@@ -132,6 +132,32 @@ TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
     }
 }
 
+TEST(FirstPass, DoubtsAVerdictUnlessItsMarginIsLargerThanItsError)
+{
+    Plane plane = plane_of({0.2, 0.9, 0, 0});
+    plane.frequency = Axis(AxisRange{0.3, 8, 32, Spacing::log});
+    plane.amplitude = Axis(AxisRange{1.001, 20, 32, Spacing::log});
+    int sure = 0;
+    int doubted = 0;
+    int doubted_of_fallen = 0;
+    for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
+        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+            const TileRun run({.theory = theory}, plane, Tiling(plane)[0], widest_kernel());
+            Ends ends(std::size_t(run.points()), {.error = true});
+            run.run(numerics, ends);
+            const std::vector<double> margins = run.margins(ends);
+            for (std::size_t i = 0; i < margins.size(); ++i) {
+                const bool in_doubt = ends.flags[i] & end_flag::in_doubt;
+                EXPECT_EQ(in_doubt, !(ends.error[i] < std::abs(margins[i])));
+                ++(!in_doubt ? sure : ends.flags[i] & end_flag::fell ? doubted_of_fallen : doubted);
+            }
+        }
+    }
+    EXPECT_GT(sure, 0);
+    EXPECT_GT(doubted, 0);
+    EXPECT_GT(doubted_of_fallen, 0);
+}
+
 TEST(ResolvedVerdicts, KnowABlockThatIsNeverLifted)
 {
     for (const double amplitude : {0.0, 0.5, 1.0}) {

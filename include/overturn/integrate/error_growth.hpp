@@ -30,7 +30,7 @@ class ErrorGrowth {
     using Mask = mask_t<T>;
 
 public:
-    /// A block at rest is where it is: nothing is left of former errors.
+    /// Of a block at rest nothing is left of former errors; of one in doubt they mean nothing.
     void forget(const Mask& lanes)
     {
         tilt_tilt_ = select<T>(lanes, zero_, tilt_tilt_);

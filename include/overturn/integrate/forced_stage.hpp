@@ -29,7 +29,9 @@ struct ForcedEnd {
     mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
     T impacts;            ///< counted only if asked for; a bounce series that died out is not
     T steps;              ///< steps tried
-    T error; ///< of the margin, at most, to first order; only if asked for; infinite where unknown
+    /// Only if asked for:
+    T error;            ///< of the margin, at most, to first order; infinite where unknown
+    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
 };
 
 /// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
@@ -62,7 +64,8 @@ public:
                        .not_finite = none,
                        .impacts = zero_,
                        .steps = zero_,
-                       .error = zero_};
+                       .error = zero_,
+                       .in_doubt = none};
         wait_for_uplift(active_);
     }
 
@@ -99,7 +102,7 @@ public:
     {
         ForcedEnd<T> end = end_of_run_;
         if constexpr (records.error) {
-            end.error = margin_error();
+            tell_error(end);
         }
         return end;
     }
@@ -230,8 +233,8 @@ private:
         growth_.pass(variation_over_impact<T>(sqrt_restitution_, speed, before, after), lanes);
     }
 
-    /// Bound of the error of the margin where the lanes are.
-    T margin_error() const
+    /// Bound of the error of the margin where the lanes are, and whether it could turn the verdict.
+    void tell_error(ForcedEnd<T>& end) const
     {
         using arithmetic::fma;
         using std::abs;
@@ -290,7 +293,9 @@ private:
         const Mask known = growth_.bound(T(S(1)), T(S(1))) < T(unknown_error<S> * S(0x1p-100));
         const Mask unknown = doubtful_ || end_of_run_.capped || end_of_run_.not_finite || either ||
                              barely || !known || !(error == error);
-        return select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
+        end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
+        end.in_doubt =
+            !(end.error < abs(select<T>(fell, margin_of_fall<theory>(now_.rate, block_), margin)));
     }
 
     const Block<T> block_;
