@@ -1,0 +1,177 @@
+// Free rocking after the pulse (Eqs. 21-46): arc after arc, with a loss at each impact between
+// them, until the block lies. A block that does not fall strikes infinitely often in a finite time,
+// if it loses energy at all. Scalars only.
+#pragma once
+
+#include "overturn/mechanics/rocking_arc.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+namespace overturn {
+
+/// What q is computed in. Next to the separatrix it has lost most digits of the state, and the time
+/// that a block stands on its edge goes with their logarithm.
+template <class T>
+using MoreExact = std::conditional_t<
+    std::is_floating_point_v<T>,
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
+                                  boost::multiprecision::et_off>,
+    T>;
+
+/// q0 of a state (Eq. 12), of which T is right to its last digits unless the state is within
+/// epsilon^2 of the separatrix [rad^2]:
+///
+///     q0 = 4 sin^2((alpha - |theta|) / 2) - theta'^2     linear theory: (alpha - |theta|)^2 -
+///     theta'^2
+template <Theory theory, class T>
+MoreExact<T> conserved_q(const State<T>& state, const T& slenderness)
+{
+    using std::sin;
+    const MoreExact<T> y = MoreExact<T>(slenderness) - MoreExact<T>(state.tilt);
+    const MoreExact<T> rate(state.rate);
+    MoreExact<T> c = y;
+    if constexpr (theory == Theory::nonlinear) {
+        c = 2 * sin(MoreExact<T>(y / 2));
+    }
+    return (c - rate) * (c + rate);
+}
+
+/// The paper's restitution: at every impact the same share of the energy stays. Others tell it from
+/// the number of the impact, the first being 1, and the side from which the block comes down.
+template <Number T>
+struct ConstantRestitution {
+    T ratio; ///< r [1]
+
+    T operator()(int, const T&) const { return ratio; }
+};
+
+/// Free rocking, one arc at a time; times in 1/p since the beginning.
+template <Theory theory, Number T, class Restitution = ConstantRestitution<T>>
+class FreeRocking {
+public:
+    FreeRocking(const State<T>& begin, const T& slenderness, const Restitution& restitution)
+        : slenderness_(slenderness), restitution_(restitution), begin_(0),
+          q_(conserved_q<theory>(begin, slenderness)), arc_(begin, slenderness, T(q_))
+    {}
+
+    /// The arc in hand, when it begins, and how many impacts were before it.
+    const RockingArc<theory, T>& arc() const { return arc_; }
+    const T& begin() const { return begin_; }
+    int impacts() const { return impacts_; }
+
+    /// When it ends: with an impact, or with the block flat. Infinite if it never does.
+    T impact_time() const { return begin_ + arc_.time_to_impact(); }
+    T fall_time() const { return begin_ + arc_.time_to_fall(); }
+
+    /// Goes on to the arc after the impact; there must be one (Eqs. 40, 41).
+    void strike()
+    {
+        using std::sqrt;
+        begin_ = impact_time();
+        ++impacts_;
+        const T r = restitution_(impacts_, arc_.side());
+        const State<T> upright{
+            .tilt = T(0), .rate = sqrt(r) * arc_.impact_speed(), .side = -arc_.side()};
+        // q_max - q after it is r (q_max - q before it).
+        const MoreExact<T> at_rest = conserved_q<theory>({T(0), T(0), T(1)}, slenderness_);
+        q_ = at_rest * (1 - MoreExact<T>(r)) + MoreExact<T>(r) * q_;
+        arc_ = RockingArc<theory, T>(upright, slenderness_, T(q_));
+    }
+
+private:
+    T slenderness_;
+    Restitution restitution_;
+    T begin_;
+    int impacts_ = 0;
+    MoreExact<T> q_;
+    RockingArc<theory, T> arc_;
+};
+
+/// How long a block rocks that leaves the ground at the rate v, and after each arc at sqrt(r) times
+/// the rate before (the limit of Eq. 43): the sum of all half periods (Eq. 42), in 1/p. v is below
+/// the rate that would let it fall, 2 sin(alpha/2), r below 1. With s = sin(alpha), c = cos(alpha),
+/// w = v^2 / 2s, Legendre's generating function makes the half period
+///
+///     T(v) = 2v/s sum of p[k] b[k],    b[k] = (2k)!! / (2k+1)!!,
+///     p[0] = 1,   p[1] = w c/s,   (k+1) p[k+1] = (2k+1) (c/s) w p[k] + k w^2 p[k-1],
+///
+/// in the linear theory 2 artanh(v / alpha); and term k of all half periods is a geometric series.
+/// The terms fall like (v^2 / q_max)^k.
+template <Theory theory, Number T>
+T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
+{
+    using std::cos;
+    using std::expm1;
+    using std::log;
+    using std::sin;
+    const T log_r = log(r);
+    const auto share = [&](int k) -> T { return -1 / expm1(log_r * (2 * k + 1) / 2); };
+    const T epsilon = std::numeric_limits<T>::epsilon();
+    T sum = share(0);
+    if constexpr (theory == Theory::linear) {
+        const T ratio = v / slenderness;
+        T power(1);
+        for (int k = 1; power > epsilon; ++k) {
+            power *= ratio * ratio;
+            sum += power / (2 * k + 1) * share(k);
+        }
+        return 2 * ratio * sum;
+    } else {
+        const T s = sin(slenderness);
+        const T w = v * v / (2 * s);
+        const T slope = cos(slenderness) / s * w;
+        T before(0);
+        T p(1);
+        T b(1);
+        for (int k = 0; p * b > epsilon; ++k) {
+            const T next = ((2 * k + 1) * slope * p + k * w * w * before) / (k + 1);
+            before = p;
+            p = next;
+            b *= T(2 * k + 2) / (2 * k + 3);
+            sum += p * b * share(k + 1);
+        }
+        return 2 * v / s * sum;
+    }
+}
+
+/// When a block comes to rest [1/p]; infinite if it falls, stands on its edge for ever, or rocks
+/// for ever because it loses nothing.
+template <Theory theory, Number T>
+T time_of_rest(const State<T>& begin, const Block<T>& block)
+{
+    using std::isinf;
+    using std::sqrt;
+    const T never = std::numeric_limits<T>::infinity();
+    const T r = block.restitution;
+    FreeRocking<theory, T> rocking(begin, block.slenderness, ConstantRestitution<T>{r});
+    if (isinf(rocking.impact_time())) {
+        return never;
+    }
+    rocking.strike();
+    T time = rocking.begin();
+    T rate = rocking.arc().at(T(0)).rate;
+    T q = rocking.arc().q();
+    if (rate == 0) {
+        return time;
+    }
+    if (!(q > 0) || !(r < 1)) {
+        return never;
+    }
+    // A bounce more makes the series shorter, which takes that many terms, roughly; so the work
+    // goes with 1 / sqrt(1 - r).
+    const T at_rest(conserved_q<theory>({T(0), T(0), T(1)}, block.slenderness));
+    const int digits = std::numeric_limits<T>::digits;
+    for (int bounces = 0; digits * at_rest > bounces * q; ++bounces) {
+        const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
+        time += RockingArc<theory, T>(upright, block.slenderness, q).time_to_impact();
+        rate *= sqrt(r);
+        q = at_rest * (1 - r) + r * q;
+    }
+    return time + sum_of_half_periods<theory>(rate, block.slenderness, r);
+}
+
+} // namespace overturn

@@ -1,0 +1,286 @@
+// One arc of free rocking: the motion about one corner between impacts, in closed form (Eqs. 21-45
+// in real form). With y = alpha - |theta| it is y'' = sin y, and q = 4 sin^2(y/2) - y'^2 stays
+// what it is (Eq. 21); linear theory: y'' = y, q = y^2 - y'^2. Scalars only.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+
+#include <boost/math/special_functions/ellint_rf.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+/// The motion from a state on, until the block strikes the ground or lies flat at |theta| = pi/2.
+///
+/// The paper's elliptic functions have the modulus 2p/sqrt(q0), which is real for no block at all,
+/// and infinite at q0 = 0. With the hyperbolic amplitude s, the real argument by which the solution
+/// of the linear theory is a hyperbolic cosine or sine,
+///
+///     q > 0, it turns back below the top:    tan(y/2) = +-M cosh s,   y' = +-sqrt(q) cos(y/2) sinh
+///     s q < 0, it passes the top:              tan(y/2) = +-M sinh s,   y' = +-sqrt(-q) cos(y/2)
+///     cosh s
+///
+///     tau = sinh s R_F(1, 1 + m sinh^2 s, cosh^2 s) / omega      (linear theory: y, 1, s instead
+///     of
+///                                                                 tan(y/2), cos(y/2), tau)
+///
+/// counted from the turn, or from the top. R_F is Carlson's elliptic integral (tau is F(gd s) of
+/// the modulus sqrt(1 - m), which is too close to 1 to be told by that modulus);
+///
+///     q > 0:  m = q/4,            M = sqrt(m / (1 - m)),   omega = 1
+///     q < 0:  m = -q / (4 - q),   M = sqrt(m),             omega = sqrt(1 - q/4)
+///
+/// On the separatrix, q = 0, tan(y/4) grows or shrinks like exp(tau). Times in 1/p.
+template <Theory theory, Number T>
+requires(lanes_v<T> == 1) class RockingArc {
+public:
+    /// begin: a tilt from 0 to pi/2. q: as above, for this state; near the separatrix it holds
+    /// digits that the state's own do not, see conserved_q().
+    RockingArc(const State<T>& begin, const T& slenderness, const T& q)
+        : slenderness_(slenderness), q_(q), side_(begin.side)
+    {
+        using std::abs;
+        using std::sqrt;
+        const T y = slenderness - begin.tilt;
+        const T gained = square_gained(begin.tilt) + begin.rate * begin.rate;
+        impact_speed_ = gained > 0 ? T(sqrt(gained)) : T(0);
+        const T inward = -begin.rate;
+        const T one(1);
+        root_ = sqrt(abs(q));
+        if constexpr (theory == Theory::nonlinear) {
+            m_ = q > 0 ? T(q / 4) : T(-q / (4 - q));
+            scale_ = q > 0 ? T(sqrt(m_ / (1 - m_))) : T(sqrt(m_));
+            omega_ = q > 0 ? one : T(sqrt(1 - q / 4));
+        } else {
+            m_ = T(0);
+            scale_ = root_;
+            omega_ = one;
+        }
+        if (turns()) {
+            direction_ = y < 0 ? -one : one;
+            sinh_begin_ = direction_ * inward / (root_ * cosine(y));
+        } else if (passes()) {
+            direction_ = inward < 0 ? -one : one;
+            sinh_begin_ = direction_ * measure(y) / scale_;
+        } else {
+            direction_ = (y < 0) == (inward < 0) ? one : -one; // from the top, or towards it
+            begin_ = y;
+        }
+        after_origin_ = q == 0 ? T(0) : elapsed(sinh_begin_);
+    }
+
+    /// Where the block is, `time` after the beginning and no later than it strikes or lies.
+    State<T> at(const T& time) const
+    {
+        using std::cosh;
+        using std::exp;
+        using std::sinh;
+        if (!turns() && !passes()) {
+            const T y = from_quarter(quarter(begin_) * exp(direction_ * time));
+            return {.tilt = slenderness_ - y,
+                    .rate = -direction_ * speed_on_separatrix(y),
+                    .side = side_};
+        }
+        const T s = amplitude_at(after_origin_ + time);
+        const T tilt = tilt_at(s);
+        const T along = turns() ? sinh(s) : cosh(s);
+        const T rate = -direction_ * root_ * cosine(slenderness_ - tilt) * along;
+        return {.tilt = tilt, .rate = rate, .side = side_};
+    }
+
+    /// How long until the block strikes the ground; infinite if it never does.
+    T time_to_impact() const
+    {
+        using std::log;
+        const T never = std::numeric_limits<T>::infinity();
+        if (turns() || passes()) {
+            return direction_ > 0 ? T(elapsed(sinh_at_impact()) - after_origin_) : never;
+        }
+        return direction_ > 0 && begin_ > 0 ? T(log(quarter(slenderness_) / quarter(begin_)))
+                                            : never;
+    }
+
+    /// How long until |theta| = pi/2; infinite if it is never reached.
+    T time_to_fall() const
+    {
+        using std::log;
+        const T never = std::numeric_limits<T>::infinity();
+        if (turns() || passes()) {
+            return direction_ < 0 ? T(elapsed(sinh_where_flat()) - after_origin_) : never;
+        }
+        const T flat = slenderness_ - half_pi();
+        return direction_ > 0 && begin_ < 0 ? T(log(quarter(flat) / quarter(begin_))) : never;
+    }
+
+    /// The inward speed at which it strikes the ground, if it does (Eq. 39).
+    const T& impact_speed() const { return impact_speed_; }
+
+    const T& q() const { return q_; }
+    const T& side() const { return side_; }
+
+private:
+    bool turns() const { return q_ > 0; }
+    bool passes() const { return q_ < 0; }
+
+    static T half_pi() { return boost::math::constants::half_pi<T>(); }
+
+    /// tan(y/2) and its inverse; cos(y/2).
+    static T measure(const T& y)
+    {
+        using std::tan;
+        if constexpr (theory == Theory::linear) {
+            return y;
+        } else {
+            return tan(y / 2);
+        }
+    }
+    static T from_measure(const T& measure)
+    {
+        using std::atan;
+        if constexpr (theory == Theory::linear) {
+            return measure;
+        } else {
+            return 2 * atan(measure);
+        }
+    }
+    static T cosine(const T& y)
+    {
+        using std::cos;
+        if constexpr (theory == Theory::linear) {
+            return T(1);
+        } else {
+            return cos(y / 2);
+        }
+    }
+
+    /// What is exponential on the separatrix, and its inverse; |y'| there.
+    static T quarter(const T& y)
+    {
+        using std::tan;
+        if constexpr (theory == Theory::linear) {
+            return y;
+        } else {
+            return tan(y / 4);
+        }
+    }
+    static T from_quarter(const T& quarter)
+    {
+        using std::atan;
+        if constexpr (theory == Theory::linear) {
+            return quarter;
+        } else {
+            return 4 * atan(quarter);
+        }
+    }
+    static T speed_on_separatrix(const T& y)
+    {
+        using std::sin;
+        if constexpr (theory == Theory::linear) {
+            return y;
+        } else {
+            return 2 * sin(y / 2);
+        }
+    }
+
+    /// The square of the speed that the block gains from this tilt to the ground,
+    /// 4 sin^2(alpha/2) - 4 sin^2((alpha - tilt)/2) (Eq. 5), as small as it may be.
+    T square_gained(const T& tilt) const
+    {
+        using std::sin;
+        if constexpr (theory == Theory::linear) {
+            return tilt * (2 * slenderness_ - tilt);
+        } else {
+            return 4 * sin(tilt / 2) * sin(slenderness_ - tilt / 2);
+        }
+    }
+
+    T sinh_at_impact() const
+    {
+        return turns() ? T(impact_speed_ / (root_ * cosine(slenderness_)))
+                       : T(measure(slenderness_) / scale_);
+    }
+
+    T sinh_where_flat() const
+    {
+        using std::sqrt;
+        const T y = half_pi() - slenderness_;
+        const T rate = speed_on_separatrix(y);
+        return turns() ? T(sqrt(rate * rate - q_) / (root_ * cosine(y))) : T(measure(y) / scale_);
+    }
+
+    /// The time since the turn or the top.
+    T elapsed(const T& sinh_s) const
+    {
+        if constexpr (theory == Theory::linear) {
+            using std::asinh;
+            return asinh(sinh_s);
+        } else {
+            const T square = sinh_s * sinh_s;
+            return sinh_s * boost::math::ellint_rf(T(1), T(1 + m_ * square), T(1 + square)) /
+                   omega_;
+        }
+    }
+
+    /// The hyperbolic amplitude at this time since the turn or the top: Newton's method. d tau / d
+    /// s falls from 1 / omega on, so that it comes nearer from below, and the last step squares an
+    /// error that was below the root of epsilon.
+    T amplitude_at(const T& since) const
+    {
+        using std::abs;
+        using std::sinh;
+        using std::sqrt;
+        T s = since * omega_;
+        if constexpr (theory == Theory::nonlinear) {
+            const T close = sqrt(std::numeric_limits<T>::epsilon());
+            constexpr int most = 64; // seven or fewer, in practice
+            for (int i = 0; i < most; ++i) {
+                const T sinh_s = sinh(s);
+                const T step = (since - elapsed(sinh_s)) * omega_ * sqrt(1 + m_ * sinh_s * sinh_s);
+                s += step;
+                if (abs(step) <= close * abs(s)) {
+                    break;
+                }
+            }
+        }
+        return s;
+    }
+
+    /// The tilt, as small as it may be near an impact, where y is near alpha: by the tangent of a
+    /// difference.
+    T tilt_at(const T& s) const
+    {
+        using std::asinh;
+        using std::cosh;
+        using std::sinh;
+        if (direction_ < 0) {
+            return slenderness_ + from_measure(scale_ * (turns() ? cosh(s) : sinh(s)));
+        }
+        const T at_impact = asinh(sinh_at_impact());
+        const T sum = (at_impact + s) / 2;
+        const T difference = (at_impact - s) / 2;
+        const T apart = 2 * scale_ * sinh(difference) * (turns() ? sinh(sum) : cosh(sum));
+        if constexpr (theory == Theory::linear) {
+            return apart;
+        } else {
+            const T now = scale_ * (turns() ? cosh(s) : sinh(s));
+            return from_measure(apart / (1 + measure(slenderness_) * now));
+        }
+    }
+
+    T slenderness_;
+    T q_;
+    T side_;
+    T root_;      // sqrt |q|
+    T m_;         // see above
+    T scale_;     // M
+    T omega_;     // [p]
+    T direction_; // the sign above
+    T impact_speed_;
+    T sinh_begin_ = T(0);
+    T after_origin_ = T(0); // when the arc begins, counted from the turn or the top
+    T begin_ = T(0);        // y, where q = 0
+};
+
+} // namespace overturn
