@@ -68,6 +68,14 @@ core; the job's own [numerics] and fields do not matter. Its columns, which OUT.
   error > bound    share of the points whose error exceeds what the field "error" says
   bound / error    its median)";
 
+constexpr const char* history_help = R"(Example:
+  overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
+  tools/plot_history history.h5
+
+Prints the region, and the events with the velocity before and after each and q after it (Eq. 12);
+angles in rad, time tau = p t. OUT.h5 has angle, velocity, acceleration, q and the ground's acceleration
+over time. The pulse is integrated as finely as doubles allow, whatever [numerics] says.)";
+
 constexpr const char* info_help = R"(Example:
   overturn info smoke.h5)";
 
@@ -86,6 +94,7 @@ struct Arguments {
     RunOptions run;
     JobSource check;
     AccuracyOptions accuracy;
+    HistoryOptions history;
     std::string info;
 };
 
@@ -136,6 +145,29 @@ Command read_command_line(int argc, const char* const* argv)
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 
+    CLI::App* const history_command = app.add_subcommand(
+        "history", "Follow one block, forced and free: angle, velocity, impacts over time");
+    history_command->footer(history_help);
+    add_job_arguments(*history_command, arguments->history.job);
+    history_command
+        ->add_option("--at", arguments->history.at,
+                     "The point, where the job's axes have several values; any value will do")
+        ->type_name("AXIS=VALUE,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    history_command->add_option("-o,--output", arguments->history.output, "The result file")
+        ->type_name("OUT.h5")
+        ->required();
+    history_command
+        ->add_option("--until", arguments->history.until,
+                     "Last time to show [1/p]; without it until the block rests or lies, or 60/p "
+                     "after the pulse")
+        ->check(CLI::PositiveNumber);
+    history_command
+        ->add_option("--samples", arguments->history.samples, "Evenly spread times, beside events")
+        ->check(CLI::Range(2, 10000000))
+        ->capture_default_str();
+
     CLI::App* const info_command = app.add_subcommand("info", "Tell what a result file holds");
     info_command->footer(info_help);
     info_command->add_option("FILE", arguments->info, "The result file")->required();
@@ -165,6 +197,9 @@ Command read_command_line(int argc, const char* const* argv)
     }
     if (accuracy_command->parsed()) {
         return {.execute = [arguments] { return accuracy(arguments->accuracy); }};
+    }
+    if (history_command->parsed()) {
+        return {.execute = [arguments] { return history(arguments->history); }};
     }
     return {.execute = [arguments] { return info(arguments->info); }};
 }

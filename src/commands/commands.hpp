@@ -32,6 +32,16 @@ struct AccuracyOptions {
 };
 int accuracy(const AccuracyOptions& options);
 
+/// Follows one point of a job: the forced stage, then the free stage.
+struct HistoryOptions {
+    JobSource job;
+    std::vector<std::string> at; ///< axis=value, each
+    std::string output;          ///< path of the result file
+    double until = 0;            ///< last time shown [1/p]; 0: until the block rests or lies
+    int samples = 2000;
+};
+int history(const HistoryOptions& options);
+
 /// Tells what a result file holds.
 int info(const std::string& path);
 

@@ -1,12 +1,10 @@
 #include "overturn/file/accuracy_file.hpp"
 
-#include "netcdf.hpp"
-#include "part_file.hpp"
+#include "whole_file.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
 #include <numeric>
 
 namespace overturn {
@@ -86,8 +84,7 @@ void add_regions(hid_t file)
     hdf5::check(H5Dwrite(regions, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, codes.data()));
     write_attribute(regions, "long_name", "region of the block's state at the end of the pulse");
     write_attribute(regions, "flag_values", codes);
-    write_attribute(regions, "flag_meanings",
-                    "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus");
+    write_attribute(regions, "flag_meanings", fmt::format("{}", fmt::join(region_names, " ")));
     make_dimension(file, "region");
 }
 
@@ -143,12 +140,8 @@ void add_results(const Table& table)
               [](const AccuracyRow& row) { return row.bound_over_error; });
 }
 
-void write(const std::string& path, const Job& job, const AccuracySample& sample,
-           const std::vector<AccuracyRow>& rows)
+void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
 {
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
-                H5Fclose);
-    write_origin(file, job, kind);
     write_attribute(file, "points", sample.plane.points());
     write_attribute(file, "points_settled", sample.settled);
     write_attribute(file, "points_in_50_digits", sample.in_digits);
@@ -158,46 +151,19 @@ void write(const std::string& path, const Job& job, const AccuracySample& sample
     add_results(table);
     add_counts(file, "points_by_region", "region", sample.by_region, "points of the region");
     add_counts(file, "points_by_distance", "distance", sample.by_distance, "points of the class");
-    add_job(file, job);
-    file.close();
 }
 
 } // namespace
 
 void expect_room_for_accuracy_file(const std::string& path)
 {
-    const PartFile in_its_folder(path); // which throws if there is none, or none to write in
-    if (!std::filesystem::exists(path)) {
-        return;
-    }
-    hdf5::start();
-    std::string found;
-    try {
-        const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
-        found = hdf5::read_text_attribute(file, "kind");
-    } catch (const hdf5::Hdf5Error&) {
-        found = "";
-    }
-    if (found != kind) {
-        throw FileError(fmt::format("\"{}\" exists and is no accuracy study. Remove it, or choose "
-                                    "another name with -o.",
-                                    path));
-    }
+    expect_room_for(path, kind);
 }
 
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows)
 {
-    expect_room_for_accuracy_file(path);
-    PartFile part(path);
-    try {
-        hdf5::start();
-        write(part.path(), job, sample, rows);
-    } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(fmt::format("cannot create \"{}\": {}. Choose another name with -o.", path,
-                                    error.what()));
-    }
-    part.move_into_place();
+    write_whole_file(path, kind, job, [&](hid_t file) { write(file, sample, rows); });
 }
 
 } // namespace overturn

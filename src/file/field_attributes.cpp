@@ -88,6 +88,14 @@ void write_field_attributes(hid_t dataset, Field field)
             "may not have happened, or was close; a verdict holds where the margin is "
             "larger");
         break;
+    case Field::peak:
+        describe_number(dataset, "largest |theta| / alpha, during the pulse and after it", "1");
+        write_attribute(dataset, "comment", "infinite where the block overturns");
+        break;
+    case Field::fall_time:
+        describe_number(dataset, "p t from the first uplift to |theta| = pi/2", "1");
+        write_attribute(dataset, "comment", "infinite where the block does not overturn");
+        break;
     case Field::steps: describe_steps(dataset); break;
     }
     write_attribute(dataset, "coordinates", layout::restitution_ratio);

@@ -34,6 +34,7 @@ ExactEnd end_of(const PlanePoint& point, const T& window)
                 (in_doubt ? end_flag::in_doubt : 0)),
             .impacts = double(end.impacts),
             .steps = double(end.steps),
+            .phase = double(end.phase),
             .region = end.fell ? fallen : region_after_pulse<theory>(end.state, block),
             .margin = double(margin),
             .error = error};

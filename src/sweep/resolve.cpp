@@ -55,6 +55,7 @@ Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
 {
     Asked recorded = asked;
     recorded.error = asked.error || numerics.resolve;
+    recorded.peak = asked.peak && !recorded.error;
     Ends ends(std::size_t(tile.points()), recorded);
     tile.run(numerics, ends, numerics.resolve ? InDoubt::ends : InDoubt::goes_on);
     if (numerics.resolve) {
@@ -74,6 +75,11 @@ Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
                 give_up(point, ends);
             }
         }
+    }
+    if (asked.peak && !recorded.peak) {
+        Ends with_peaks(ends.tilt.size(), {.peak = true});
+        tile.run(numerics, with_peaks);
+        ends.peak = std::move(with_peaks.peak);
     }
     return ends;
 }

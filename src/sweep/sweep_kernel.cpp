@@ -56,8 +56,14 @@ void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const P
             put(end.impacts, to.impacts);
         }
     }
+    if constexpr (records.peak) {
+        put(end.peak, to.peak);
+    }
     if (to.steps != nullptr) {
         put(end.steps, to.steps);
+    }
+    if (to.phase != nullptr) {
+        put(end.phase, to.phase);
     }
 }
 
@@ -120,6 +126,7 @@ SweepKernel kernel_for(Recorded recorded)
     switch (recorded) {
     case Recorded::impacts: return sweep<Method, theory, Records{.impacts = true}>;
     case Recorded::error: return sweep<Method, theory, Records{.impacts = true, .error = true}>;
+    case Recorded::peak: return sweep<Method, theory, Records{.impacts = true, .peak = true}>;
     default: return sweep<Method, theory, Records{}>;
     }
 }

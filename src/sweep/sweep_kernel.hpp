@@ -49,10 +49,12 @@ struct PointEnds {
     double* impacts;     ///< as counted; nullptr if nobody asks
     double* error;       ///< of the margin; nullptr if nobody asks
     double* steps;       ///< tried; nullptr if nobody asks
+    double* phase;       ///< of the pulse, at a fall its own [rad]; nullptr if nobody asks
+    double* peak;        ///< the largest |theta| [rad]; nullptr if nobody asks
 };
 
-/// What a kernel keeps a record of beside the end. Each comes with those before it.
-enum class Recorded { nothing, impacts, error };
+/// What a kernel keeps a record of beside the end; errors and peaks with the impacts.
+enum class Recorded { nothing, impacts, error, peak };
 
 using SweepKernel = void (*)(const TilePoints& points, const PointEnds& ends);
 

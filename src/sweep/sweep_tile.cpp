@@ -55,6 +55,8 @@ FieldValues field_values(Field field, const TileRun& tile, Ends& ends)
     case Field::velocity: return with_sign(ends.rate, ends);
     case Field::margin: return tile.margins(ends);
     case Field::error: return ends.error;
+    case Field::peak: return tile.peaks(ends);
+    case Field::fall_time: return tile.fall_times(ends);
     case Field::impacts: return stored_impacts(ends);
     case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
     case Field::status: break;
@@ -74,7 +76,9 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
     Ends ends = ends_of(run, numerics,
                         {.impacts = wanted(Field::impacts),
                          .error = wanted(Field::error),
-                         .steps = wanted(Field::steps)});
+                         .steps = wanted(Field::steps),
+                         .phase = wanted(Field::fall_time),
+                         .peak = wanted(Field::peak)});
     TileFields result;
     for (const Field field : fields) {
         result.values.push_back(field_values(field, run, ends));

@@ -3,6 +3,7 @@
 #include "exact_end.hpp"
 #include "for_scene.hpp"
 
+#include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
 #include "overturn/number/digits50.hpp"
 
@@ -58,8 +59,9 @@ PointEnds Ends::pointers()
     const auto unless_empty = [](std::vector<double>& values) {
         return values.empty() ? nullptr : values.data();
     };
-    return {tilt.data(),           rate.data(),         side.data(),        flags.data(),
-            unless_empty(impacts), unless_empty(error), unless_empty(steps)};
+    return {tilt.data(),         rate.data(),           side.data(),
+            flags.data(),        unless_empty(impacts), unless_empty(error),
+            unless_empty(steps), unless_empty(phase),   unless_empty(peak)};
 }
 
 TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel)
@@ -113,6 +115,7 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
                             .chosen = chosen,
                             .chosen_count = count};
     const Recorded recorded = !ends.error.empty()     ? Recorded::error
+                              : !ends.peak.empty()    ? Recorded::peak
                               : !ends.impacts.empty() ? Recorded::impacts
                                                       : Recorded::nothing;
     const SweepKernelChoice choice = kernels[std::size_t(kernel_)][std::size_t(scene_.pulse)];
@@ -141,6 +144,7 @@ void TileRun::run_exactly(int point, Ends& ends) const
     };
     put(ends.impacts, end.impacts);
     put(ends.steps, end.steps);
+    put(ends.phase, end.phase);
     ends.settled.push_back({point, end.region, end.margin});
 }
 
@@ -208,6 +212,52 @@ std::vector<double> TileRun::margins(Ends& ends) const
             values[settled.point] = settled.margin;
         }
     }
+    return values;
+}
+
+std::vector<double> TileRun::peaks(Ends& ends) const
+{
+    const std::vector<std::uint8_t> codes = regions(ends);
+    std::vector<double> values(codes.size());
+    with_theory(scene_.theory, [&]<Theory theory>() {
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            const auto region = Region(codes[i]);
+            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
+            values[i] = is_safe(region)
+                            ? std::max(ends.peak[i], largest_free_tilt<theory>(end, block_)) /
+                                  block_.slenderness
+                        : is_unsafe(region) ? std::numeric_limits<double>::infinity()
+                                            : std::numeric_limits<double>::quiet_NaN();
+        }
+    });
+    return values;
+}
+
+double TileRun::first_uplift(std::size_t row) const
+{
+    const std::size_t lobes = uplifts_.size() / acceleration_.size();
+    const auto begin = uplifts_.begin() + std::ptrdiff_t(row * lobes);
+    return *std::min_element(begin, begin + std::ptrdiff_t(lobes));
+}
+
+std::vector<double> TileRun::fall_times(Ends& ends) const
+{
+    const std::vector<std::uint8_t> codes = regions(ends);
+    std::vector<double> values(codes.size());
+    const std::size_t columns = frequency_.size();
+    with_theory(scene_.theory, [&]<Theory theory>() {
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            const auto region = Region(codes[i]);
+            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
+            const double forced =
+                (ends.phase[i] - first_uplift(i / columns)) / frequency_[i % columns];
+            const bool fell = region == Region::F_plus || region == Region::F_minus;
+            values[i] = fell                ? forced
+                        : is_unsafe(region) ? forced + free_fall_time<theory>(end, block_)
+                        : is_safe(region)   ? std::numeric_limits<double>::infinity()
+                                            : std::numeric_limits<double>::quiet_NaN();
+        }
+    });
     return values;
 }
 

@@ -18,6 +18,8 @@ struct Asked {
     bool impacts = false;
     bool error = false;
     bool steps = false;
+    bool phase = false; ///< at which the pulse ended, or the block fell
+    bool peak = false;  ///< without the error: no kernel records both
 };
 
 /// A point of which more is known than its end in doubles tells: computed in more digits, or
@@ -33,7 +35,8 @@ struct Ends {
     Ends(std::size_t points, const Asked& asked)
         : tilt(points), rate(points), side(points), flags(points),
           impacts(asked.impacts ? points : 0), error(asked.error ? points : 0),
-          steps(asked.steps ? points : 0)
+          steps(asked.steps ? points : 0), phase(asked.phase ? points : 0),
+          peak(asked.peak ? points : 0)
     {}
 
     PointEnds pointers();
@@ -41,7 +44,7 @@ struct Ends {
 
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags;
-    std::vector<double> impacts, error, steps;
+    std::vector<double> impacts, error, steps, phase, peak;
     std::vector<SettledPoint> settled; ///< seldom any, as of the next
     std::vector<int> unresolved;       ///< points that stay in doubt
 };
@@ -68,9 +71,16 @@ public:
     std::vector<std::uint8_t> regions(Ends& ends) const;
     std::vector<double> margins(Ends& ends) const; ///< not a number where undecided
 
+    /// The largest |theta| / alpha, and the time from the first uplift to |theta| = pi/2 [1/p],
+    /// both during the pulse and after it; infinite where the block falls, or does not. Ends with
+    /// peaks, or with phases.
+    std::vector<double> peaks(Ends& ends) const;
+    std::vector<double> fall_times(Ends& ends) const;
+
 private:
     void run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
              InDoubt in_doubt) const;
+    double first_uplift(std::size_t row) const;
 
     Scene scene_;
     const Plane& plane_;

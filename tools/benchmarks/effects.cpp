@@ -105,7 +105,9 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
                          .flags = flags.data(),
                          .impacts = impacts.empty() ? nullptr : impacts.data(),
                          .error = nullptr,
-                         .steps = nullptr};
+                         .steps = nullptr,
+                         .phase = nullptr,
+                         .peak = nullptr};
 #ifdef __x86_64__
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;

@@ -13,7 +13,8 @@ from building import add_build_argument, build, fail, run_or_fail
 METHODS = ("rk45", "taylor")
 PULSES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker", "half_sine",
           "rectangular")
-FIELDS = ("angle", "velocity", "margin", "error", "impacts", "steps", "status")  # beside the region
+FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
+          "status")  # beside the region
 KERNEL = "avx2"
 
 EXPLANATION = """\

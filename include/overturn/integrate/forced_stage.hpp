@@ -4,6 +4,7 @@
 #pragma once
 
 #include "overturn/integrate/in_doubt.hpp"
+#include "overturn/integrate/moment.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
@@ -17,7 +18,14 @@ namespace overturn {
 struct Records {
     bool impacts = false;
     bool error = false;
+    bool peak = false;    ///< not together with the error
+    bool moments = false; ///< of a single block only
 };
+
+constexpr Watch watch_for(const Records& records)
+{
+    return records.error ? Watch::errors : records.peak ? Watch::peak : Watch::nothing;
+}
 
 /// The end of the forced stage. Counts are whole numbers held in T.
 template <Number T>
@@ -29,9 +37,11 @@ struct ForcedEnd {
     mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
     T impacts;            ///< counted only if asked for; a bounce series that died out is not
     T steps;              ///< steps tried
+    T phase;              ///< of the pulse: its end, or less where it fell [rad]
     /// Only if asked for:
     T error;            ///< of the margin, at most, to first order; infinite where unknown
     mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
+    T peak;             ///< the largest tilt [rad]
 };
 
 /// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
@@ -64,10 +74,15 @@ public:
                        .not_finite = none,
                        .impacts = zero_,
                        .steps = zero_,
+                       .phase = end_,
                        .error = zero_,
-                       .in_doubt = none};
+                       .in_doubt = none,
+                       .peak = zero_};
         wait_for_uplift(active_);
     }
+
+    /// What has happened so far, in order; only if asked for.
+    const auto& moments() const { return moments_; }
 
     /// Whether a lane has still to go on.
     bool is_active() const { return any<T>(active_); }
@@ -81,13 +96,21 @@ public:
         if constexpr (records.error) {
             pass_errors(step, moved);
         }
+        if constexpr (records.peak) {
+            T& peak = end_of_run_.peak;
+            peak = select<T>(moved, greater<T>(step.peak, peak), peak);
+        }
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
+        if constexpr (records.moments) {
+            moments_.note(Happening::step, now_, moved);
+        }
         const Mask fell = moved && step.falls;
         const Mask strikes = moved && step.strikes;
         if (any<T>(fell || strikes)) {
             end_of_run_.fell = end_of_run_.fell || fell;
+            end_of_run_.phase = select<T>(fell, now_.phase, end_of_run_.phase);
             finish(fell);
             strike(strikes);
         }
@@ -125,6 +148,9 @@ private:
         lifted_ = select<T>(lifted, next, lifted_);
         const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
+        if constexpr (records.moments) {
+            moments_.note(Happening::uplift, now_, lifted);
+        }
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
     }
@@ -167,6 +193,10 @@ private:
         if constexpr (records.impacts) {
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
+        }
+        if constexpr (records.moments) {
+            moments_.note(Happening::impact, now_, lanes);
+            moments_.note(Happening::rest, now_, rests);
         }
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
@@ -304,14 +334,16 @@ private:
     const T zero_;
     T sqrt_restitution_;
 
-    typename Method::template Stepper<Pulse, theory, T, records.error> stepper_;
+    typename Method::template Stepper<Pulse, theory, T, watch_for(records)> stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift: no flank of a lobe lifts a block twice
     Mask active_;
     ForcedEnd<T> end_of_run_;
 
-    struct Nothing {};
-    [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, Nothing> growth_;
+    struct NoGrowth {};
+    struct NoMoments {};
+    [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, NoGrowth> growth_;
+    [[no_unique_address]] std::conditional_t<records.moments, Moments<T>, NoMoments> moments_;
     Mask doubtful_; // an event may or may not have happened
     InDoubt in_doubt_;
 };

@@ -27,11 +27,62 @@ struct StepEnd {
     mask_t<T> broken;  ///< a number is not finite, and no other step would be
 };
 
+/// What a step watches on its way. Not asked for, not paid for.
+enum class Watch { nothing, errors, peak };
+
 /// A step that has watched its errors.
 template <Number T>
 struct WatchedStepEnd : StepEnd<T> {
     StepErrors<T> errors;
 };
+
+/// A step that has watched how high the block goes.
+template <Number T>
+struct StepEndWithPeak : StepEnd<T> {
+    T peak; ///< the largest tilt within the step [rad]
+};
+
+/// The motion at one point of a step, by its share of the step.
+template <Number T>
+struct Glance {
+    T tilt;         ///< [rad]
+    T rate;         ///< [rad per step]
+    T acceleration; ///< [rad per step^2]
+};
+
+/// The largest tilt within a step [rad]. most: a bound of it; look(share) is a Glance. Of eight
+/// parts of the step that are looked at, Newton's method goes on from the highest to where the rate
+/// is zero.
+template <Number T, class Look>
+T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
+{
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const T one(S(1));
+    T highest = greater<T>(start, end);
+    if (!any<T>(most > highest)) {
+        return highest;
+    }
+    T best = select<T>(start > end, zero, one);
+    constexpr int parts = 8;
+    for (int i = 1; i < parts; ++i) {
+        const T share(S(i) / parts);
+        const T tilt = look(share).tilt;
+        best = select<T>(tilt > highest, share, best);
+        highest = greater<T>(tilt, highest);
+    }
+    const T part(S(1) / parts);
+    const T first = greater<T>(best - part, zero);
+    const T last = lesser<T>(best + part, one);
+    T share = best;
+    for (int i = 0; i < 3; ++i) {
+        const Glance<T> here = look(share);
+        const mask_t<T> bends = here.acceleration < zero;
+        const T newton = share - here.rate / select<T>(bends, here.acceleration, -one);
+        share = lesser<T>(greater<T>(newton, first), last);
+    }
+    return greater<T>(look(share).tilt, highest);
+}
 
 /// Where the rate changes its sign within a step: the tilt there, if the ground or pi/2 may be
 /// near, and otherwise one that is nearer. lowest, highest: bounds of the tilt within the step

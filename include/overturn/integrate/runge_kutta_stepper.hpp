@@ -16,12 +16,12 @@
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
-/// watched: whether a step tells its errors.
-template <class Pulse, Theory theory, Number T, bool watched = false>
+template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
+    static constexpr bool watched = watch == Watch::errors;
     /// Of the pulse, within a step whose error is known [rad].
     static constexpr double longest_angle = 2;
 
@@ -116,6 +116,18 @@ public:
             const StepErrors<T> errors = this->errors(now, start, step, h, delay, last_sample);
             remember(last_sample, moved);
             return WatchedStepEnd<T>{end, errors};
+        } else if constexpr (watch == Watch::peak) {
+            const Quintic<T> tilt = dense_output(start, step.end, h);
+            const T one(S(1));
+            const auto look = [&](const T& share) -> Glance<T> {
+                const Quintic<T> before = restricted(tilt, zero_, share);
+                const T slope = before[5] - before[4];
+                const T bend = slope - (before[4] - before[3]);
+                const T part = one / select<T>(share > zero_, share, one);
+                return {before[5], T(S(5)) * slope * part, T(S(20)) * bend * part * part};
+            };
+            return StepEndWithPeak<T>{end,
+                                      highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), look)};
         } else {
             return end;
         }
@@ -304,8 +316,8 @@ private:
 
 /// The method as a choice: Dormand-Prince 5(4).
 struct RungeKutta {
-    template <class Pulse, Theory theory, Number T, bool watched = false>
-    using Stepper = RungeKuttaStepper<Pulse, theory, T, watched>;
+    template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
+    using Stepper = RungeKuttaStepper<Pulse, theory, T, watch>;
 };
 
 } // namespace overturn

@@ -13,12 +13,13 @@
 namespace overturn {
 
 /// order: of the series of the rate. tolerance: its last terms at the end of a step, over the size
-/// of the motion [1]. watched: whether a step tells its errors.
-template <int order, class Pulse, Theory theory, Number T, bool watched = false>
+/// of the motion [1].
+template <int order, class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     using Series = RockingSeries<order, T>;
+    static constexpr bool watched = watch == Watch::errors;
     /// Two may be small by chance: those of an even push from rest are 0 in turn, and now and then
     /// the one between is small, too. With four, errors are up to ten times smaller at the same
     /// tolerance; to the same largest error both take the same time.
@@ -105,6 +106,14 @@ public:
         }
         if constexpr (watched) {
             return WatchedStepEnd<T>{end, errors(now, known, push, bounds, end, h)};
+        } else if constexpr (watch == Watch::peak) {
+            const auto look = [&](const T& share) -> Glance<T> {
+                const T time = share * h;
+                return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
+                        slope_of_series(series.rate, time) * h * h};
+            };
+            const T most = upper_bound(bounds.upper());
+            return StepEndWithPeak<T>{end, highest_tilt<T>(now.tilt, end.tilt, most, look)};
         } else {
             return end;
         }
@@ -333,8 +342,8 @@ private:
 /// The method as a choice.
 template <int order>
 struct Taylor {
-    template <class Pulse, Theory theory, Number T, bool watched = false>
-    using Stepper = TaylorStepper<order, Pulse, theory, T, watched>;
+    template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
+    using Stepper = TaylorStepper<order, Pulse, theory, T, watch>;
 };
 
 } // namespace overturn

@@ -3,6 +3,7 @@
 // if it loses energy at all. Scalars only.
 #pragma once
 
+#include "overturn/mechanics/region.hpp"
 #include "overturn/mechanics/rocking_arc.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -90,6 +91,44 @@ private:
     MoreExact<T> q_;
     RockingArc<theory, T> arc_;
 };
+
+/// The largest tilt of a block that does not fall, from this state on [rad]: where it turns next,
+/// before or after an impact. It turns lower every time.
+template <Theory theory, Number T>
+T largest_free_tilt(const State<T>& state, const Block<T>& block)
+{
+    using std::asin;
+    using std::sqrt;
+    const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
+    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+    const T q = (c - state.rate) * (c + state.rate);
+    const T r = block.restitution;
+    const T q_at_turn = state.rate > 0 ? q : T(largest * largest * (1 - r) + r * q);
+    const T distance = q_at_turn > 0 ? T(sqrt(q_at_turn)) : T(0); // from the top, at the turn
+    const T top = theory == Theory::linear ? distance : T(2 * asin(distance / 2));
+    return lesser<T>(greater<T>(block.slenderness - top, T(0)), block.slenderness);
+}
+
+/// How long a block that will fall takes to lie, |theta| = pi/2, from this state on [1/p]. Infinite
+/// if it is so near to the boundary that T cannot tell.
+template <Theory theory, Number T>
+T free_fall_time(const State<T>& state, const Block<T>& block)
+{
+    using std::sqrt;
+    const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
+    const T q = (c - state.rate) * (c + state.rate);
+    const RockingArc<theory, T> arc(state, block.slenderness, q);
+    const T never = std::numeric_limits<T>::infinity();
+    const T impact = arc.time_to_impact();
+    if (impact == never) {
+        return arc.time_to_fall();
+    }
+    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+    const T r = block.restitution;
+    const State<T> upright{.tilt = T(0), .rate = sqrt(r) * arc.impact_speed(), .side = -state.side};
+    const T q_after = largest * largest * (1 - r) + r * q;
+    return impact + RockingArc<theory, T>(upright, block.slenderness, q_after).time_to_fall();
+}
 
 /// How long a block rocks that leaves the ground at the rate v, and after each arc at sqrt(r) times
 /// the rate before (the limit of Eq. 43): the sum of all half periods (Eq. 42), in 1/p. v is below

@@ -4,7 +4,9 @@
 
 #include "overturn/mechanics/block.hpp"
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace overturn {
 
@@ -22,6 +24,18 @@ enum class Region : std::uint8_t {
     undecided = 254,
     not_computed = 255
 };
+
+/// Names as they stand in result files, in the order of the codes.
+inline constexpr std::array<std::string_view, 9> region_names{
+    "S", "S_plus", "S_minus", "U0_plus", "U0_minus", "U1_plus", "U1_minus", "F_plus", "F_minus"};
+
+constexpr std::string_view name_of(Region region)
+{
+    const auto code = std::size_t(region);
+    return code < region_names.size()    ? region_names[code]
+           : region == Region::undecided ? "undecided"
+                                         : "not_computed";
+}
 
 constexpr bool is_safe(Region region)
 {

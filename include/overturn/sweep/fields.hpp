@@ -10,11 +10,23 @@
 
 namespace overturn {
 
-enum class Field { region, angle, velocity, margin, error, impacts, steps, status };
+enum class Field {
+    region,
+    angle,
+    velocity,
+    margin,
+    error,
+    peak,
+    fall_time,
+    impacts,
+    steps,
+    status
+};
 
 /// Names as they stand in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 8> field_names{
-    "region", "angle", "velocity", "margin", "error", "impacts", "steps", "status"};
+inline constexpr std::array<std::string_view, 10> field_names{
+    "region", "angle",     "velocity", "margin", "error",
+    "peak",   "fall_time", "impacts",  "steps",  "status"};
 
 constexpr std::string_view name_of(Field field)
 {
@@ -22,7 +34,7 @@ constexpr std::string_view name_of(Field field)
 }
 
 /// The values of one field in one tile, row by row, frequency fastest. region and status: uint8;
-/// impacts: uint16; steps: uint32; angle, velocity, margin, error: double.
+/// impacts: uint16; steps: uint32; all others: double.
 using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
                                  std::vector<std::uint32_t>, std::vector<double>>;
 

@@ -62,6 +62,14 @@ struct BlockSize {
     double half_height = 0;
 };
 
+/// A point of a plane; its coordinates are taken as exact.
+struct PlanePoint {
+    double slenderness; ///< [rad]
+    double restitution; ///< r [1]
+    double amplitude;   ///< a [1]
+    double frequency;   ///< Omega [1]
+};
+
 struct Plane {
     Axis frequency;   ///< Omega = omega_p / p [1]
     Axis amplitude;   ///< a = a_p / (g tan alpha), linear theory a_p / (g alpha) [1]

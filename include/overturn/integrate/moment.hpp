@@ -1,0 +1,33 @@
+// What happened to a block on its way through the forced stage, for those who want to see it all.
+#pragma once
+
+#include "overturn/integrate/rocking_step.hpp"
+
+#include <vector>
+
+namespace overturn {
+
+enum class Happening { uplift, step, impact, rest };
+
+/// A block just after something has happened to it. Between a moment and the next it rocks on its
+/// side, or rests.
+template <Number T>
+struct Moment {
+    Happening what;
+    Rocking<T> rocking;
+};
+
+/// Moments of a single block, in order.
+template <Number T>
+class Moments : public std::vector<Moment<T>> {
+public:
+    void note(Happening what, const Rocking<T>& rocking, const mask_t<T>& happened)
+    {
+        static_assert(lanes_v<T> == 1);
+        if (happened) {
+            this->push_back({what, rocking});
+        }
+    }
+};
+
+} // namespace overturn

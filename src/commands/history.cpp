@@ -1,0 +1,120 @@
+// One point in full: the forced stage, then the analytical free stage.
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "print_row.hpp"
+
+#include "overturn/file/history_file.hpp"
+#include "overturn/file/sole_writer.hpp"
+#include "overturn/job/job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> axis_names{"frequency", "amplitude", "restitution",
+                                                     "slenderness"};
+
+/// The --set argument that puts an axis to one value.
+std::string override_of(const std::string& at)
+{
+    const std::size_t equals = at.find('=');
+    const std::string name = at.substr(0, equals);
+    const bool known = std::find(axis_names.begin(), axis_names.end(), name) != axis_names.end();
+    if (!known || equals == std::string::npos || equals + 1 == at.size()) {
+        throw UsageError(fmt::format("--at {}: a coordinate is one of {}, and has a value: "
+                                     "--at frequency=3,amplitude=1.5",
+                                     at, fmt::join(axis_names, ", ")));
+    }
+    return fmt::format("plane.{}.values=[{}]", name, at.substr(equals + 1));
+}
+
+Job read_job_of_one_point(const HistoryOptions& options)
+{
+    std::vector<std::string> overrides = options.job.overrides;
+    for (const std::string& at : options.at) {
+        overrides.push_back(override_of(at));
+    }
+    Job job = read_job(options.job.path, overrides);
+    const std::array axes{&job.plane.frequency, &job.plane.amplitude, &job.plane.restitution,
+                          &job.plane.slenderness};
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (axes[i]->size() > 1) {
+            throw UsageError(fmt::format(
+                "{} has {} values of plane.{}, from {} to {}, and a history is that of one point. "
+                "Say which, such as --at {}={}",
+                options.job.path, axes[i]->size(), axis_names[i], axes[i]->first(), axes[i]->last(),
+                axis_names[i], axes[i]->first()));
+        }
+    }
+    return job;
+}
+
+void print_event(const HistoryEvent& event)
+{
+    // A rounding below the last digit shown would print as -0.
+    const auto shown = [](double angle) { return std::abs(angle) < 5e-6 ? 0 : angle; };
+    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>11.5f}{:>11.5f}{:>12.3e}\n", event.after.time,
+               event_names[std::size_t(event.event)], shown(event.after.angle),
+               shown(event.before.velocity), shown(event.after.velocity), event.after.q);
+}
+
+void print_events(const History& history)
+{
+    constexpr std::size_t most_lines = 24;
+    fmt::print("\n{:>10}  {:<13}{:>10}{:>11}{:>11}{:>12}\n", "time [1/p]", "event", "angle",
+               "velocity", "after", "q after");
+    const std::size_t shown = std::min(most_lines, history.events.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+        print_event(history.events[i]);
+    }
+    if (shown < history.events.size()) {
+        fmt::print("{:>10}  and {} more\n", "", history.events.size() - shown);
+    }
+}
+
+void print_outcome(const History& history)
+{
+    const auto time = [](double value) {
+        return std::isinf(value) ? std::string("never") : fmt::format("after {:.6g} / p", value);
+    };
+    print_row("region", name_of(history.region));
+    print_row("margin", fmt::format("{:.6g}, at most {:.1g} off", history.margin, history.error));
+    print_row("falls", time(history.time_of_fall));
+    print_row("rests", time(history.time_of_rest));
+    if (history.shortened) {
+        print_row("note",
+                  "The history breaks off: it has more impacts or steps than are followed.");
+    }
+}
+
+} // namespace
+
+int history(const HistoryOptions& options)
+{
+    const Job job = read_job_of_one_point(options);
+    const SoleWriter sole_writer(options.output);
+    expect_room_for_history_file(options.output);
+    const PlanePoint point{.slenderness = job.plane.slenderness.first(),
+                           .restitution = job.plane.restitution_ratio(0, 0),
+                           .amplitude = job.plane.amplitude.first(),
+                           .frequency = job.plane.frequency.first()};
+    HistoryView view{.samples = options.samples};
+    if (options.until > 0) {
+        view.until = options.until;
+    }
+    const History history = history_of(job.scene, point, view);
+    print_outcome(history);
+    print_events(history);
+    write_history_file(options.output, job, history);
+    fmt::print("\n{0}: written; tools/plot_history {0} draws it\n", options.output);
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,87 @@
+"""overturn history and its picture."""
+
+import pathlib
+import subprocess
+import sys
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from program import Scratch, checksum
+
+PLOT_HISTORY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_history"
+AT = "--at=frequency=3,amplitude=1.3,restitution=1"
+
+
+class AHistory(Scratch):
+    def history(self, *arguments):
+        return self.overturn("history", "small.toml", "-o", "history.h5", *arguments)
+
+    def plot(self, *arguments):
+        return subprocess.run([sys.executable, PLOT_HISTORY, *arguments], cwd=self.folder,
+                              capture_output=True, text=True, timeout=60)
+
+    def test_tells_what_happens_and_writes_it(self):
+        self.assert_exit(self.history(AT), 0, "region S", "uplift", "impact", "end_of_pulse",
+                         "history.h5: written")
+        with h5py.File(self.folder / "history.h5") as file:
+            self.assertEqual(file.attrs["frequency"], 3)
+            self.assertAlmostEqual(file.attrs["restitution"], 0.911547, places=6)
+            self.assertEqual(len(file["time"]), len(file["angle"]))
+            meanings = file["event_kind"].attrs["flag_meanings"].decode().split()
+            kinds = [meanings[code] for code in file["event_kind"][:]]
+            self.assertEqual(kinds[0], "uplift")
+            self.assertEqual(kinds[-1], "rest")
+            impacts = file["event_kind"][:] == meanings.index("impact")
+            before = file["event_velocity_before"][:][impacts]
+            after = file["event_velocity_after"][:][impacts]
+            self.assertTrue(np.allclose(after**2, file.attrs["restitution"] * before**2))
+
+    def test_opens_in_xarray(self):
+        self.history(AT)
+        for engine in ("netcdf4", "h5netcdf"):
+            with xarray.open_dataset(self.folder / "history.h5", engine=engine) as found:
+                self.assertEqual(found.angle.dims, ("sample",))
+                self.assertEqual(found.event_time.dims, ("event",))
+
+    def test_a_job_of_many_points_has_to_say_which(self):
+        result = self.history("--at", "frequency=3")
+        self.assert_exit(result, 2, "150 values of plane.amplitude", "--at amplitude=0.5")
+        self.assertFalse((self.folder / "history.h5").exists())
+
+    def test_a_coordinate_that_is_none_is_refused(self):
+        for words in ("frequncy=3", "frequency", "frequency=", "=3"):
+            self.assert_exit(self.history("--at", words), 2, "a coordinate is one of frequency")
+        self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
+
+    def test_replaces_an_older_history_and_nothing_else(self):
+        self.assert_exit(self.history(AT), 0)
+        first = checksum(self.folder / "history.h5")
+        self.assert_exit(self.history(AT), 0)
+        self.assertEqual(checksum(self.folder / "history.h5"), first)
+        self.overturn("run", "small.toml", "-o", "spectrum.h5")
+        before = checksum(self.folder / "spectrum.h5")
+        result = self.overturn("history", "small.toml", "-o", "spectrum.h5", AT)
+        self.assert_exit(result, 74, "is no rocking history")
+        self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
+
+    def test_is_drawn_with_its_point_and_events(self):
+        self.history(AT)
+        result = self.plot("history.h5", "-o", "history.svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        picture = (self.folder / "history.svg").read_text()
+        for words in ("A small plane", "uplift", "at rest"):
+            self.assertIn(f">{words}<", picture)
+        self.assertIn("safe (S)", picture)
+
+    def test_a_spectrum_is_not_drawn_as_one(self):
+        self.overturn("run", "small.toml", "-o", "spectrum.h5")
+        result = self.plot("spectrum.h5")
+        self.assertEqual(result.returncode, 74)
+        self.assertIn("is not a history written by overturn history", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,263 @@
+#include "overturn/sweep/history.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+#include "support/random_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace overturn {
+namespace {
+
+const PlanePoint safe_point{
+    .slenderness = 0.1745716, .restitution = 0.9, .amplitude = 1.3, .frequency = 3};
+
+std::vector<Scene> all_scenes()
+{
+    std::vector<Scene> scenes;
+    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+            scenes.push_back({PulseKind(pulse), theory, 1.0});
+        }
+    }
+    return scenes;
+}
+
+/// Calls check(scene, point) for some points under every pulse and theory.
+template <class Check>
+void for_random_points(const Check& check)
+{
+    std::mt19937_64 generator(33);
+    for (const Scene& scene : all_scenes()) {
+        for (int i = 0; i < 12; ++i) {
+            const Point<double> point = random_point(generator);
+            check(scene, PlanePoint{point.slenderness, point.restitution, point.amplitude,
+                                    point.frequency});
+        }
+    }
+}
+
+int count(const History& history, Event event, double until)
+{
+    return int(
+        std::count_if(history.events.begin(), history.events.end(), [&](const HistoryEvent& found) {
+            return found.event == event && found.after.time <= until;
+        }));
+}
+
+TEST(History, EndsThePulseWhereTheSpectrumSays)
+{
+    for_random_points([](const Scene& scene, const PlanePoint& point) {
+        Plane plane;
+        plane.slenderness = Axis(AxisList{point.slenderness});
+        plane.restitution = Axis(AxisList{point.restitution});
+        plane.frequency = Axis(AxisList{point.frequency});
+        plane.amplitude = Axis(AxisList{point.amplitude});
+        const TileFields fields = sweep_tile(
+            scene, {Method::taylor, 1e-12}, plane, Tiling(plane)[0],
+            {Field::region, Field::margin, Field::error, Field::impacts}, widest_kernel());
+        const auto region = Region(std::get<std::vector<std::uint8_t>>(fields.values[0])[0]);
+        const double margin = std::get<std::vector<double>>(fields.values[1])[0];
+        const double error = std::get<std::vector<double>>(fields.values[2])[0];
+        const int impacts = std::get<std::vector<std::uint16_t>>(fields.values[3])[0];
+        const History history = history_of(scene, point);
+        EXPECT_EQ(history.region, region);
+        EXPECT_NEAR(history.margin, margin, error + history.error);
+        const double end = std::min(history.end_of_pulse, history.time_of_fall);
+        const int struck = count(history, Event::impact, end);
+        EXPECT_TRUE(impacts == struck || impacts == impact_count::bounce_series);
+        EXPECT_EQ(std::isfinite(history.time_of_fall), is_unsafe(region));
+        EXPECT_EQ(std::isfinite(history.time_of_rest), is_safe(region));
+    });
+}
+
+TEST(History, IsWhatPeaksAndTimesOfFallsAreTakenFrom)
+{
+    for_random_points([](const Scene& scene, const PlanePoint& point) {
+        Plane plane;
+        plane.slenderness = Axis(AxisList{point.slenderness});
+        plane.restitution = Axis(AxisList{point.restitution});
+        plane.frequency = Axis(AxisList{point.frequency});
+        plane.amplitude = Axis(AxisList{point.amplitude});
+        HistoryView view;
+        view.samples = 8000;
+        const History history = history_of(scene, point, view);
+        double peak = 0;
+        for (const HistorySample& sample : history.samples) {
+            peak = std::max(peak, std::abs(sample.angle) / point.slenderness);
+        }
+        for (const Numerics& numerics :
+             {Numerics{Method::rk45, 1e-9}, {Method::taylor, 1e-9}, {Method::rk45, 1e-9, true}}) {
+            const TileFields fields =
+                sweep_tile(scene, numerics, plane, Tiling(plane)[0],
+                           {Field::peak, Field::fall_time, Field::error}, widest_kernel());
+            const double found = std::get<std::vector<double>>(fields.values[0])[0];
+            const double fall = std::get<std::vector<double>>(fields.values[1])[0];
+            if (is_safe(history.region)) {
+                // Half a spacing beside a peak the angle is lower by an eighth of the acceleration,
+                // below 1 + a, times the spacing squared; and errors of 1e-9 grow.
+                const double h = history.samples.back().time / view.samples;
+                EXPECT_NEAR(found, peak, (1 + point.amplitude) * h * h / 8 + 1e-6);
+                EXPECT_TRUE(std::isinf(fall));
+            } else {
+                EXPECT_TRUE(std::isinf(found));
+                const double uplift = history.events.front().after.time;
+                EXPECT_NEAR(fall, history.time_of_fall - uplift, 1e-6);
+            }
+        }
+    });
+}
+
+TEST(History, ObeysTheEquationOfMotionBetweenEvents)
+{
+    // By Simpson's rule over pairs of intervals of the even times: h^5 / 90 times a fourth
+    // derivative, which is at most that of the pulse, Omega^4 (Ricker: 30 Omega^4), and round-off.
+    for_random_points([](const Scene& scene, const PlanePoint& point) {
+        HistoryView view;
+        view.until = 3;
+        view.samples = 6001;
+        const History history = history_of(scene, point, view);
+        const double h = 3.0 / 6000;
+        const double size = 1 + point.amplitude;
+        const double tolerance =
+            std::pow(h, 5) / 90 * 100 * size * std::pow(1 + point.frequency, 4) + 1e-14;
+        int compared = 0;
+        for (std::size_t i = 2; i < history.samples.size(); ++i) {
+            const HistorySample& first = history.samples[i - 2];
+            const HistorySample& middle = history.samples[i - 1];
+            const HistorySample& last = history.samples[i];
+            const bool no_event = std::abs(middle.time - first.time - h) < 1e-9 &&
+                                  std::abs(last.time - middle.time - h) < 1e-9;
+            if (!no_event) {
+                continue;
+            }
+            ++compared;
+            EXPECT_NEAR(last.velocity - first.velocity,
+                        h / 3 * (first.acceleration + 4 * middle.acceleration + last.acceleration),
+                        tolerance);
+            EXPECT_NEAR(last.angle - first.angle,
+                        h / 3 * (first.velocity + 4 * middle.velocity + last.velocity), tolerance);
+        }
+        EXPECT_GT(compared, 100);
+    });
+}
+
+TEST(History, LosesSpeedAtImpactsAndNowhereElse)
+{
+    for_random_points([](const Scene& scene, const PlanePoint& point) {
+        const History history = history_of(scene, point);
+        for (const HistoryEvent& event : history.events) {
+            EXPECT_NEAR(event.before.angle, event.after.angle, 1e-15);
+            if (event.event == Event::impact) {
+                EXPECT_NEAR(event.after.velocity,
+                            std::sqrt(point.restitution) * event.before.velocity,
+                            1e-13 * std::abs(event.before.velocity) + 1e-15);
+                EXPECT_GE(event.after.q, event.before.q);
+            } else if (event.event != Event::rest) {
+                EXPECT_NEAR(event.before.velocity, event.after.velocity, 1e-15);
+            }
+        }
+        for (std::size_t i = 1; i < history.samples.size(); ++i) {
+            const HistorySample& before = history.samples[i - 1];
+            const HistorySample& after = history.samples[i];
+            EXPECT_LE(before.time, after.time);
+            const double speed = std::max(std::abs(before.velocity), std::abs(after.velocity));
+            // Between two samples the speed is more than at both by an acceleration times h.
+            const double h = after.time - before.time;
+            EXPECT_LE(std::abs(after.angle - before.angle),
+                      h * (speed + h * (2 + point.amplitude)) + 1e-15);
+        }
+    });
+}
+
+TEST(History, ShowsTheBlockUntilItRests)
+{
+    const History history = history_of({}, safe_point);
+    EXPECT_EQ(history.region, Region::S);
+    EXPECT_EQ(history.events.front().event, Event::uplift);
+    // When sin(phase) = 1 / a.
+    EXPECT_NEAR(history.events.front().after.time, std::asin(1 / 1.3) / 3, 1e-15);
+    EXPECT_EQ(history.events.back().event, Event::rest);
+    EXPECT_EQ(history.events.back().after.time, history.time_of_rest);
+    EXPECT_EQ(history.samples.back().time, history.time_of_rest);
+    EXPECT_EQ(history.samples.back().angle, 0);
+}
+
+TEST(History, ShowsTheFall)
+{
+    PlanePoint point = safe_point;
+    point.amplitude = 2;
+    const History free = history_of({}, point);
+    EXPECT_EQ(free.events.back().event, Event::fall);
+    EXPECT_GT(free.time_of_fall, free.end_of_pulse);
+    EXPECT_NEAR(std::abs(free.samples.back().angle), std::acos(0.0), 1e-14);
+    point.amplitude = 30;
+    point.frequency = 0.5;
+    const History forced = history_of({}, point);
+    EXPECT_EQ(forced.events.back().event, Event::fall);
+    EXPECT_LT(forced.time_of_fall, forced.end_of_pulse);
+    EXPECT_NEAR(std::abs(forced.samples.back().angle), std::acos(0.0), 1e-14);
+}
+
+TEST(History, IsThatOfABlockAtRestIfNothingLiftsIt)
+{
+    PlanePoint point = safe_point;
+    point.amplitude = 0.5;
+    const History history = history_of({}, point);
+    ASSERT_EQ(history.events.size(), 1u);
+    EXPECT_EQ(history.events[0].event, Event::end_of_pulse);
+    EXPECT_EQ(history.time_of_rest, 0);
+    EXPECT_EQ(history.samples.size(), 2000u + 2); // the event has two
+    for (const HistorySample& sample : history.samples) {
+        EXPECT_EQ(sample.angle, 0);
+        EXPECT_EQ(sample.acceleration, 0);
+    }
+}
+
+TEST(History, RestsAndIsLiftedAgain)
+{
+    // A slow pulse: bounces die out before the second lobe comes.
+    PlanePoint point = safe_point;
+    point.frequency = 0.05;
+    point.amplitude = 1.00001;
+    point.restitution = 0.3;
+    const History history = history_of({PulseKind::one_sine, Theory::nonlinear, 1}, point);
+    EXPECT_EQ(count(history, Event::uplift, history.end_of_pulse), 2);
+    EXPECT_EQ(count(history, Event::rest, history.end_of_pulse), 2);
+    EXPECT_EQ(history.events.back().event, Event::end_of_pulse);
+    EXPECT_LT(history.time_of_rest, history.end_of_pulse);
+}
+
+TEST(History, OfABlockThatLosesNothingStopsSomewhere)
+{
+    PlanePoint point = safe_point;
+    point.restitution = 1;
+    const History history = history_of({}, point);
+    EXPECT_TRUE(std::isinf(history.time_of_rest));
+    EXPECT_TRUE(std::isinf(history.time_of_fall));
+    EXPECT_EQ(history.samples.back().time, history.end_of_pulse + free_time_shown);
+    // Energy is what it was at the end of the pulse.
+    const double q = history.samples.back().q;
+    for (const HistorySample& sample : history.samples) {
+        if (sample.time > history.end_of_pulse) {
+            EXPECT_NEAR(sample.q, q, 1e-14);
+        }
+    }
+}
+
+TEST(History, GoesAsFarAsIsAskedFor)
+{
+    for (const double until : {0.1, 1.0, 30.0, 100.0}) {
+        HistoryView view;
+        view.until = until;
+        view.samples = 101;
+        const History history = history_of({}, safe_point, view);
+        EXPECT_EQ(history.samples.front().time, 0);
+        EXPECT_EQ(history.samples.back().time, until);
+        EXPECT_EQ(history.samples.size(), 101 + 2 * history.events.size());
+        EXPECT_EQ(history.time_of_rest, history_of({}, safe_point).time_of_rest);
+    }
+}
+
+} // namespace
+} // namespace overturn
