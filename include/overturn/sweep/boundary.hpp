@@ -1,0 +1,48 @@
+// Where verdicts flip: for one block at one frequency, all amplitudes at which safe turns to unsafe
+// or back, in order.
+#pragma once
+
+#include "overturn/mechanics/region.hpp"
+#include "overturn/sweep/kernel.hpp"
+#include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/scene.hpp"
+
+#include <vector>
+
+namespace overturn {
+
+/// A verdict flips between two amplitudes whose own verdicts are settled.
+struct Flip {
+    double below; ///< [1]
+    double above; ///< [1]
+    Region region_below;
+    Region region_above;
+
+    double amplitude() const { return below + (above - below) / 2; }
+};
+
+/// The two amplitudes of a flip are this close, over themselves, or neighbours among the doubles
+/// [1].
+inline constexpr double flip_width = 1e-12;
+
+/// One line through a plane: everything but the amplitude.
+struct BoundaryLine {
+    double slenderness; ///< [rad]
+    double restitution; ///< r [1]
+    double frequency;   ///< Omega [1]
+};
+
+struct Boundary {
+    std::vector<Flip> flips; ///< in ascending order
+    bool complete = true;    ///< every verdict that was looked at could be settled
+};
+
+/// The flips between the first and the last of these ascending amplitudes, which are all looked at.
+/// Where two neighbours differ in their verdict, a flip is between them. Where both overturn, but
+/// to different sides, a safe strip is between them, however thin. And where the margin has come
+/// nearest to 0, without reaching it, two flips may be: what is there is found by going on to its
+/// extremum. Missed can only be a strip thinner than two steps of the scan of which neither tells.
+Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
+                     const std::vector<double>& amplitudes, Kernel kernel);
+
+} // namespace overturn

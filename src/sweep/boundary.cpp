@@ -1,0 +1,255 @@
+#include "overturn/sweep/boundary.hpp"
+
+#include "resolve.hpp"
+
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace overturn {
+
+namespace {
+
+/// Verdicts must be right: cheap where that is clear, fine where it is not.
+constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
+constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
+
+/// A step of the scan is halved so often where it has to be.
+constexpr int times_halved = 8;
+
+/// What becomes of a block at one amplitude.
+struct Probe {
+    double amplitude;
+    Region region;
+    double margin;
+    double impacts;
+
+    bool is_settled() const { return is_safe(region) || is_unsafe(region); }
+    bool falls_to_plus() const
+    {
+        return region == Region::U0_plus || region == Region::U1_plus || region == Region::F_plus;
+    }
+};
+
+class Line {
+public:
+    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel)
+        : scene_(scene), kernel_(kernel)
+    {
+        plane_.slenderness = Axis(AxisList{line.slenderness});
+        plane_.restitution = Axis(AxisList{line.restitution});
+        plane_.frequency = Axis(AxisList{line.frequency});
+    }
+
+    std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
+    {
+        plane_.amplitude = Axis(AxisList(amplitudes));
+        Tile tile;
+        tile.amplitude_count = std::int64_t(amplitudes.size());
+        tile.frequency_count = 1;
+        const TileRun run(scene_, plane_, tile, kernel_);
+        Ends ends = ends_of(run, numerics, {.impacts = true});
+        const std::vector<std::uint8_t> regions = run.regions(ends);
+        const std::vector<double> margins = run.margins(ends);
+        std::vector<Probe> probes;
+        for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+            probes.push_back({amplitudes[i], Region(regions[i]), margins[i], ends.impacts[i]});
+            complete_ = complete_ && probes.back().is_settled();
+        }
+        return probes;
+    }
+
+    Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
+
+    bool is_complete() const { return complete_; }
+
+private:
+    Scene scene_;
+    Kernel kernel_;
+    Plane plane_;
+    bool complete_ = true;
+};
+
+bool is_narrow(double below, double above)
+{
+    return above - below <= flip_width * above || std::nextafter(below, above) >= above;
+}
+
+/// Narrows a bracket of one flip. The margin changes its sign there, but may jump.
+Flip narrowed(Line& line, const Probe& below, const Probe& above)
+{
+    Probe low = below;
+    Probe high = above;
+    const auto margin = [&](double amplitude) {
+        const Probe probe = line.at(amplitude);
+        (is_safe(probe.region) == is_safe(below.region) ? low : high) = probe;
+        return probe.margin;
+    };
+    std::uintmax_t most_looks = 100;
+    boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
+                                      above.margin, is_narrow, most_looks);
+    while (!is_narrow(low.amplitude, high.amplitude)) { // a margin of 0 ends the method early
+        margin(low.amplitude + (high.amplitude - low.amplitude) / 2);
+    }
+    return {low.amplitude, high.amplitude, low.region, high.region};
+}
+
+/// A safe amplitude between two that overturn to different sides: by halving.
+std::optional<Probe> safe_between(Line& line, Probe below, Probe above)
+{
+    while (!is_narrow(below.amplitude, above.amplitude)) {
+        const Probe middle = line.at(below.amplitude + (above.amplitude - below.amplitude) / 2);
+        if (!is_unsafe(middle.region)) {
+            return is_safe(middle.region) ? std::optional(middle) : std::nullopt;
+        }
+        (middle.falls_to_plus() == below.falls_to_plus() ? below : above) = middle;
+    }
+    return std::nullopt;
+}
+
+/// An amplitude of the other verdict near `nearest`, whose margin is nearest to 0 of three: by
+/// Brent's method, which ends once one is found.
+std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const Probe& nearest,
+                                        const Probe& after)
+{
+    std::optional<Probe> found;
+    const bool safe = is_safe(nearest.region);
+    const auto distance = [&](double amplitude) {
+        if (found) {
+            return 0.0;
+        }
+        const Probe probe = line.at(amplitude);
+        if (probe.is_settled() && is_safe(probe.region) != safe) {
+            found = probe;
+        }
+        return std::abs(probe.margin);
+    };
+    std::uintmax_t most_looks = 60;
+    constexpr int bits = 26; // half of a double's: a minimum is no better known
+    boost::math::tools::brent_find_minima(distance, before.amplitude, after.amplitude, bits,
+                                          most_looks);
+    return found;
+}
+
+void sort_by_amplitude(std::vector<Probe>& probes)
+{
+    std::sort(probes.begin(), probes.end(),
+              [](const Probe& one, const Probe& other) { return one.amplitude < other.amplitude; });
+}
+
+/// Whether the margin may turn back towards 0 between three neighbours: it is far from a straight
+/// line, or they had unlike impacts.
+bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
+{
+    if (left.impacts != middle.impacts || middle.impacts != right.impacts) {
+        return true;
+    }
+    const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
+    const double straight = left.margin + share * (right.margin - left.margin);
+    const double nearest =
+        std::min({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
+    return std::abs(middle.margin - straight) > nearest / 4;
+}
+
+/// Halves the steps of the scan where it is rough, and those again, times_halved times at most.
+/// Leaves what is not settled out.
+std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
+{
+    const auto forget_unsettled = [&] {
+        probes.erase(std::remove_if(probes.begin(), probes.end(),
+                                    [](const Probe& probe) { return !probe.is_settled(); }),
+                     probes.end());
+    };
+    forget_unsettled();
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+        narrowest = std::min(narrowest, probes[i].amplitude - probes[i - 1].amplitude);
+    }
+    for (int time = 0; time < times_halved; ++time) {
+        // A step that was not halved the last time is wider, and was looked at before.
+        const double widest = std::ldexp(narrowest, -time) * 1.5;
+        std::vector<double> middles;
+        std::size_t halved = 0; // the step that ends at this probe
+        for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
+            if (!is_rough(probes[i - 1], probes[i], probes[i + 1])) {
+                continue;
+            }
+            for (const std::size_t end : {i, i + 1}) {
+                const double below = probes[end - 1].amplitude;
+                const double above = probes[end].amplitude;
+                if (end > halved && (time == 0 || above - below <= widest)) {
+                    middles.push_back(below + (above - below) / 2);
+                    halved = end;
+                }
+            }
+        }
+        if (middles.empty()) {
+            break;
+        }
+        const std::vector<Probe> more = line.at(middles, scanning);
+        probes.insert(probes.end(), more.begin(), more.end());
+        sort_by_amplitude(probes);
+        forget_unsettled();
+    }
+    return probes;
+}
+
+/// Whether the margin is nearest to 0 in the middle, and so near that it may reach 0 between its
+/// neighbours. A parabola falls below its lowest of three values by an eighth of their differences
+/// at most; beside a strip the margin bends more sharply: of a thousand flips, a limit of 4 instead
+/// of 32 loses six.
+bool may_reach_zero(const Probe& left, const Probe& middle, const Probe& right)
+{
+    const double nearest = std::abs(middle.margin);
+    const double before = std::abs(left.margin) - nearest;
+    const double after = std::abs(right.margin) - nearest;
+    return before >= 0 && after >= 0 && nearest < 32 * std::max(before, after);
+}
+
+/// Adds what two neighbours of one verdict tell of another between them.
+void find_what_hides_between(Line& line, std::vector<Probe>& probes)
+{
+    std::vector<Probe> found;
+    for (std::size_t i = 0; i + 1 < probes.size(); ++i) {
+        const Probe& now = probes[i];
+        const Probe& next = probes[i + 1];
+        if (is_safe(now.region) != is_safe(next.region)) {
+            continue;
+        }
+        std::optional<Probe> other;
+        if (is_unsafe(now.region) && now.falls_to_plus() != next.falls_to_plus()) {
+            other = safe_between(line, now, next);
+        } else if (i > 0 && is_safe(probes[i - 1].region) == is_safe(now.region) &&
+                   may_reach_zero(probes[i - 1], now, next)) {
+            other = other_verdict_near(line, probes[i - 1], now, next);
+        }
+        if (other) {
+            found.push_back(*other);
+        }
+    }
+    probes.insert(probes.end(), found.begin(), found.end());
+    sort_by_amplitude(probes);
+}
+
+} // namespace
+
+Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
+                     const std::vector<double>& amplitudes, Kernel kernel)
+{
+    Line line(scene, where, kernel);
+    std::vector<Probe> probes = looked_at_more_closely(line, line.at(amplitudes, scanning));
+    find_what_hides_between(line, probes);
+    Boundary boundary;
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+        if (is_safe(probes[i - 1].region) != is_safe(probes[i].region)) {
+            boundary.flips.push_back(narrowed(line, probes[i - 1], probes[i]));
+        }
+    }
+    boundary.complete = line.is_complete();
+    return boundary;
+}
+
+} // namespace overturn

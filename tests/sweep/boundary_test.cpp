@@ -1,0 +1,172 @@
+#include "overturn/sweep/boundary.hpp"
+#include "support/one_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace overturn {
+namespace {
+
+std::vector<double> evenly(double first, double last, int count)
+{
+    return Axis(AxisRange{first, last, count}).values();
+}
+
+const double paper_alpha = std::atan(1 / 5.67);
+const double paper_r_max = largest_restitution(paper_alpha);
+
+void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplitudes,
+                     double tolerance)
+{
+    EXPECT_TRUE(boundary.complete);
+    ASSERT_EQ(boundary.flips.size(), amplitudes.size());
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+        const Flip& flip = boundary.flips[i];
+        EXPECT_NEAR(flip.amplitude(), amplitudes[i], tolerance);
+        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
+        EXPECT_NE(is_safe(flip.region_below), is_safe(flip.region_above));
+    }
+}
+
+TEST(Boundary, OfThePapersBlockIsWhereOthersFoundIt)
+{
+    // Six digits each, from an integration of the free stage too.
+    const std::vector<double> scan = evenly(0.5, 16, 156);
+    const Scene one_sine;
+    expect_flips_at(boundary_on(one_sine, {paper_alpha, paper_r_max, 3}, scan, widest_kernel()),
+                    {1.382896, 3.590936, 3.647522}, 6e-7);
+    expect_flips_at(
+        boundary_on(one_sine, {paper_alpha, 0.7 * paper_r_max, 3}, scan, widest_kernel()),
+        {1.458920, 3.276686, 3.647522}, 6e-7);
+    expect_flips_at(
+        boundary_on({PulseKind::one_cosine}, {paper_alpha, paper_r_max, 3}, scan, widest_kernel()),
+        {1.801257, 6.848654, 11.139644}, 6e-7);
+    expect_flips_at(
+        boundary_on({PulseKind::one_sine, Theory::linear}, {0.25, 0.81, 5}, scan, widest_kernel()),
+        {3.018600, 6.318071, 7.168129}, 6e-7);
+}
+
+TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
+{
+    // The pulse lasts pi / Omega = ln(A / (A - 1)): A = 1 / (1 - exp(-pi / Omega)), and a block
+    // that the pulse leaves standing is never lifted again.
+    for (const double frequency : {0.7, 2.0, 5.0}) {
+        const Boundary boundary =
+            boundary_on({PulseKind::rectangular, Theory::linear}, {0.2, 0.8, frequency},
+                        evenly(0.9, 8, 30), widest_kernel());
+        expect_flips_at(boundary, {-1 / std::expm1(-pi<double>() / frequency)}, 1e-11);
+        EXPECT_EQ(boundary.flips[0].region_below, Region::S);
+    }
+}
+
+TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsMakrisAndRoussos)
+{
+    // Omega sin psi - cos psi = exp(-(pi - psi) / Omega), a = 1 / sin psi (2000, eq. 27), up to
+    // where the block strikes before the pulse ends.
+    for (const double frequency : {2.0, 4.0, 6.0}) {
+        const auto excess = [&](double psi) {
+            return frequency * std::sin(psi) - std::cos(psi) -
+                   std::exp(-(pi<double>() - psi) / frequency);
+        };
+        double low = 0;
+        double high = pi<double>() / 2;
+        for (int i = 0; i < 200; ++i) {
+            (excess((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
+        }
+        const Boundary boundary =
+            boundary_on({PulseKind::half_sine, Theory::linear}, {0.2, 0.8, frequency},
+                        evenly(0.9, 12, 40), widest_kernel());
+        ASSERT_FALSE(boundary.flips.empty());
+        EXPECT_NEAR(boundary.flips[0].amplitude(), 1 / std::sin(low), 1e-11 / std::sin(low));
+    }
+}
+
+TEST(Boundary, FindsSafeStripsThatAreThinnerThanAStepOfTheScan)
+{
+    // Above 3.65 the block overturns to the other side; the strip between is 0.057 wide.
+    const Boundary coarse =
+        boundary_on({}, {paper_alpha, paper_r_max, 3}, {0.5, 2, 3.5, 5}, widest_kernel());
+    expect_flips_at(coarse, {1.382896, 3.590936, 3.647522}, 6e-7);
+    EXPECT_EQ(coarse.flips[1].region_below, Region::U1_plus);
+    EXPECT_EQ(coarse.flips[1].region_above, Region::S_plus);
+    EXPECT_EQ(coarse.flips[2].region_above, Region::U0_minus);
+}
+
+TEST(Boundary, FindsIslandsThatAreThinnerThanAStepOfTheScan)
+{
+    // Just below the frequency at which the region of one impact ends, it is a thin island.
+    const auto boundary = [](double frequency, int count) {
+        return boundary_on({}, {paper_alpha, paper_r_max, frequency}, evenly(1, 40, count),
+                           widest_kernel());
+    };
+    double with = 3;
+    double without = 12;
+    ASSERT_EQ(boundary(with, 1000).flips.size(), 3u);
+    ASSERT_EQ(boundary(without, 1000).flips.size(), 1u);
+    for (int i = 0; i < 20; ++i) {
+        const double middle = (with + without) / 2;
+        (boundary(middle, 1000).flips.size() == 3 ? with : without) = middle;
+    }
+    for (const double before : {1e-4, 1e-3, 1e-2}) {
+        const Boundary found = boundary(with - before, 79); // steps of 1/2
+        ASSERT_EQ(found.flips.size(), 3u);
+        EXPECT_LT(found.flips[1].amplitude() - found.flips[0].amplitude(), 0.5);
+    }
+}
+
+TEST(Boundary, MissesNothingButStripsFarThinnerThanAStepOfTheScan)
+{
+    std::mt19937_64 generator(8);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    constexpr double step = 0.1;
+    std::size_t flips = 0;
+    std::size_t missed = 0;
+    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+            for (int i = 0; i < 8; ++i) {
+                const double alpha = 0.08 + 0.3 * uniform(generator);
+                const double r = largest_restitution(alpha) * (0.6 + 0.4 * uniform(generator));
+                const BoundaryLine line{alpha, r, 0.5 + 7 * uniform(generator)};
+                const Scene scene{PulseKind(pulse), theory};
+                const Boundary coarse =
+                    boundary_on(scene, line, evenly(1, 12, 111), widest_kernel());
+                const Boundary fine =
+                    boundary_on(scene, line, evenly(1, 12, 1501), widest_kernel());
+                // Every flip of the coarse scan is one of the fine scan; where that has two more
+                // in a row, they are near each other.
+                std::size_t matched = 0;
+                for (std::size_t k = 0; k < fine.flips.size(); ++k) {
+                    const auto is_this = [&](const Flip& flip) {
+                        return std::abs(flip.amplitude() - fine.flips[k].amplitude()) <
+                               2 * flip_width * flip.above;
+                    };
+                    if (std::any_of(coarse.flips.begin(), coarse.flips.end(), is_this)) {
+                        ++matched;
+                    } else {
+                        ASSERT_LT(k + 1, fine.flips.size());
+                        EXPECT_LT(fine.flips[k + 1].amplitude() - fine.flips[k].amplitude(),
+                                  step / 100);
+                        ++k;
+                        missed += 2;
+                    }
+                }
+                EXPECT_EQ(matched, coarse.flips.size());
+                flips += fine.flips.size();
+            }
+        }
+    }
+    EXPECT_GT(flips, 150u);
+    EXPECT_LE(missed, flips / 50);
+}
+
+TEST(Boundary, IsEmptyWhereNothingFlips)
+{
+    EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, evenly(0, 1, 11), widest_kernel()).flips.empty());
+    EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, {5}, widest_kernel()).flips.empty());
+}
+
+} // namespace
+} // namespace overturn
