@@ -51,6 +51,15 @@ constexpr const char* run_help = R"(Example:
 The same command resumes an unfinished run, with any number of ranks. SIGUSR1, SIGTERM and SIGINT
 stop it after the tiles in hand, with exit code 85.)";
 
+constexpr const char* boundary_help = R"(Example:
+  mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200
+  tools/plot_boundary figure_07a_boundary.h5
+
+For every slenderness, restitution and frequency, all amplitudes between the job's first and last at which
+safe turns to unsafe or back, in order, with the regions on both sides. The job's amplitudes are looked
+at first; where they tell of more between them, more closely. Each flip is between two settled verdicts
+1e-12 apart, whatever [numerics] says. Resumes an unfinished run, as overturn run does.)";
+
 constexpr const char* check_help = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
 
@@ -89,9 +98,24 @@ void add_job_arguments(CLI::App& command, JobSource& job)
         ->allow_extra_args(false);
 }
 
+void add_run_arguments(CLI::App& command, RunOptions& options, const std::string& output)
+{
+    add_job_arguments(command, options.job);
+    command
+        .add_option("-o,--output", options.output,
+                    fmt::format("The result file; without it {} in the working directory", output))
+        ->type_name("OUT.h5");
+    command
+        .add_option("--kernel", options.kernel,
+                    "Lanes to compute with; changes the speed, but no byte of the result")
+        ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
+        ->capture_default_str();
+}
+
 /// Everything that the options are parsed into: it must live as long as the parser.
 struct Arguments {
     RunOptions run;
+    RunOptions boundary;
     JobSource check;
     AccuracyOptions accuracy;
     HistoryOptions history;
@@ -111,16 +135,13 @@ Command read_command_line(int argc, const char* const* argv)
     CLI::App* const run_command = app.add_subcommand(
         "run", "Compute a spectrum, alone or under mpirun; resume an unfinished one");
     run_command->footer(run_help);
-    add_job_arguments(*run_command, arguments->run.job);
-    run_command
-        ->add_option("-o,--output", arguments->run.output,
-                     "The result file; without it JOB.h5 in the working directory")
-        ->type_name("OUT.h5");
-    run_command
-        ->add_option("--kernel", arguments->run.kernel,
-                     "Lanes to compute with; changes the speed, but no byte of the result")
-        ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
-        ->capture_default_str();
+    add_run_arguments(*run_command, arguments->run, "JOB.h5");
+
+    CLI::App* const boundary_command = app.add_subcommand(
+        "boundary", "Find all amplitudes at which verdicts flip, alone or under mpirun");
+    boundary_command->footer(boundary_help);
+    arguments->boundary.boundary = true;
+    add_run_arguments(*boundary_command, arguments->boundary, "JOB_boundary.h5");
 
     CLI::App* const check_command = app.add_subcommand(
         "check", "Validate a job; tell its points, bytes and time; write nothing");
@@ -191,6 +212,9 @@ Command read_command_line(int argc, const char* const* argv)
     }
     if (run_command->parsed()) {
         return {.execute = [arguments] { return run(arguments->run); }, .on_every_rank = true};
+    }
+    if (boundary_command->parsed()) {
+        return {.execute = [arguments] { return run(arguments->boundary); }, .on_every_rank = true};
     }
     if (check_command->parsed()) {
         return {.execute = [arguments] { return check(arguments->check); }};

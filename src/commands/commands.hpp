@@ -12,11 +12,12 @@ struct JobSource {
     std::vector<std::string> overrides;
 };
 
-/// Computes a spectrum under MPI, or goes on with one. All ranks call it.
+/// Computes a spectrum or a boundary under MPI, or goes on with one. All ranks call it.
 struct RunOptions {
     JobSource job;
     std::string output; ///< path of the result file; empty: the job's name in the working directory
     std::string kernel = "auto";
+    bool boundary = false; ///< where verdicts flip, instead of a spectrum
 };
 int run(const RunOptions& options);
 

@@ -12,6 +12,7 @@
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
 #include <fmt/format.h>
@@ -40,10 +41,17 @@ struct Task {
     const Clock::time_point start; ///< of the program
 
     bool leads() const { return session.rank() == 0; }
-    std::int64_t points(std::int64_t tiles) const
+    /// Points of a spectrum, or lines of a boundary.
+    std::int64_t items() const
     {
-        return std::int64_t(double(job.plane.points()) * (double(tiles) / double(tiling.size())));
+        const bool lines = job.product == Product::boundary;
+        return job.plane.points() / (lines ? most_crossings : 1);
     }
+    std::int64_t items(std::int64_t tiles) const
+    {
+        return std::int64_t(double(items()) * (double(tiles) / double(tiling.size())));
+    }
+    const char* item_name() const { return job.product == Product::boundary ? "lines" : "points"; }
 };
 
 void say(const std::string& line)
@@ -57,7 +65,14 @@ std::string output_path(const RunOptions& options)
     if (!options.output.empty()) {
         return options.output;
     }
-    return std::filesystem::path(options.job.path).stem().string() + ".h5";
+    return std::filesystem::path(options.job.path).stem().string() +
+           (options.boundary ? "_boundary.h5" : ".h5");
+}
+
+Job read_job_of(const RunOptions& options)
+{
+    Job job = read_job(options.job.path, options.job.overrides);
+    return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
 Kernel kernel_of(const RunOptions& options)
@@ -79,7 +94,7 @@ Kernel kernel_of(const RunOptions& options)
 /// is nothing left to do.
 int prepare_output(const Job& job, const std::string& path)
 {
-    const Tiling tiling(job.plane);
+    const Tiling tiling = tiling_of(job);
     switch (examine(path, job, tiling)) {
     case Existing::complete: say(path + " is complete already."); return exit_code::complete;
     case Existing::nothing: create_spectrum_file(path, job, tiling); break;
@@ -92,7 +107,7 @@ std::string beginning(const Task& task, std::int64_t tiles_before)
 {
     const std::string what =
         tiles_before == 0
-            ? fmt::format("{} points in {} tiles", human_count(double(task.job.plane.points())),
+            ? fmt::format("{} {} in {} tiles", human_count(double(task.items())), task.item_name(),
                           task.tiling.size())
             : fmt::format("going on, {} of {} tiles are there", tiles_before, task.tiling.size());
     return fmt::format("{}: {}; {} rank{}, kernel {}", task.path, what, task.session.size(),
@@ -102,7 +117,7 @@ std::string beginning(const Task& task, std::int64_t tiles_before)
 /// What was done, and where the ranks' time went.
 std::string ending(const Task& task, const FarmReport& report, double seconds)
 {
-    const auto points = double(task.points(report.tiles));
+    const auto items = double(task.items(report.tiles));
     double computing = 0;
     double writing = 0;
     for (const RankShare& rank : report.ranks) {
@@ -110,10 +125,11 @@ std::string ending(const Task& task, const FarmReport& report, double seconds)
         writing += rank.write_seconds;
     }
     const double percent = 100 / (seconds * task.session.size());
-    return fmt::format("computed {} points in {}, {} points/s; {:.0f} % of the time in the kernel, "
-                       "{:.0f} % writing",
-                       human_count(points), human_duration(seconds), human_count(points / seconds),
-                       percent * computing, percent * writing);
+    return fmt::format(
+        "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % "
+        "writing",
+        human_count(items), task.item_name(), human_duration(seconds), human_count(items / seconds),
+        task.item_name(), percent * computing, percent * writing);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
@@ -121,18 +137,22 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
 {
     const Job& job = task.job;
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
-    Progress progress(task.points(tiles_before), job.plane.points());
+    Progress progress(task.items(tiles_before), task.items(), task.item_name());
+    const std::vector<double> scan = job.scan.values();
     TileFields fields;
     const TileWork tile_work{
         .compute =
             [&](std::int64_t number) {
-                fields = sweep_tile(job.scene, job.numerics, job.plane, task.tiling[number],
-                                    job.fields, task.kernel);
+                const Tile tile = task.tiling[number];
+                fields = job.product == Product::boundary
+                             ? boundary_tile(job.scene, job.plane, scan, tile, task.kernel)
+                             : sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
+                                          task.kernel);
             },
         .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
     return farm_out(
         task.session, missing, tile_work,
-        [&](std::int64_t done) { progress.update(task.points(tiles_before + done)); },
+        [&](std::int64_t done) { progress.update(task.items(tiles_before + done)); },
         StopSignals::requested);
 }
 
@@ -199,7 +219,7 @@ int run(const RunOptions& options)
     if (session.rank() == 0) {
         try {
             kernel_of(options); // throws if it does not run here
-            job = read_job(options.job.path, options.job.overrides);
+            job = read_job_of(options);
             sole_writer.emplace(path);
             verdict = prepare_output(job, path);
         } catch (const std::exception& error) {
@@ -212,13 +232,13 @@ int run(const RunOptions& options)
     }
     try {
         if (session.rank() != 0) {
-            job = read_job(options.job.path, options.job.overrides);
+            job = read_job_of(options);
         }
         if (session.from_rank_0(job.resolved) != job.resolved) {
             throw JobError(options.job.path + " is another job here than on rank 0.");
         }
         return compute_what_is_missing(
-            {session, job, Tiling(job.plane), path, kernel_of(options), start});
+            {session, job, tiling_of(job), path, kernel_of(options), start});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

@@ -29,12 +29,12 @@ std::string progress_text(const Moment& moment)
 {
     // Truncated: 100 % is for a run that is complete.
     const int percent = int(100 * double(moment.done) / double(moment.all));
-    std::string text = fmt::format("{} of {} points, {} %", human_count(double(moment.done)),
-                                   human_count(double(moment.all)), percent);
+    std::string text = fmt::format("{} of {} {}, {} %", human_count(double(moment.done)),
+                                   human_count(double(moment.all)), moment.items, percent);
     const double computed = double(moment.done - moment.before);
     if (computed > 0 && moment.seconds > 0) {
         const double rate = computed / moment.seconds;
-        text += fmt::format(", {} points/s", human_count(rate));
+        text += fmt::format(", {} {}/s", human_count(rate), moment.items);
         if (moment.done < moment.all) {
             text +=
                 fmt::format(", {} left", human_duration(double(moment.all - moment.done) / rate));
@@ -43,15 +43,15 @@ std::string progress_text(const Moment& moment)
     return text;
 }
 
-Progress::Progress(std::int64_t points_before, std::int64_t points_in_all, std::FILE* stream,
-                   bool terminal)
-    : before_(points_before), all_(points_in_all), stream_(stream), terminal_(terminal),
+Progress::Progress(std::int64_t before, std::int64_t all, std::FILE* stream, bool terminal,
+                   const char* items)
+    : before_(before), all_(all), stream_(stream), items_(items), terminal_(terminal),
       start_(std::chrono::steady_clock::now()),
       next_(terminal ? redraw_interval : shortest_log_interval)
 {}
 
-Progress::Progress(std::int64_t points_before, std::int64_t points_in_all)
-    : Progress(points_before, points_in_all, stderr, isatty(STDERR_FILENO) == 1)
+Progress::Progress(std::int64_t before, std::int64_t all, const char* items)
+    : Progress(before, all, stderr, isatty(STDERR_FILENO) == 1, items)
 {}
 
 Progress::~Progress()
@@ -61,16 +61,16 @@ Progress::~Progress()
     }
 }
 
-void Progress::update(std::int64_t points_done)
+void Progress::update(std::int64_t done)
 {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const bool last_redraw = line_is_open_ && points_done == all_;
+    const bool last_redraw = line_is_open_ && done == all_;
     if (seconds < next_ && !last_redraw) {
         return;
     }
     next_ = seconds + (terminal_ ? redraw_interval : log_interval(seconds));
-    show({.before = before_, .done = points_done, .all = all_, .seconds = seconds});
+    show({.before = before_, .done = done, .all = all_, .seconds = seconds, .items = items_});
 }
 
 void Progress::show(const Moment& moment)

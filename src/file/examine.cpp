@@ -1,5 +1,6 @@
 // Whether what stands at the output path is this job's.
 
+#include "layout.hpp"
 #include "stored_spectrum.hpp"
 #include "tile_checksum.hpp"
 
@@ -70,6 +71,12 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
         return Existing::nothing;
     }
     const StoredSpectrum stored = open_or_refuse(path);
+    if (stored.product != job.product) {
+        throw FileError(fmt::format("\"{}\" is an {}, and an {} is to be computed. Choose another "
+                                    "name with -o.",
+                                    path, layout::kind_of(stored.product),
+                                    layout::kind_of(job.product)));
+    }
     if (stored.resolved_job != job.resolved) {
         throw FileError(fmt::format("\"{}\" holds another job: {}Choose another name with -o.",
                                     path, first_difference(stored.resolved_job, job.resolved)));

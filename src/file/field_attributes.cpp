@@ -3,6 +3,10 @@
 #include "attributes.hpp"
 #include "layout.hpp"
 
+#include "overturn/sweep/boundary.hpp"
+
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace overturn {
@@ -17,13 +21,25 @@ void describe_region(hid_t dataset)
     write_attribute(dataset, "flag_values",
                     std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255});
     write_attribute(dataset, "flag_meanings",
-                    "S S_plus S_minus U0_plus U0_minus U1_plus U1_minus F_plus F_minus undecided "
-                    "not_computed");
+                    fmt::format("{} undecided not_computed", fmt::join(region_names, " ")));
     write_attribute(
         dataset, "comment",
         "S safe within the separatrix, S_plus and S_minus safe thanks to the loss at the "
         "first impact, U0 overturns without impact, U1 overturns after one impact, "
         "F overturned during the pulse");
+}
+
+void describe_region_beside_flip(hid_t dataset, const char* long_name)
+{
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "flag_values",
+                    std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, boundary_code::no_flip,
+                                              boundary_code::in_doubt, 255});
+    write_attribute(dataset, "flag_meanings",
+                    fmt::format("{} no_flip in_doubt not_computed", fmt::join(region_names, " ")));
+    write_attribute(
+        dataset, "comment",
+        "in_doubt: a verdict on the line could not be settled, or there are more flips");
 }
 
 void describe_status(hid_t dataset)
@@ -97,6 +113,25 @@ void write_field_attributes(hid_t dataset, Field field)
         write_attribute(dataset, "comment", "infinite where the block does not overturn");
         break;
     case Field::steps: describe_steps(dataset); break;
+    case Field::flip_amplitude:
+        describe_number(dataset,
+                        "amplitude at which the verdict flips, in ascending order; not a number "
+                        "beyond the last flip",
+                        "1");
+        write_attribute(dataset, "width", flip_width);
+        write_attribute(
+            dataset, "comment",
+            "two amplitudes at most `width` of themselves apart, with settled verdicts, "
+            "are on either side. Missed can only be a strip between neighbours of "
+            "scan_amplitude that neither tells of: on random planes, strips thinner "
+            "than a hundredth of their distance, 1 or 2 in a hundred flips");
+        break;
+    case Field::region_below:
+        describe_region_beside_flip(dataset, "region just below the flip");
+        break;
+    case Field::region_above:
+        describe_region_beside_flip(dataset, "region just above the flip");
+        break;
     }
     write_attribute(dataset, "coordinates", layout::restitution_ratio);
 }

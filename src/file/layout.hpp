@@ -3,6 +3,7 @@
 
 #include "hdf5_handles.hpp"
 
+#include "overturn/job/job.hpp"
 #include "overturn/sweep/fields.hpp"
 
 #include <array>
@@ -12,13 +13,25 @@
 
 namespace overturn::layout {
 
-/// Global attribute `kind`: tells spectra from the other files that overturn writes.
-inline constexpr char kind[] = "overturning spectrum";
+/// Global attribute `kind`: tells what a file holds, in the order of Product.
+inline constexpr std::array<const char*, 2> kinds{"overturning spectrum", "overturning boundary"};
 
 /// Dimensions of every field, slowest first; each has a coordinate variable of its name.
-inline constexpr std::array<const char*, 4> dimensions{"slenderness", "restitution", "amplitude",
-                                                       "frequency"};
+using Dimensions = std::array<const char*, 4>;
+inline constexpr std::array<Dimensions, 2> dimensions{
+    Dimensions{"slenderness", "restitution", "amplitude", "frequency"},
+    Dimensions{"slenderness", "restitution", "crossing", "frequency"}};
 
+inline constexpr const char* kind_of(Product product)
+{
+    return kinds[std::size_t(product)];
+}
+inline constexpr const Dimensions& dimensions_of(Product product)
+{
+    return dimensions[std::size_t(product)];
+}
+
+inline constexpr char scan[] = "scan_amplitude";
 inline constexpr char restitution_ratio[] = "restitution_ratio";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
@@ -40,7 +53,10 @@ inline StoredAs stored_as(Field field)
 {
     switch (field) {
     case Field::region:
-    case Field::status: return {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed};
+    case Field::status:
+    case Field::region_below:
+    case Field::region_above:
+        return {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed};
     case Field::steps:
         return {H5T_STD_U32LE, H5T_NATIVE_UINT32, "uint32", step_count::not_computed};
     case Field::impacts:

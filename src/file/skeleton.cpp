@@ -22,8 +22,9 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-void add_axes(hid_t file, const Plane& plane, Theory theory)
+void add_axes(hid_t file, const Job& job)
 {
+    const Plane& plane = job.plane;
     const auto add = [&](const char* name, const Axis& axis, const char* long_name,
                          const char* units) {
         add_numbers(file, name, {hsize_t(axis.size())}, axis.values(), long_name, units);
@@ -35,10 +36,15 @@ void add_axes(hid_t file, const Plane& plane, Theory theory)
         relative ? "energy ratio at an impact, over the largest one of the block"
                  : "energy ratio at an impact",
         "1");
-    add("amplitude", plane.amplitude,
-        theory == Theory::linear ? "peak ground acceleration, over g alpha"
-                                 : "peak ground acceleration, over g tan(alpha)",
-        "1");
+    if (job.product == Product::boundary) {
+        add("crossing", plane.amplitude, "flips of the verdict along the amplitude, from 0", "1");
+        add(layout::scan, job.scan, "amplitudes that were looked at to find the flips", "1");
+    } else {
+        add("amplitude", plane.amplitude,
+            job.scene.theory == Theory::linear ? "peak ground acceleration, over g alpha"
+                                               : "peak ground acceleration, over g tan(alpha)",
+            "1");
+    }
     add("frequency", plane.frequency, "pulse frequency, over the block's frequency parameter p",
         "1");
 
@@ -62,8 +68,9 @@ void add_restitution_ratio(hid_t file, const Plane& plane)
 }
 
 /// Allocates and fills every chunk at once: all that a run does later is to overwrite values.
-void add_field(hid_t file, Field field, const Plane& plane, const Tiling& tiling)
+void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling)
 {
+    const Plane& plane = job.plane;
     const layout::StoredAs stored = layout::stored_as(field);
     const Shape shape{hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size()),
                       hsize_t(plane.amplitude.size()), hsize_t(plane.frequency.size())};
@@ -77,7 +84,7 @@ void add_field(hid_t file, Field field, const Plane& plane, const Tiling& tiling
                stored.fill);
     const Handle dataset =
         create_dataset(file, name_of(field).data(), stored.file, shape, creation);
-    attach_dimensions(file, dataset, layout::dimensions);
+    attach_dimensions(file, dataset, layout::dimensions_of(job.product));
     write_field_attributes(dataset, field);
 }
 
@@ -94,9 +101,8 @@ void add_checksums(hid_t file, const Tiling& tiling)
                     "xxHash64, seed 0, over the stored values of the tile, field by field in the "
                     "order of the variables; a hash of 0 is stored as 1");
     write_attribute(dataset, "numbering",
-                    "tiles are rectangles of amplitude and frequency at one slenderness and one "
-                    "restitution, smaller at the far edges; frequency counts fastest, then "
-                    "amplitude, restitution, slenderness");
+                    "tiles are rectangles of the last two dimensions at one slenderness and one "
+                    "restitution, smaller at the far edges; the last dimension counts fastest");
     write_attribute(dataset, layout::amplitude_extent, tiling.amplitude_extent());
     write_attribute(dataset, layout::frequency_extent, tiling.frequency_extent());
 }
@@ -105,15 +111,17 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
 {
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
                 H5Fclose);
-    write_origin(file, job, layout::kind);
-    write_attribute(file, "method", name_of(job.numerics.method));
-    write_attribute(file, "tolerance", job.numerics.tolerance);
-    write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
-    add_axes(file, job.plane, job.scene.theory);
+    write_origin(file, job, layout::kind_of(job.product));
+    if (job.product == Product::spectrum) { // a boundary settles every verdict
+        write_attribute(file, "method", name_of(job.numerics.method));
+        write_attribute(file, "tolerance", job.numerics.tolerance);
+        write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
+    }
+    add_axes(file, job);
     add_bare_dimension(file, layout::tile, tiling.size());
     add_restitution_ratio(file, job.plane);
     for (const Field field : job.fields) {
-        add_field(file, field, job.plane, tiling);
+        add_field(file, field, job, tiling);
     }
     add_checksums(file, tiling);
     add_job(file, job);

@@ -18,6 +18,9 @@ std::uint64_t spectrum_file_bytes(const Job& job, const Tiling& tiling)
                          tiles;
 
     std::uint64_t bytes = 20480 + numbers * sizeof(double);
+    if (job.product == Product::boundary) {
+        bytes += 1200 + std::uint64_t(job.scan.size()) * sizeof(double);
+    }
     for (const Field field : job.fields) {
         bytes += 1200 + 3656 * (tiles / 55 + 2) + points * bytes_per_point(field);
     }

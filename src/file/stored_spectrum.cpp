@@ -120,21 +120,30 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
     spectrum.checksums = read_checksums(dataset);
 }
 
+Product read_product(hid_t file, const std::string& path)
+{
+    const std::string kind = hdf5::read_text_attribute(file, "kind");
+    for (const Product product : {Product::spectrum, Product::boundary}) {
+        if (kind == layout::kind_of(product)) {
+            return product;
+        }
+    }
+    throw FileError(fmt::format("\"{}\" is an HDF5 file, but not a spectrum of overturn{}.", path,
+                                kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
+}
+
 StoredSpectrum read(const std::string& path)
 {
     StoredSpectrum spectrum;
     spectrum.bytes = std::filesystem::file_size(path);
     spectrum.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
     const hid_t file = spectrum.file;
-    if (hdf5::read_text_attribute(file, "kind") != layout::kind) {
-        throw FileError(
-            fmt::format("\"{}\" is an HDF5 file, but not a spectrum of overturn.", path));
-    }
+    spectrum.product = read_product(file, path);
     spectrum.title = hdf5::read_text_attribute(file, "title");
     spectrum.program_version = hdf5::read_text_attribute(file, "program_version");
     spectrum.program_commit = hdf5::read_text_attribute(file, "program_commit");
     spectrum.resolved_job = read_text(file, layout::job_resolved, spectrum.bytes);
-    for (const char* name : layout::dimensions) {
+    for (const char* name : layout::dimensions_of(spectrum.product)) {
         spectrum.axes.push_back(read_axis(file, name, spectrum.bytes));
     }
     spectrum.fields = read_fields(file);

@@ -4,6 +4,7 @@
 
 #include "hdf5_handles.hpp"
 
+#include "overturn/job/job.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/tile.hpp"
 
@@ -22,6 +23,7 @@ struct StoredAxis {
 struct StoredSpectrum {
     hdf5::Handle file;
     std::uint64_t bytes = 0;
+    Product product = Product::spectrum;
     std::string title;
     std::string program_version;
     std::string program_commit;
@@ -35,7 +37,7 @@ struct StoredSpectrum {
     Tiling tiling() const;
 };
 
-/// Throws FileError if the file is missing, not a spectrum of ours, or damaged.
+/// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
 StoredSpectrum open_stored_spectrum(const std::string& path);
 
 } // namespace overturn

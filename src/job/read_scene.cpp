@@ -118,12 +118,12 @@ std::vector<Field> read_fields(const Entry& job)
     }
     const std::size_t size = array_size(*entry, "an array of strings, such as [\"region\"]");
     if (size == 0) {
-        refuse(*entry,
-               fmt::format(" is empty. Give at least one of {}.", fmt::join(field_names, ", ")));
+        refuse(*entry, fmt::format(" is empty. Give at least one of {}.",
+                                   fmt::join(spectrum_field_names, ", ")));
     }
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
-        const auto field = choice_of<Field>(element(*entry, i), field_names);
+        const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names);
         if (std::find(fields.begin(), fields.end(), field) != fields.end()) {
             refuse(element(*entry, i),
                    fmt::format(" = \"{}\" stands there already. Name each field once.",

@@ -252,4 +252,41 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     return boundary;
 }
 
+TileFields boundary_tile(const Scene& scene, const Plane& plane,
+                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel)
+{
+    const auto points = std::size_t(tile.points());
+    std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
+    std::vector<std::uint8_t> below(points, boundary_code::no_flip);
+    std::vector<std::uint8_t> above(points, boundary_code::no_flip);
+    const auto rows = std::size_t(tile.amplitude_count);
+    const auto columns = std::size_t(tile.frequency_count);
+    for (std::size_t column = 0; column < columns; ++column) {
+        const BoundaryLine line{
+            .slenderness = plane.slenderness[tile.slenderness],
+            .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
+            .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
+        const Boundary boundary = boundary_on(scene, line, amplitudes, kernel);
+        const bool known = boundary.complete && boundary.flips.size() <= rows;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const std::size_t point = row * columns + column;
+            if (row < boundary.flips.size()) {
+                const Flip& flip = boundary.flips[row];
+                amplitude[point] = flip.amplitude();
+                below[point] = std::uint8_t(flip.region_below);
+                above[point] = std::uint8_t(flip.region_above);
+            } else if (!known) {
+                below[point] = boundary_code::in_doubt;
+                above[point] = boundary_code::in_doubt;
+            }
+        }
+        if (!known && boundary.flips.size() >= rows) {
+            above[(rows - 1) * columns + column] = boundary_code::in_doubt;
+        }
+    }
+    TileFields fields;
+    fields.values = {std::move(amplitude), std::move(below), std::move(above)};
+    return fields;
+}
+
 } // namespace overturn

@@ -105,8 +105,9 @@ private:
 
     double end_of_path() const
     {
-        return time_at(is_free() || path_.moments.empty() ? excitation_.end
-                                                          : path_.moments.back().rocking.phase);
+        return time_at(is_free() || path_.milestones.empty()
+                           ? excitation_.end
+                           : path_.milestones.back().rocking.phase);
     }
 
     double time_of_rest() const
@@ -114,8 +115,8 @@ private:
         if (!is_free()) {
             return infinity;
         }
-        if (path_.moments.empty() || path_.moments.back().what == Happening::rest) {
-            return path_.moments.empty() ? 0 : time_at(path_.moments.back().rocking.phase);
+        if (path_.milestones.empty() || path_.milestones.back().what == Happening::rest) {
+            return path_.milestones.empty() ? 0 : time_at(path_.milestones.back().rocking.phase);
         }
         return end_of_path_ + overturn::time_of_rest<theory>(path_.end.state, block_);
     }
@@ -183,7 +184,7 @@ private:
 
     void tell_forced_stage(Recorder& recorder) const
     {
-        const Moment<double>* latest = nullptr; // at rest
+        const Milestone<double>* latest = nullptr; // at rest
         const auto at = [&](double time) {
             const double phase =
                 std::min(excitation_.begin + time * excitation_.frequency, excitation_.end);
@@ -195,11 +196,11 @@ private:
             return sample(time, state_after<Pulse, theory>(*latest, block_, excitation_, later),
                           ground);
         };
-        for (const Moment<double>& moment : path_.moments) {
-            const double time = time_at(moment.rocking.phase);
+        for (const Milestone<double>& milestone : path_.milestones) {
+            const double time = time_at(milestone.rocking.phase);
             recorder.follow(time, at);
-            latest = moment.what == Happening::rest ? nullptr : &moment;
-            switch (moment.what) {
+            latest = milestone.what == Happening::rest ? nullptr : &milestone;
+            switch (milestone.what) {
             case Happening::uplift: recorder.happens(Event::uplift, at(time)); break;
             case Happening::impact: recorder.happens(Event::impact, at(time)); break;
             case Happening::rest: recorder.happens(Event::rest, at(time)); break;

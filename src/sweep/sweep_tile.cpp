@@ -59,7 +59,10 @@ FieldValues field_values(Field field, const TileRun& tile, Ends& ends)
     case Field::fall_time: return tile.fall_times(ends);
     case Field::impacts: return stored_impacts(ends);
     case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
-    case Field::status: break;
+    case Field::status:
+    case Field::flip_amplitude:
+    case Field::region_below:
+    case Field::region_above: break; // of a boundary, see boundary.hpp
     }
     return stored_status(ends);
 }

@@ -50,8 +50,10 @@ TEST(ProgressText, SaysAHundredPercentOnlyWhenComplete)
 
 TEST(ProgressText, PromisesNothingBeforeTheFirstPoint)
 {
-    const Moment moment{.before = 500, .done = 500, .all = 1000, .seconds = 1};
+    Moment moment{.before = 500, .done = 500, .all = 1000, .seconds = 1};
     EXPECT_EQ(progress_text(moment), "500 of 1.00 k points, 50 %");
+    moment.items = "lines";
+    EXPECT_EQ(progress_text(moment), "500 of 1.00 k lines, 50 %");
 }
 
 TEST(Progress, IsSilentInAShortRun)

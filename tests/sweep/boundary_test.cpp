@@ -168,5 +168,58 @@ TEST(Boundary, IsEmptyWhereNothingFlips)
     EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, {5}, widest_kernel()).flips.empty());
 }
 
+TEST(BoundaryTile, HasALineInEachColumn)
+{
+    Plane plane;
+    plane.slenderness = Axis(AxisList{0.2, paper_alpha});
+    plane.restitution = Axis(AxisList{0.7, 1});
+    plane.restitution_of = RestitutionOf::maximum;
+    plane.frequency = Axis(AxisList{1, 2, 3, 20});
+    plane.amplitude = Axis(AxisRange{0, 7, 8});
+    const std::vector<double> scan = evenly(0.5, 16, 156);
+    Tile tile;
+    tile.slenderness = 1;
+    tile.restitution = 1;
+    tile.amplitude_count = 8;
+    tile.frequency_begin = 2;
+    tile.frequency_count = 2;
+    const TileFields fields = boundary_tile({}, plane, scan, tile, widest_kernel());
+    const auto& amplitude = std::get<std::vector<double>>(fields.values[0]);
+    const auto& below = std::get<std::vector<std::uint8_t>>(fields.values[1]);
+    const auto& above = std::get<std::vector<std::uint8_t>>(fields.values[2]);
+    const Boundary boundary = boundary_on({}, {paper_alpha, paper_r_max, 3}, scan, widest_kernel());
+    ASSERT_EQ(boundary.flips.size(), 3u);
+    for (std::size_t row = 0; row < 8; ++row) {
+        const std::size_t point = 2 * row; // of the first column; in the second nothing flips
+        EXPECT_TRUE(std::isnan(amplitude[point + 1]));
+        EXPECT_EQ(below[point + 1], boundary_code::no_flip);
+        if (row < 3) {
+            EXPECT_EQ(amplitude[point], boundary.flips[row].amplitude());
+            EXPECT_EQ(Region(below[point]), boundary.flips[row].region_below);
+            EXPECT_EQ(Region(above[point]), boundary.flips[row].region_above);
+        } else {
+            EXPECT_TRUE(std::isnan(amplitude[point]));
+            EXPECT_EQ(above[point], boundary_code::no_flip);
+        }
+    }
+}
+
+TEST(BoundaryTile, SaysWhereThereAreMoreFlipsThanRows)
+{
+    Plane plane;
+    plane.slenderness = Axis(AxisList{paper_alpha});
+    plane.restitution = Axis(AxisList{paper_r_max});
+    plane.frequency = Axis(AxisList{3});
+    plane.amplitude = Axis(AxisRange{0, 1, 2});
+    Tile tile;
+    tile.amplitude_count = 2;
+    tile.frequency_count = 1;
+    const TileFields fields = boundary_tile({}, plane, evenly(0.5, 16, 156), tile, widest_kernel());
+    EXPECT_NEAR(std::get<std::vector<double>>(fields.values[0])[1], 3.590936, 6e-7);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[0],
+              std::uint8_t(Region::U0_plus));
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[1], boundary_code::in_doubt);
+}
+
 } // namespace
 } // namespace overturn

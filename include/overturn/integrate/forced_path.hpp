@@ -11,7 +11,7 @@ inline constexpr double path_tolerance = 1e-13;
 
 /// The way from rest to the end of the pulse, or to a fall.
 struct ForcedPath {
-    std::vector<Moment<double>> moments;
+    std::vector<Milestone<double>> milestones;
     ForcedEnd<double> end;
 };
 
@@ -19,10 +19,10 @@ struct ForcedPath {
 template <class Pulse, Theory theory>
 ForcedPath forced_path(const Block<double>& block, const Excitation<Pulse, double>& excitation);
 
-/// The block between a moment, from which on it rocks, and the next one: at a phase [rad] that lies
-/// between theirs. It is the series of the step itself that is evaluated.
+/// The block between a milestone, from which on it rocks, and the next one: at a phase [rad] that
+/// lies between theirs. It is the series of the step itself that is evaluated.
 template <class Pulse, Theory theory>
-State<double> state_after(const Moment<double>& moment, const Block<double>& block,
+State<double> state_after(const Milestone<double>& milestone, const Block<double>& block,
                           const Excitation<Pulse, double>& excitation, double phase);
 
 } // namespace overturn

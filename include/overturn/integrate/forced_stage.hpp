@@ -4,7 +4,7 @@
 #pragma once
 
 #include "overturn/integrate/in_doubt.hpp"
-#include "overturn/integrate/moment.hpp"
+#include "overturn/integrate/milestone.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
@@ -18,8 +18,8 @@ namespace overturn {
 struct Records {
     bool impacts = false;
     bool error = false;
-    bool peak = false;    ///< not together with the error
-    bool moments = false; ///< of a single block only
+    bool peak = false;       ///< not together with the error
+    bool milestones = false; ///< of a single block only
 };
 
 constexpr Watch watch_for(const Records& records)
@@ -82,7 +82,7 @@ public:
     }
 
     /// What has happened so far, in order; only if asked for.
-    const auto& moments() const { return moments_; }
+    const auto& milestones() const { return milestones_; }
 
     /// Whether a lane has still to go on.
     bool is_active() const { return any<T>(active_); }
@@ -103,8 +103,8 @@ public:
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
-        if constexpr (records.moments) {
-            moments_.note(Happening::step, now_, moved);
+        if constexpr (records.milestones) {
+            milestones_.note(Happening::step, now_, moved);
         }
         const Mask fell = moved && step.falls;
         const Mask strikes = moved && step.strikes;
@@ -148,8 +148,8 @@ private:
         lifted_ = select<T>(lifted, next, lifted_);
         const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
-        if constexpr (records.moments) {
-            moments_.note(Happening::uplift, now_, lifted);
+        if constexpr (records.milestones) {
+            milestones_.note(Happening::uplift, now_, lifted);
         }
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
@@ -194,9 +194,9 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
-        if constexpr (records.moments) {
-            moments_.note(Happening::impact, now_, lanes);
-            moments_.note(Happening::rest, now_, rests);
+        if constexpr (records.milestones) {
+            milestones_.note(Happening::impact, now_, lanes);
+            milestones_.note(Happening::rest, now_, rests);
         }
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
@@ -341,9 +341,10 @@ private:
     ForcedEnd<T> end_of_run_;
 
     struct NoGrowth {};
-    struct NoMoments {};
+    struct NoMilestones {};
     [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, NoGrowth> growth_;
-    [[no_unique_address]] std::conditional_t<records.moments, Moments<T>, NoMoments> moments_;
+    [[no_unique_address]] std::conditional_t<records.milestones, Milestones<T>, NoMilestones>
+        milestones_;
     Mask doubtful_; // an event may or may not have happened
     InDoubt in_doubt_;
 };

@@ -4,6 +4,7 @@
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
+#include "overturn/sweep/tile.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -17,12 +18,20 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// What is made of a plane.
+enum class Product { spectrum, boundary };
+
+/// Flips of a boundary that are stored for a block at one frequency, at most.
+inline constexpr std::int64_t most_crossings = 64;
+
 struct Job {
+    Product product = Product::spectrum;
     std::string title;
     Scene scene;
     Plane plane;
     Numerics numerics;
     std::vector<Field> fields; ///< in the job's order, without duplicates
+    Axis scan;                 ///< of a boundary: the amplitudes that are looked at [1]
 
     std::string given;                  ///< the job file, byte for byte
     std::vector<std::string> overrides; ///< the --set arguments, in order
@@ -33,6 +42,13 @@ struct Job {
 /// a string), laid over the file; what it contradicts in the file is dropped.
 /// Throws JobError; nothing is computed or written before it.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The job that finds the boundaries of a job's spectrum. Its amplitudes become the scan, and the
+/// plane has crossings instead: the flips of a block at one frequency, counted from 0.
+Job boundary_of(Job spectrum);
+
+/// How a job is cut into tiles.
+Tiling tiling_of(const Job& job);
 
 /// |f| at the ends of a Ricker wavelet's window, over its peak: what the window cuts off [1];
 /// 0 for the pulses that end by themselves.

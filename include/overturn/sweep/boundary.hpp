@@ -6,6 +6,7 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
 
 #include <vector>
 
@@ -44,5 +45,18 @@ struct Boundary {
 /// extremum. Missed can only be a strip thinner than two steps of the scan of which neither tells.
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel);
+
+/// Values of region_below and region_above beyond those of regions: no flip is there; or nobody can
+/// tell, because a verdict stays in doubt or there are more flips than rows.
+namespace boundary_code {
+inline constexpr std::uint8_t no_flip = 253;
+inline constexpr std::uint8_t in_doubt = 254;
+} // namespace boundary_code
+
+/// The boundaries of a tile whose rows are the flips of a line, from the first on, and whose
+/// columns are frequencies. Values in the order of boundary_fields; not a number beyond the last
+/// flip.
+TileFields boundary_tile(const Scene& scene, const Plane& plane,
+                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel);
 
 } // namespace overturn

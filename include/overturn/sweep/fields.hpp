@@ -1,6 +1,8 @@
-// The fields that a job can ask for: their names, types and what "not computed" looks like.
+// What is stored of a point of a spectrum, or of a flip of a boundary: names, types and what "not
+// computed" looks like.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,20 +22,35 @@ enum class Field {
     fall_time,
     impacts,
     steps,
-    status
+    status,
+    // Of a boundary:
+    flip_amplitude,
+    region_below,
+    region_above
 };
 
 /// Names as they stand in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 10> field_names{
-    "region", "angle",     "velocity", "margin", "error",
-    "peak",   "fall_time", "impacts",  "steps",  "status"};
+inline constexpr std::array<std::string_view, 13> field_names{
+    "region",  "angle", "velocity", "margin",         "error",        "peak",        "fall_time",
+    "impacts", "steps", "status",   "flip_amplitude", "region_below", "region_above"};
+
+/// What a job can ask for: all but those of a boundary.
+inline constexpr auto spectrum_field_names = [] {
+    std::array<std::string_view, 10> names{};
+    std::copy_n(field_names.begin(), names.size(), names.begin());
+    return names;
+}();
+
+/// What is stored of a boundary.
+inline constexpr std::array boundary_fields{Field::flip_amplitude, Field::region_below,
+                                            Field::region_above};
 
 constexpr std::string_view name_of(Field field)
 {
     return field_names[std::size_t(field)];
 }
 
-/// The values of one field in one tile, row by row, frequency fastest. region and status: uint8;
+/// The values of one field in one tile, row by row, frequency fastest. regions and status: uint8;
 /// impacts: uint16; steps: uint32; all others: double.
 using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
                                  std::vector<std::uint32_t>, std::vector<double>>;
@@ -46,7 +63,9 @@ constexpr std::size_t bytes_per_point(Field field)
 {
     switch (field) {
     case Field::region:
-    case Field::status: return sizeof(std::uint8_t);
+    case Field::status:
+    case Field::region_below:
+    case Field::region_above: return sizeof(std::uint8_t);
     case Field::impacts: return sizeof(std::uint16_t);
     case Field::steps: return sizeof(std::uint32_t);
     default: return sizeof(double);

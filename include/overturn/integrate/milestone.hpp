@@ -9,17 +9,17 @@ namespace overturn {
 
 enum class Happening { uplift, step, impact, rest };
 
-/// A block just after something has happened to it. Between a moment and the next it rocks on its
-/// side, or rests.
+/// A block just after something has happened to it. Between a milestone and the next it rocks on
+/// its side, or rests.
 template <Number T>
-struct Moment {
+struct Milestone {
     Happening what;
     Rocking<T> rocking;
 };
 
-/// Moments of a single block, in order.
+/// Milestones of a single block, in order.
 template <Number T>
-class Moments : public std::vector<Moment<T>> {
+class Milestones : public std::vector<Milestone<T>> {
 public:
     void note(Happening what, const Rocking<T>& rocking, const mask_t<T>& happened)
     {
