@@ -53,15 +53,15 @@ def open_result(path, kind, wanted):
     return file
 
 
-def add_picture_argument(parser):
+def add_picture_argument(parser, default="FILE.png"):
     parser.add_argument("-o", "--output", metavar="OUT",
-                        help="picture: .png, .pdf or .svg (default: FILE.png in this folder)")
+                        help=f"picture: .png, .pdf or .svg (default: {default} in this folder)")
 
 
-def name_picture(parser, arguments):
+def name_picture(parser, arguments, default=None):
     """Where to draw, if the user did not say."""
     if arguments.output is None:
-        arguments.output = pathlib.Path(arguments.file).stem + ".png"
+        arguments.output = default or pathlib.Path(arguments.file).stem + ".png"
     if pathlib.Path(arguments.output).suffix not in PICTURES:
         parser.error(f"\"{arguments.output}\" should end in .png, .pdf or .svg")
 

@@ -1,0 +1,71 @@
+"""tools/gallery makes every figure, and nothing but them.
+
+Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
+environment.
+"""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+GALLERY = pathlib.Path(os.environ["PLOT_SPECTRUM"]).with_name("gallery")
+FIGURES = ("02", "03", "04", "05", "07a", "07b_08", "09a", "09b", "10", "11a", "11b", "12a", "12b",
+           "14a", "14b", "15a", "15b", "16a", "16b", "17a", "17b")
+BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF"}
+
+
+class InAFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def gallery(self, *arguments, **environment):
+        return subprocess.run([GALLERY, *arguments], cwd=self.folder, timeout=280, text=True,
+                              capture_output=True, env=os.environ | environment)
+
+
+class TestTheGallery(InAFolder):
+    def test_holds_every_figure_in_both_formats_and_nothing_else(self):
+        run = self.gallery("-o", "pictures", "--points", "60")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["pictures"])
+        files = sorted(path.name for path in (self.folder / "pictures").iterdir())
+        self.assertEqual(files, sorted(f"figure_{figure}{suffix}" for figure in FIGURES
+                                       for suffix in BEGINNINGS))
+        for path in (self.folder / "pictures").iterdir():
+            self.assertTrue(path.read_bytes().startswith(BEGINNINGS[path.suffix]), path)
+        self.assertEqual(len(run.stdout.splitlines()), len(FIGURES))
+
+
+class TestAGalleryRefused(InAFolder):
+    def refuses(self, code, sentence, *arguments, **environment):
+        run = self.gallery(*arguments, **environment)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+        return run
+
+    def test_without_the_program_says_how_to_get_it(self):
+        self.refuses(2, "tools/quickstart", "--overturn", "nowhere")
+        self.refuses(2, "nowhere", OVERTURN="nowhere")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_of_a_folder_that_cannot_be(self):
+        (self.folder / "file").write_text("")
+        self.refuses(74, "cannot write into", "-o", "file")
+
+    def test_tells_what_failed_and_leaves_no_results(self):
+        script = self.folder / "broken"
+        script.write_text("#!/bin/sh\necho no such thing >&2\nexit 70\n")
+        script.chmod(0o755)
+        run = self.refuses(74, "exit code 70", "-o", "pictures", "--overturn", "broken")
+        self.assertIn("no such thing", run.stderr)
+        self.assertEqual([path.name for path in (self.folder / "pictures").iterdir()
+                          if path.is_dir()], [])
+
+
+if __name__ == "__main__":
+    unittest.main()

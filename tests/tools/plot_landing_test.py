@@ -1,0 +1,203 @@
+"""The pictures of tools/plot_landing, and the labels it shares with tools/plot_spectrum.
+
+Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
+environment.
+"""
+
+import argparse
+import pathlib
+import subprocess
+import unittest
+
+import h5py
+import numpy as np
+import plot_spectrum_test  # first: it puts the folder of the tools on the path
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, PLOT_SPECTRUM, S, S_PLUS, U0_MINUS,
+                                Picture)
+from region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
+from spectrum_file import Axis
+
+PLOT_LANDING = pathlib.Path(PLOT_SPECTRUM).with_name("plot_landing")
+
+
+class LandingPicture(Picture):
+    def plot(self, *arguments):
+        return subprocess.run([PLOT_LANDING, *arguments], cwd=self.folder, timeout=100,
+                              capture_output=True, text=True)
+
+    def landing(self, codes, angle, velocity):
+        """A result file whose points end in given states."""
+        self.spectrum(codes)
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            file["angle"] = np.broadcast_to(np.float64(angle), file["region"].shape)
+            file["velocity"] = np.broadcast_to(np.float64(velocity), file["region"].shape)
+
+
+    def two_points(self, codes, angle, velocity):
+        """Alone in a plane of blocks that overturned: a label would hide where they land."""
+        plane = np.full((40, 40), F_MINUS)
+        ends = np.full((2, 40, 40), [[[np.pi / 2]], [[1.0]]])
+        at = [20, 20], [10, 30]
+        plane[at], ends[0][at], ends[1][at] = codes, angle, velocity
+        self.landing(plane, *ends)
+        return self.picture()
+
+
+def of_colour(picture, colour):
+    """The pixels of a colour in phase space, which begins at a third of the width; rounded to
+    bytes on the way."""
+    there = picture[:, picture.shape[1] * 35 // 100:]
+    return np.argwhere((np.abs(there - colour) <= 1).all(axis=2))
+
+
+# Of the points in columns 10 and 30 of row 20, of 40: 10.5, 30.5 and 20.5 times 255 / 40.
+LOW, HIGH, MEAN = (67, 0, 131), (194, 0, 131), (131, 0, 131)
+
+
+class TestWhereTheyLand(LandingPicture):
+    def test_each_point_has_the_colour_of_its_pulse(self):
+        picture = self.two_points([U0_MINUS, S_PLUS], [-0.15, -0.05], [-0.02, 0.08])
+        low, high = of_colour(picture, LOW), of_colour(picture, HIGH)
+        self.assertTrue(len(low) and len(high))
+        # Larger angles to the right, larger velocities above; rows count downward.
+        self.assertLess(low[:, 1].min(), high[:, 1].min())
+        self.assertGreater(low[:, 0].max(), high[:, 0].max())
+
+    def test_points_that_meet_have_their_mean_colour(self):
+        picture = self.two_points([S, S], [0.06, 0.06], [0.03, 0.03])
+        self.assertEqual((len(of_colour(picture, LOW)), len(of_colour(picture, HIGH))), (0, 0))
+        self.assertGreater(len(of_colour(picture, MEAN)), 0)
+
+    def test_blocks_that_overturned_during_the_pulse_are_not_shown(self):
+        for code in (F_MINUS, NOT_COMPUTED):
+            picture = self.two_points([S, code], [0.06, -0.05], [0.03, 0.02])
+            self.assertGreater(len(of_colour(picture, LOW)), 0)
+            self.assertEqual(len(of_colour(picture, HIGH)), 0, code)
+
+    def test_black_is_left_below_red_right_below_and_blue_left_above(self):
+        self.landing(np.full((40, 40), S), 0.0, 0.0)
+        picture = self.picture()
+        plane = np.argwhere((picture[..., 1] == 0) & (picture.sum(axis=2) > 0))
+        plane = plane[plane[:, 1] < picture.shape[1] * 0.34]
+        (top, left), (bottom, right) = plane.min(axis=0) + 20, plane.max(axis=0) - 20
+        # 20 pixels of some 700 away from the corners: 3 % of each colour.
+        for place, colour in (((bottom, left), (0, 0, 0)), ((bottom, right), (255, 0, 0)),
+                              ((top, left), (0, 0, 255)), ((top, right), (255, 0, 255))):
+            np.testing.assert_allclose(picture[place], colour, atol=12)
+
+    def test_a_million_points_make_a_small_file(self):
+        generator = np.random.default_rng(1)
+        self.landing(np.full((1000, 1000), S), generator.uniform(-0.2, 0.2, (1000, 1000)),
+                     generator.uniform(-0.2, 0.2, (1000, 1000)))
+        self.assertEqual(self.plot("spectrum.h5", "-o", "picture.pdf").returncode, 0)
+        # As vector markers, 20 bytes each, they would take 20 MB.
+        self.assertLess((self.folder / "picture.pdf").stat().st_size, 2_000_000)
+
+
+class TestTheNames(LandingPicture):
+    def test_each_region_is_named_where_it_is_and_where_it_lands(self):
+        codes = np.full((30, 30), S)
+        codes[15:] = U0_MINUS
+        self.landing(codes, np.where(codes == S, 0.05, -0.15), np.where(codes == S, 0.02, -0.05))
+        words = self.words()
+        self.assertEqual((words.count("S"), words.count("U0−")), (2, 2))
+
+    def test_of_a_region_without_a_landing_stands_in_the_plane_alone(self):
+        codes = np.full((30, 30), S)
+        codes[15:] = F_MINUS
+        self.landing(codes, 0.05, 0.02)
+        self.assertEqual(self.words().count("F−"), 1)
+
+    def test_a_label_stands_before_the_name(self):
+        codes = np.full((30, 30), S)
+        codes[15:] = U0_MINUS
+        self.landing(codes, np.where(codes == S, 0.05, -0.15), np.where(codes == S, 0.02, -0.05))
+        words = self.words("--label", "VI=U0-@3,28")
+        self.assertEqual([word.split() for word in words if "U0−" in word], [["VI", "U0−"]] * 2)
+
+
+class TestAComputedLanding(LandingPicture):
+    def test_of_the_one_sine_pulse_is_drawn(self):
+        job = plot_spectrum_test.TestAComputedFile.JOB.replace("%s", 'angle", "velocity", "region')
+        (self.folder / "job.toml").write_text(job)
+        subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
+                       check=True, capture_output=True, timeout=100)
+        words = self.words("--label", "IV=U1+@6,7")
+        self.assertIn("IV  U1+", words)
+        self.assertIn("Computed", words)
+
+
+class TestALabel(unittest.TestCase):
+    PLANE = np.array([[S, S, S_PLUS, S],
+                      [S, S, S, S_PLUS],
+                      [S_PLUS, S, S, S]])
+
+    def test_means_the_piece_of_its_region_that_is_nearest(self):
+        axis_of = {count: Axis(np.arange(1.0, count + 1)) for count in (3, 4)}
+        for place, cells in (("1,2", [[2, 0]]), ("4,1", [[0, 2], [1, 3]])):  # corners connect
+            piece = Label(f"x=S+@{place}").piece(self.PLANE, axis_of[4], axis_of[3])
+            np.testing.assert_array_equal(np.argwhere(piece), cells)
+
+    def test_of_a_region_that_is_not_there_means_nothing(self):
+        axis = Axis(np.arange(1.0, 4))
+        self.assertFalse(Label("x=F+@1,1").piece(self.PLANE[:, :3], axis, axis).any())
+
+    def test_is_refused_if_it_names_no_region_or_no_point(self):
+        for words in ("III", "III=S", "III=Q@1,2", "III=S@1", "III=S@here,there"):
+            with self.assertRaises(argparse.ArgumentTypeError, msg=words):
+                Label(words)
+
+    def test_stands_where_its_piece_is_widest(self):
+        mask = np.zeros((40, 60), bool)
+        mask[20, 5:30] = True
+        mask[14:27, 30:43] = True
+        self.assertEqual(list(roomiest_cell(mask)), [20, 36])
+
+    def test_keeps_off_the_edge_unless_its_piece_does_not(self):
+        mask = np.zeros((80, 80), bool)
+        mask[:, :1] = True
+        np.testing.assert_array_equal(off_the_edge(mask), mask)
+        mask[:, :20] = True
+        self.assertFalse(off_the_edge(mask)[:, 0].any())
+
+    def test_pieces_below_the_least_are_left_out(self):
+        mask = self.PLANE == S_PLUS
+        self.assertEqual([np.count_nonzero(piece) for piece in pieces(mask, 2)], [2])
+        self.assertEqual(np.count_nonzero(connected(mask, (2, 0))), 1)
+
+
+class TestALandingRefused(LandingPicture):
+    def refuses(self, code, sentence, *arguments):
+        run = self.plot(*arguments)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+
+    def test_of_a_text_file(self):
+        (self.folder / "text.h5").write_text("not a spectrum")
+        self.refuses(74, "not an HDF5 file", "text.h5")
+
+    def test_without_the_velocity_says_what_to_add(self):
+        self.landing([[S]], 0.0, 0.0)
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            del file["velocity"]
+        self.refuses(74, "no field velocity; add it to output.fields", "spectrum.h5")
+
+    def test_of_a_damaged_file(self):
+        self.landing([[S]], 0.0, 0.0)
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            del file["amplitude"]
+        self.refuses(74, "is damaged", "spectrum.h5")
+
+    def test_of_several_spectra_asks_for_one(self):
+        self.landing(np.zeros((1, 3, 2, 2)), 0.0, 0.0)
+        self.refuses(2, "--restitution (0 to 2)", "spectrum.h5")
+        self.assertEqual(self.plot("spectrum.h5", "--restitution", "1").returncode, 0)
+
+    def test_of_a_label_shows_one_that_is_right(self):
+        self.landing([[S]], 0.0, 0.0)
+        self.refuses(2, "should be like III=S+@5,10", "spectrum.h5", "--label", "III")
+
+
+if __name__ == "__main__":
+    unittest.main()

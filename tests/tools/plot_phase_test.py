@@ -1,0 +1,152 @@
+"""The portraits of tools/plot_phase: their colours against Eq. 20, their words read from SVG.
+
+Wants PLOT_SPECTRUM (that tool; the others are beside it) in the environment.
+"""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from matplotlib import colors, pyplot
+from plot_spectrum_test import PLOT_SPECTRUM, REGIONS  # puts the folder of the tools on the path
+from phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
+
+PLOT_PHASE = pathlib.Path(PLOT_SPECTRUM).with_name("plot_phase")
+ALPHA, R = 0.4, 0.6
+HIGHEST = 1.5
+
+
+def painted(paint):
+    """What a painter does to a panel that reaches from -pi/2 to pi/2, -HIGHEST to HIGHEST; rows
+    upward."""
+    figure = pyplot.figure(figsize=(4, 4), dpi=100)
+    panel = figure.add_axes([0, 0, 1, 1], xlim=(-np.pi / 2, np.pi / 2), ylim=(-HIGHEST, HIGHEST))
+    panel.axis("off")
+    paint(panel)
+    figure.canvas.draw()
+    picture = np.asarray(figure.canvas.buffer_rgba())[::-1, :, :3]
+    pyplot.close(figure)
+    return picture
+
+
+def region_by_the_criterion(angle, rate):
+    """Eqs. 12, 16, 18 and 20, with Fig. 4's names; None near a boundary of regions, where a pixel
+    mixes two: it is 0.0075 high, and q0 changes by 2.4 times that at most."""
+    q0 = 4 * np.sin((ALPHA - abs(angle)) / 2)**2 - rate**2
+    q_max = 4 * np.sin(ALPHA / 2)**2
+    q_min = q_max * (1 - 1 / R)
+    if min(abs(q0), abs(q0 - q_min), abs(angle), abs(rate), abs(abs(angle) - ALPHA)) < 0.03:
+        return None
+    if abs(angle) <= ALPHA and 0 <= q0 <= q_max:
+        return "S"
+    towards = angle * rate < 0
+    if towards and q_min <= q0 <= 0:
+        return "S+" if rate > 0 else "S−"
+    if towards and q0 < q_min:
+        return "U1+" if rate > 0 else "U1−"
+    return "U0+" if angle > 0 else "U0−"
+
+
+class TestTheRegions(unittest.TestCase):
+    def test_every_place_has_the_colour_of_its_region(self):
+        picture = painted(lambda panel: fill_regions(panel, FreeBlock(ALPHA, R), HIGHEST))
+        colour_of = {name: [round(255 * part) for part in colors.to_rgb(colour)]
+                     for name, _, colour in REGIONS.values()}
+        seen = set()
+        for row, column in np.ndindex(100, 100):
+            angle = ((4 * column + 2) / 400 - 0.5) * np.pi
+            rate = ((4 * row + 2) / 400 - 0.5) * 2 * HIGHEST
+            name = region_by_the_criterion(angle, rate)
+            if name:
+                seen.add(name)
+                found = picture[4 * row + 2, 4 * column + 2]
+                self.assertEqual(list(found), colour_of[name], (angle, rate, name))
+        self.assertEqual(seen, {"S", "S+", "S−", "U0+", "U0−", "U1+", "U1−"})
+
+    def test_the_libration_region_is_where_they_are_safe(self):
+        picture = painted(lambda panel: fill_libration(panel, FreeBlock(ALPHA, R), "black"))
+        for row, column in np.ndindex(100, 100):
+            name = region_by_the_criterion(((4 * column + 2) / 400 - 0.5) * np.pi,
+                                           ((4 * row + 2) / 400 - 0.5) * 2 * HIGHEST)
+            if name:
+                self.assertEqual(picture[4 * row + 2, 4 * column + 2, 0] == 0, name[0] == "S")
+
+
+class TestTheFormulas(unittest.TestCase):
+    def test_give_the_papers_restitution(self):
+        self.assertAlmostEqual(largest_restitution(np.arctan(1 / 5.67)), 0.912, delta=0.0005)
+
+    def test_give_the_points_of_the_blades(self):
+        block = FreeBlock(ALPHA, R)
+        largest = 2 * np.sin(ALPHA / 2)  # Eq. 8
+        self.assertAlmostEqual(block.largest_rate, largest, delta=1e-15)
+        self.assertAlmostEqual(block.inward_rate(0.0), largest / np.sqrt(R), delta=1e-15)
+        self.assertAlmostEqual(block.inward_rate(ALPHA), largest * np.sqrt(1 / R - 1), delta=1e-15)
+
+    def test_turn_an_orbit_back_where_its_speed_is_zero(self):
+        for linear in (False, True):
+            block = FreeBlock(ALPHA, R, linear)
+            q = 0.3 * block.largest_rate**2
+            self.assertAlmostEqual(block.rate(block.outermost_angle(q), q), 0, delta=1e-7)
+
+    def test_are_straight_in_the_linear_theory(self):
+        np.testing.assert_allclose(FreeBlock(ALPHA, R, linear=True).separatrix_rate(
+            np.array([-0.5, 0, 0.1])), [-0.1, 0.4, 0.3], atol=1e-15)
+
+
+class TestAPortrait(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def plot(self, *arguments):
+        return subprocess.run([PLOT_PHASE, *arguments], cwd=self.folder, timeout=100,
+                              capture_output=True, text=True)
+
+    def text(self, portrait, *arguments):
+        """All words in a line; a bar or a prime comes as a word of its own."""
+        run = self.plot(portrait, "-o", "picture.svg", *arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        picture = (self.folder / "picture.svg").read_text("utf-8")
+        return " ".join(re.findall(r"<(?:text|tspan)[^>]*>\s*([^<\s][^<]*)", picture))
+
+    def test_of_the_regions_names_all_seven(self):
+        words = self.text("regions").split()
+        for name in ("S", "S+", "S−", "U0+", "U0−", "U1+", "U1−"):
+            self.assertEqual(words.count(name), 1, name)
+
+    def test_names_the_papers_points(self):
+        for portrait, names in (("pendulum", "ABD"), ("libration", "ABC")):
+            words = self.text(portrait)
+            for name in names:
+                self.assertRegex(words, rf"\b{name}\b", portrait)
+
+    def test_tells_the_block(self):
+        words = self.text("libration", "--slenderness", "0.3", "--restitution", "0.75")
+        self.assertIn("0.3 rad", words)
+        self.assertIn("0.75", words)
+
+    def test_can_be_drawn_for_any_block(self):
+        for alpha, r in (("0.02", "0.999"), ("0.1746", "0.9115"), ("1.4", "0.05"), ("1.5", "1")):
+            for portrait, loss in (("pendulum", ()), ("libration", ("--restitution", r)),
+                                   ("regions", ("--restitution", r))):
+                run = self.plot(portrait, "--slenderness", alpha, *loss)
+                self.assertEqual((run.returncode, run.stderr), (0, ""), (portrait, alpha, r))
+
+    def test_is_refused_for_no_block_and_no_format(self):
+        for arguments, sentence in ((("regions", "--slenderness", "1.6"), "outside (0, pi/2)"),
+                                    (("regions", "--restitution", "1.2"), "outside (0, 1]"),
+                                    (("pendulum", "--restitution", "1"), "nothing is lost"),
+                                    (("regions", "-o", "picture.jpg"), ".png, .pdf or .svg"),
+                                    (("others",), "invalid choice")):
+            run = self.plot(*arguments)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(sentence, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

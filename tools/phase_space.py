@@ -1,0 +1,95 @@
+"""The phase space of free rocking in closed form (Eqs. 5, 11-20): angle, and velocity over p.
+
+Lengths of time are in 1/p, so a velocity is d theta / d(p t) [rad], and q is over p^2.
+"""
+
+import numpy as np
+from matplotlib import patheffects
+from regions import CODES, REGIONS
+
+HALF_TURN = np.pi / 2  # a block that tilts so far lies
+BOUNDARY = {"color": "black", "linewidth": 0.9,  # seen on dark ground as well
+            "path_effects": [patheffects.withStroke(linewidth=2.2, foreground="white")]}
+
+
+class FreeBlock:
+    """A block of given slenderness [rad] and restitution, in the nonlinear theory or the linear."""
+
+    def __init__(self, slenderness, restitution, linear=False):
+        self.slenderness, self.restitution, self.linear = slenderness, restitution, linear
+        self.largest_rate = float(self.separatrix_rate(0.0))  # Eq. 8
+        self.q_min = self.largest_rate**2 * (1 - 1 / restitution)  # Eq. 18
+
+    def separatrix_rate(self, angle):
+        """c = 2 sin((alpha - |theta|)/2), in linear theory alpha - |theta|; negative beyond the
+        top (Eq. 15)."""
+        below_top = self.slenderness - np.abs(angle)
+        return below_top if self.linear else 2 * np.sin(below_top / 2)
+
+    def rate(self, angle, q):
+        """The speed on the orbit of this q: theta'^2 = c^2 - q (Eq. 21)."""
+        return np.sqrt(np.maximum(self.separatrix_rate(angle)**2 - q, 0))
+
+    def inward_rate(self, angle):
+        """The largest speed towards upright that one impact still tames: q0 = q_min."""
+        return self.rate(angle, self.q_min)
+
+    def outermost_angle(self, q):
+        """Where the orbit of 0 <= q <= q_max turns back: c^2 = q."""
+        rate = np.sqrt(q)
+        return self.slenderness - (rate if self.linear else 2 * np.arcsin(rate / 2))
+
+
+def largest_restitution(slenderness):
+    """Eq. 17."""
+    return (1 - 1.5 * np.sin(slenderness)**2)**2
+
+
+def bands(block, angle):
+    """What lies where for 0 <= theta, upwards: region, its lowest and its highest velocity. None
+    stands for no bound. Turned by half a turn, and the sign of the region with it, the same holds
+    for theta <= 0."""
+    c = block.separatrix_rate(angle)
+    return (("U1-", None, -block.inward_rate(angle)),
+            ("S-", -block.inward_rate(angle), -np.abs(c)),
+            ("S", -np.maximum(c, 0), np.maximum(c, 0)),
+            ("U0+", c, None))
+
+
+def fill_regions(panel, block, highest):
+    """All seven regions in their colours, up to the velocity given."""
+    angle = np.linspace(0, HALF_TURN, 1001)
+    for name, low, high in bands(block, angle):
+        low = np.full_like(angle, -highest) if low is None else low
+        high = np.full_like(angle, highest) if high is None else high
+        for sign in (1, -1):
+            turned = name if sign == 1 else name.translate(str.maketrans("+-", "-+"))
+            panel.fill_between(sign * angle, sign * low, sign * high, linewidth=0,
+                               color=REGIONS[CODES[turned]][2])
+
+
+def fill_libration(panel, block, colour):
+    """The set of all states that stay safe (Eq. 20), blades and rhomboid."""
+    half = np.linspace(0, HALF_TURN, 1001)
+    angle = np.concatenate([-half[::-1], half])  # twice upright, where the edges jump
+    side = np.repeat([-1, 1], len(half))
+    edges = -side * block.inward_rate(angle), side * block.separatrix_rate(angle)
+    panel.fill_between(angle, *edges, color=colour, linewidth=0)
+
+
+def draw_boundaries(panel, block, **style):
+    """The lines between the seven regions: the separatrix beyond the top too, the outer edge of
+    the blades, and theta = 0 outside, where an impact tells U0 from U1."""
+    style = BOUNDARY | style
+    angle = np.linspace(0, HALF_TURN, 1001)
+    c, inward = block.separatrix_rate(angle), block.inward_rate(angle)
+    for sign in (1, -1):
+        panel.plot(sign * angle, sign * c, **style)
+        panel.plot(sign * angle, -sign * np.abs(c), **style)
+        panel.plot(sign * angle, -sign * inward, **style)
+        panel.plot([0, 0], [sign * block.largest_rate, sign * 100], **style)
+
+
+def name_phase_axes(panel):
+    panel.set_xlabel(r"angle  $\theta$ [rad]")
+    panel.set_ylabel(r"velocity  $\theta'=\dot\theta\,/\,p$ [rad]")

@@ -1,0 +1,45 @@
+"""The regions of a spectrum as the drawing tools show them: names, meanings, colours."""
+
+import matplotlib
+import numpy as np
+from matplotlib.patches import Patch
+
+# The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) over S (75), U1 (65,
+# 58) and F (49, 40) to S+- (31, 21), so that the map can be read in grey print and by the
+# colour-blind. The minus of a pair is the darker one.
+REGIONS = {
+    0: ("S", "safe, no impact needed", "#8bc77f"),
+    1: ("S+", "safe after one impact", "#0b5530"),
+    2: ("S−", "safe after one impact", "#073a2c"),
+    3: ("U0+", "overturns without impact", "#fff6bd"),
+    4: ("U0−", "overturns without impact", "#ffe27a"),
+    5: ("U1+", "overturns after one impact", "#c9961a"),
+    6: ("U1−", "overturns after one impact", "#b6801e"),
+    7: ("F+", "overturns during the pulse", "#73737a"),
+    8: ("F−", "overturns during the pulse", "#5e5e66"),
+    254: ("", "undecided: see field status", "#e6007e"),
+}
+NOT_COMPUTED = 255
+CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
+LEFT_STANDING = 6  # the largest code of a block that the pulse leaves standing
+
+
+def coloured(codes):
+    """Codes as RGBA; what is not computed is transparent, and shows the hatch below."""
+    table = np.zeros((256, 4), np.uint8)
+    for code, (_, _, colour) in REGIONS.items():
+        table[code] = [round(255 * part) for part in matplotlib.colors.to_rgba(colour)]
+    return table[codes]
+
+
+def legend_entries(codes):
+    """One entry per region that is in the picture, one per kind of point that has no region."""
+    entries = []
+    for code, (name, meaning, colour) in REGIONS.items():
+        if code in codes:
+            label = f"{name}  {meaning}" if name else meaning
+            entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
+    if NOT_COMPUTED in codes:
+        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5,
+                             label="not computed yet"))
+    return entries

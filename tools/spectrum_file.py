@@ -1,0 +1,144 @@
+"""Overturning spectra as the drawing tools read them: the planes of a file, cell by cell."""
+
+import numpy as np
+from result_file import USAGE, PlotError, open_result, text_attribute
+
+PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
+          "antisymmetric_ricker": "antisymmetric Ricker wavelet"}
+
+
+def open_spectrum(path, fields=("region",)):
+    """The file, if it is a spectrum that has these fields."""
+    file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
+    for field in fields:
+        if field not in file:
+            raise PlotError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
+    return file
+
+
+def add_choice_arguments(parser):
+    for name in ("slenderness", "restitution"):
+        parser.add_argument(f"--{name}", type=int, metavar="I",
+                            help=f"draw only the {name} number I, counted from 0")
+
+
+def chosen(file, name, index):
+    """The indices to draw along one axis: the one asked for, or all."""
+    count = len(file[name])
+    if index is None:
+        return list(range(count))
+    if not 0 <= index < count:
+        first, last = file[name][0], file[name][-1]
+        raise PlotError(f"--{name} {index} is out of range; this file allows 0 to {count - 1} "
+                        f"({name} {first:g} to {last:g}).", USAGE)
+    return [index]
+
+
+def refuse_more_than(most, slendernesses, restitutions):
+    """At most so many spectra fit; the message tells how to choose."""
+    count = len(slendernesses) * len(restitutions)
+    if count <= most:
+        return
+    choices = [f"--{name} (0 to {indices[-1]})" for name, indices in
+               (("slenderness", slendernesses), ("restitution", restitutions)) if len(indices) > 1]
+    raise PlotError(f"there are {count} spectra to draw, and {most} fit{'s' * (most == 1)} on a "
+                    f"sheet; choose with {' or '.join(choices)}.", USAGE)
+
+
+def are_geometric(values):
+    """Whether steps are equal in the logarithm, not in the values; rounding is far below 1e-6."""
+    def unevenness(steps):
+        return np.ptp(steps) / np.mean(steps)
+    return (len(values) > 2 and values[0] > 0
+            and unevenness(np.diff(np.log(values))) < 1e-6 < unevenness(np.diff(values)))
+
+
+class Axis:
+    """Where the cells of one axis lie: each reaches to the midpoints between it and its neighbours.
+
+    Midpoints are taken in what the axis shows, which is the logarithm if the values are geometric.
+    """
+
+    def __init__(self, values):
+        self.scale = "log" if are_geometric(values) else "linear"
+        shown = self.shown(values)
+        inner = (shown[1:] + shown[:-1]) / 2
+        if len(values) == 1:
+            first, last = shown[0] - 0.5, shown[0] + 0.5
+        else:
+            first, last = 2 * shown[0] - inner[0], 2 * shown[-1] - inner[-1]
+        self.edges = np.concatenate([[first], inner, [last]])
+
+    def shown(self, values):
+        return np.log(values) if self.scale == "log" else values
+
+    def limits(self):
+        ends = self.edges[[0, -1]]
+        return np.exp(ends) if self.scale == "log" else ends
+
+    def share(self, values):
+        """How far along the axis values lie, from 0 to 1."""
+        return (self.shown(values) - self.edges[0]) / (self.edges[-1] - self.edges[0])
+
+    def cells(self, pixels):
+        """The cell under the middle of each pixel."""
+        width = (self.edges[-1] - self.edges[0]) / pixels
+        middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
+        return np.searchsorted(self.edges[1:-1], middles)
+
+
+def axes_of_plane(file):
+    """Across and up."""
+    return Axis(file["frequency"][:]), Axis(file["amplitude"][:])
+
+
+def rows_of_tiles(field):
+    """Slices of rows that are read at one go: a plane may not fit in memory."""
+    height = field.chunks[2] if field.chunks else 64
+    return [slice(first, first + height) for first in range(0, field.shape[2], height)]
+
+
+def read_cells(field, slenderness, restitution, rows, columns):
+    """What the field holds in given rows and columns."""
+    values = np.empty((len(rows), len(columns)), field.dtype)
+    for tiles in rows_of_tiles(field):
+        wanted = (rows >= tiles.start) & (rows < tiles.stop)
+        if wanted.any():
+            block = field[slenderness, restitution, tiles, :]
+            values[wanted] = block[np.ix_(rows[wanted] - tiles.start, columns)]
+    return values
+
+
+def name_axes(file):
+    """Labels of frequency and amplitude."""
+    tangent = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
+    return r"pulse frequency  $\omega_p\,/\,p$", rf"pulse amplitude  $a_p\,/\,(g\,{tangent})$"
+
+
+def is_linear(file):
+    return text_attribute(file, "theory") == "linear"
+
+
+def block_text(file, slenderness, restitution):
+    r = file["restitution_ratio"][slenderness, restitution]
+    share = ""
+    if text_attribute(file["restitution"], "of") == "maximum":
+        value = file["restitution"][restitution]
+        share = " = r_max" if value == 1 else f" = {value:g} r_max"
+    return f"α = {file['slenderness'][slenderness]:.4g} rad,  r{share} = {r:.4g}"
+
+
+def subtitle(file, pairs):
+    """Pulse and theory, the block if there is only one, and whether the file is unfinished."""
+    pulse = text_attribute(file, "pulse")
+    words = [PULSES.get(pulse, pulse.replace("_", "-") + " pulse")]
+    if "window" in file.attrs:
+        words.append(f"window {float(file.attrs['window']):g}")
+    if is_linear(file):
+        words.append("linear theory")
+    if len(pairs) == 1:
+        words.append(block_text(file, *pairs[0]))
+    tiles, done = len(file["checksum"]), np.count_nonzero(file["checksum"][:])
+    if done < tiles:
+        words.append(f"unfinished: {done} of {tiles} tiles computed")
+    return ",  ".join(words)
