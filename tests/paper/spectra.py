@@ -1,0 +1,189 @@
+"""Spectra and histories of the jobs in jobs/, computed once per process, and what their maps show:
+connected parts, and which of them touch. Wants OVERTURN (the binary) in the environment."""
+
+import contextlib
+import dataclasses
+import functools
+import os
+import pathlib
+import subprocess
+import tempfile
+
+import h5py
+import numpy as np
+
+OVERTURN = os.environ["OVERTURN"]
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+COUNT = 150  # points along an axis; the paper has 100
+PATIENCE = 60  # [s] for one run of the program; the longest takes half a second
+
+REGIONS = ("S", "S+", "S-", "U0+", "U0-", "U1+", "U1-", "F+", "F-")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Arrays over (amplitude, frequency), both axes spread out to the same shape."""
+
+    frequency: np.ndarray
+    amplitude: np.ndarray
+    region: np.ndarray
+    angle: np.ndarray
+    velocity: np.ndarray
+    impacts: np.ndarray
+    peak: np.ndarray
+    slenderness: float
+    restitution: float
+    half_width: float
+    half_height: float
+
+    def of(self, *names):
+        """The points of these regions."""
+        return np.isin(self.region, [REGIONS.index(name) for name in names])
+
+    @property
+    def safe(self):
+        return self.of("S", "S+", "S-")
+
+    @property
+    def rocked(self):
+        return self.peak > 0
+
+    @property
+    def landed(self):
+        """Rocked, and reached the free stage: what the paper shows in phase space."""
+        return self.rocked & ~self.of("F+", "F-")
+
+    @property
+    def q0(self):
+        """Eq. 12, over p^2."""
+        potential = 4 * np.sin((self.slenderness - abs(self.angle)) / 2) ** 2
+        return potential - self.velocity**2
+
+    @property
+    def q_max(self):
+        """Eq. 16, over p^2."""
+        return 4 * np.sin(self.slenderness / 2) ** 2
+
+    @property
+    def q_min(self):
+        """Eq. 18, over p^2."""
+        return self.q_max * (1 - 1 / self.restitution)
+
+    def upwards(self, frequency):
+        """The regions that follow each other as the amplitude grows."""
+        column = self.region[:, abs(self.frequency[0] - frequency).argmin()]
+        changes = np.flatnonzero(np.diff(column, prepend=-1))
+        return [REGIONS[code] for code in column[changes]]
+
+    def sample(self, mask, count):
+        """Up to count points of the mask, spread evenly over it, as (frequency, amplitude)."""
+        rows, columns = np.nonzero(mask)
+        picked = np.unique(np.linspace(0, len(rows) - 1, count).astype(int))
+        return [(float(self.frequency[i, j]), float(self.amplitude[i, j]))
+                for i, j in zip(rows[picked], columns[picked])]
+
+
+@contextlib.contextmanager
+def output_of(command, figure, *arguments):
+    """The file that the program writes, open."""
+    with tempfile.TemporaryDirectory(prefix="overturn-test-") as folder:
+        output = pathlib.Path(folder) / "output.h5"
+        job = JOBS / f"figure_{figure}.toml"
+        subprocess.run([OVERTURN, command, job, "-o", output, *arguments], check=True,
+                       timeout=PATIENCE, capture_output=True)
+        with h5py.File(output) as file:
+            yield file
+
+
+def overrides(settings):
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+@functools.cache
+def spectrum(figure, *settings):
+    """The job of a figure, on fewer points; settings are laid over it."""
+    fields = ("region", "angle", "velocity", "impacts", "peak")
+    listed = ", ".join(f'"{name}"' for name in fields)
+    settings = (f"plane.frequency.count={COUNT}", f"plane.amplitude.count={COUNT}",
+                f"output.fields=[{listed}]", *settings)
+    with output_of("run", figure, *overrides(settings)) as file:
+        data = {name: file[name][0, 0] for name in fields}
+        data["impacts"] = data["impacts"].astype(int)
+        data["frequency"], data["amplitude"] = np.meshgrid(file["frequency"], file["amplitude"])
+        return Spectrum(slenderness=float(file["slenderness"][0]),
+                        restitution=float(file["restitution_ratio"][0, 0]),
+                        half_width=file.attrs["half_width"],
+                        half_height=file.attrs["half_height"], **data)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class History:
+    """One block over time [1/p]: samples, and events by kind and time."""
+
+    time: np.ndarray
+    angle: np.ndarray
+    velocity: np.ndarray
+    ground: np.ndarray
+    events: list
+    frequency: float
+    slenderness: float
+    end_of_pulse: float
+
+    def times(self, kind):
+        return [time for found, time in self.events if found == kind]
+
+    @property
+    def phase(self):
+        """omega_p t of the samples: from the beginning of the pulse."""
+        return self.frequency * self.time
+
+    @property
+    def phase_from_the_middle(self):
+        """omega_p t of the samples, as a wavelet counts it: from its middle."""
+        return self.frequency * (self.time - self.end_of_pulse / 2)
+
+
+@functools.cache
+def history(figure, frequency, amplitude, *settings, samples=2):
+    at = f"frequency={frequency},amplitude={amplitude}"
+    with output_of("history", figure, "--at", at, "--samples", str(samples),
+                   *overrides(settings)) as file:
+        meanings = file["event_kind"].attrs["flag_meanings"].decode().split()
+        kinds = [meanings[code] for code in file["event_kind"][:]]
+        return History(events=list(zip(kinds, file["event_time"][:])), frequency=frequency,
+                       slenderness=file.attrs["slenderness"],
+                       end_of_pulse=file.attrs["end_of_pulse"],
+                       **{name: file[name][:] for name in ("time", "angle", "velocity", "ground")})
+
+
+def parts(mask):
+    """The connected parts of a mask, diagonals included, the largest first."""
+    left = set(map(tuple, np.argwhere(mask).tolist()))
+    found = []
+    while left:
+        cells = [left.pop()]
+        for row, column in cells:
+            around = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
+            left -= around
+            cells.extend(around)
+        part = np.zeros_like(mask)
+        part[tuple(np.transpose(cells))] = True
+        found.append(part)
+    return sorted(found, key=np.count_nonzero, reverse=True)
+
+
+def largest_part(mask):
+    return parts(mask)[0]
+
+
+def touching(one, other):
+    """How many points of one have a point of the other beside them, diagonals included."""
+    padded = np.pad(other, 1)
+    rows, columns = other.shape
+    beside = np.any([padded[i:i + rows, j:j + columns] for i in range(3) for j in range(3)], axis=0)
+    return np.count_nonzero(one & beside)
+
+
+def share(part, whole):
+    """The share of the points of whole that are in part as well."""
+    return np.count_nonzero(part & whole) / np.count_nonzero(whole)
