@@ -41,6 +41,8 @@ constexpr const char* overview = R"(Examples:
   overturn run jobs/smoke.toml
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5
   overturn info smoke.h5
+  overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
+  overturn boundary jobs/smoke.toml
 
 Exit codes: 0 complete, 2 usage, 65 the job's content is wrong, 70 a fault of overturn,
 74 anything about the output, 85 stopped by a signal and resumable.)";

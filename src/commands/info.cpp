@@ -30,6 +30,8 @@ int info(const std::string& path)
         fmt::print("{}\n\n", summary.title);
     }
     print_row("file", fmt::format("{}, {}", path, human_bytes(double(summary.bytes))));
+    const bool is_boundary = summary.product == Product::boundary;
+    print_row("holds", is_boundary ? "where verdicts flip" : "a spectrum");
     print_row("made by", fmt::format("overturn {} (commit {})", summary.program_version,
                                      summary.program_commit));
     for (const AxisSummary& axis : summary.axes) {
@@ -42,9 +44,9 @@ int info(const std::string& path)
               fmt::format("{} of {} done, {} x {} points each", summary.tiles_done, summary.tiles,
                           summary.amplitude_extent, summary.frequency_extent));
     if (summary.tiles_done < summary.tiles) {
-        print_row("unfinished", fmt::format("To go on: overturn run JOB.toml -o {}, with the job "
+        print_row("unfinished", fmt::format("To go on: overturn {} JOB.toml -o {}, with the job "
                                             "file and the --set arguments of the first run",
-                                            path));
+                                            is_boundary ? "boundary" : "run", path));
     }
     fmt::print("\nThe job as resolved:\n\n{}", summary.resolved_job);
     return exit_code::complete;

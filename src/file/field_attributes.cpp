@@ -81,7 +81,7 @@ void describe_number(hid_t dataset, const char* long_name, const char* units)
 
 } // namespace
 
-void write_field_attributes(hid_t dataset, Field field)
+void write_field_attributes(hid_t dataset, Field field, const std::string& coordinates)
 {
     switch (field) {
     case Field::region: describe_region(dataset); break;
@@ -133,7 +133,7 @@ void write_field_attributes(hid_t dataset, Field field)
         describe_region_beside_flip(dataset, "region just above the flip");
         break;
     }
-    write_attribute(dataset, "coordinates", layout::restitution_ratio);
+    write_attribute(dataset, "coordinates", coordinates);
 }
 
 } // namespace overturn

@@ -5,8 +5,10 @@
 
 #include "overturn/sweep/fields.hpp"
 
+#include <string>
+
 namespace overturn {
 
-void write_field_attributes(hid_t dataset, Field field);
+void write_field_attributes(hid_t dataset, Field field, const std::string& coordinates);
 
 } // namespace overturn

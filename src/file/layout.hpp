@@ -32,6 +32,8 @@ inline constexpr const Dimensions& dimensions_of(Product product)
 }
 
 inline constexpr char scan[] = "scan_amplitude";
+inline constexpr char pulse_period[] = "pulse_period";
+inline constexpr char peak_ground_acceleration[] = "peak_ground_acceleration";
 inline constexpr char restitution_ratio[] = "restitution_ratio";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";

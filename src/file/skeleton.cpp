@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 #include <hdf5_hl.h>
 
+#include <numbers>
+
 namespace overturn {
 
 namespace {
@@ -67,6 +69,50 @@ void add_restitution_ratio(hid_t file, const Plane& plane)
     attach_dimensions(file, dataset, std::array{"slenderness", "restitution"});
 }
 
+/// Of a job that names its block in metres: coordinates in seconds and in g.
+void add_dimensional_coordinates(hid_t file, const Job& job)
+{
+    const Plane& plane = job.plane;
+    const double p = frequency_parameter(*plane.block);
+    std::vector<double> periods;
+    for (const double frequency : plane.frequency.values()) {
+        periods.push_back(2 * std::numbers::pi / (frequency * p));
+    }
+    const auto add = [&](const char* name, const char* dimension, const std::vector<double>& values,
+                         const char* long_name, const char* units) {
+        add_numbers(file, name, {values.size()}, values, long_name, units);
+        const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+        attach_dimensions(file, dataset, std::array{dimension});
+    };
+    add(layout::pulse_period, "frequency", periods,
+        "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2", "s");
+    if (job.product == Product::boundary) {
+        return; // it has no amplitudes but the flips
+    }
+    const double alpha = plane.slenderness.first();
+    const double threshold = job.scene.theory == Theory::linear
+                                 ? uplift_acceleration<Theory::linear>(alpha)
+                                 : uplift_acceleration<Theory::nonlinear>(alpha);
+    std::vector<double> accelerations;
+    for (const double amplitude : plane.amplitude.values()) {
+        accelerations.push_back(amplitude * threshold);
+    }
+    add(layout::peak_ground_acceleration, "amplitude", accelerations,
+        "peak ground acceleration, over g", "1");
+}
+
+std::string coordinates_of(const Job& job)
+{
+    std::string names = layout::restitution_ratio;
+    if (job.plane.block) {
+        names += std::string(" ") + layout::pulse_period;
+        if (job.product == Product::spectrum) {
+            names += std::string(" ") + layout::peak_ground_acceleration;
+        }
+    }
+    return names;
+}
+
 /// Allocates and fills every chunk at once: all that a run does later is to overwrite values.
 void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling)
 {
@@ -85,7 +131,7 @@ void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling)
     const Handle dataset =
         create_dataset(file, name_of(field).data(), stored.file, shape, creation);
     attach_dimensions(file, dataset, layout::dimensions_of(job.product));
-    write_field_attributes(dataset, field);
+    write_field_attributes(dataset, field, coordinates_of(job));
 }
 
 void add_checksums(hid_t file, const Tiling& tiling)
@@ -120,6 +166,9 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
     add_axes(file, job);
     add_bare_dimension(file, layout::tile, tiling.size());
     add_restitution_ratio(file, job.plane);
+    if (job.plane.block) {
+        add_dimensional_coordinates(file, job);
+    }
     for (const Field field : job.fields) {
         add_field(file, field, job, tiling);
     }

@@ -18,6 +18,10 @@ std::uint64_t spectrum_file_bytes(const Job& job, const Tiling& tiling)
                          tiles;
 
     std::uint64_t bytes = 20480 + numbers * sizeof(double);
+    if (plane.block) {
+        bytes +=
+            2400 + std::uint64_t(plane.frequency.size() + plane.amplitude.size()) * sizeof(double);
+    }
     if (job.product == Product::boundary) {
         bytes += 1200 + std::uint64_t(job.scan.size()) * sizeof(double);
     }

@@ -15,6 +15,7 @@ SpectrumSummary summarize(const std::string& path)
 {
     const StoredSpectrum stored = open_stored_spectrum(path);
     SpectrumSummary summary;
+    summary.product = stored.product;
     summary.title = stored.title;
     summary.program_version = stored.program_version;
     summary.program_commit = stored.program_commit;

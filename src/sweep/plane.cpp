@@ -65,4 +65,10 @@ double Plane::restitution_ratio(std::int64_t slenderness_index,
                : value;
 }
 
+double frequency_parameter(const BlockSize& block)
+{
+    constexpr double gravity = 9.81; // [m/s^2]
+    return std::sqrt(3 * gravity / (4 * std::hypot(block.half_width, block.half_height)));
+}
+
 } // namespace overturn

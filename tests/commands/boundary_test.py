@@ -11,7 +11,7 @@ import xarray
 
 from program import Scratch, checksum
 
-PLOT_BOUNDARY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_boundary"
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 FEW = ("--set", "plane.frequency.count=30", "--set", "plane.amplitude.count=60")
 CODE_OF_NO_FLIP = 253
 
@@ -76,8 +76,8 @@ class ABoundary(Scratch):
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, "crossing 64 values",
                          "16 of 16 done")
 
-    def plot(self, *arguments):
-        return subprocess.run([sys.executable, PLOT_BOUNDARY, *arguments], cwd=self.folder,
+    def plot(self, *arguments, tool="plot_boundary"):
+        return subprocess.run([sys.executable, TOOLS / tool, *arguments], cwd=self.folder,
                               capture_output=True, text=True, timeout=60)
 
     def test_is_drawn_with_what_overturns(self):
@@ -90,6 +90,21 @@ class ABoundary(Scratch):
         result = self.plot("boundary.h5")
         self.assertEqual(result.returncode, 2)
         self.assertIn("choose with --restitution", result.stderr)
+
+    def test_is_laid_over_its_spectrum_and_over_no_other(self):
+        self.boundary()
+        self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
+        result = self.plot("spectrum.h5", "--boundary", "boundary.h5", "-o", "both.svg",
+                           tool="plot_spectrum")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(">the verdict flips<", (self.folder / "both.svg").read_text())
+        for setting, words in (("plane.slenderness.values=[0.2]", "its slenderness differs"),
+                               ("scene.theory=linear", "has theory nonlinear")):
+            self.overturn("run", "small.toml", "-o", "other.h5", *FEW, "--set", setting)
+            result = self.plot("other.h5", "--boundary", "boundary.h5", tool="plot_spectrum")
+            self.assertEqual(result.returncode, 74)
+            self.assertIn(words, result.stderr)
+            (self.folder / "other.h5").unlink()
 
     def test_a_spectrum_is_not_drawn_as_one(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)

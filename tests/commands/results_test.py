@@ -5,12 +5,18 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
 import h5py
+import numpy as np
+import xarray
 
-from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, under_mpi, words
+from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, under_mpi,
+                     words)
+
+TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
 
 
 class AFinishedFile(Scratch):
@@ -19,6 +25,41 @@ class AFinishedFile(Scratch):
         (self.folder / "small.toml").rename(self.folder / "jobs" / "small.toml")
         self.assert_exit(self.overturn("run", "jobs/small.toml"), 0, "small.h5")
         self.assertIn("small.h5", self.files())
+
+    def test_a_block_in_metres_has_periods_in_seconds_and_accelerations_in_g(self):
+        job = SMALL.replace("slenderness = { values = [0.1745716] }", "")
+        (self.folder / "block.toml").write_text(
+            job + "[block]\nhalf_width = 1.0\nhalf_height = 5.67\n")
+        self.assert_exit(self.overturn("run", "block.toml"), 0)
+        for engine in ("netcdf4", "h5netcdf"):
+            with xarray.open_dataset(self.folder / "block.h5", engine=engine) as found:
+                period = found.region.coords["pulse_period"]
+                self.assertEqual(period.attrs["units"], "s")
+                # p = 1.130441 rad/s, as the paper's block has it.
+                product = (period * found.frequency * 1.130441).values
+                self.assertTrue(np.allclose(product, 2 * np.pi, rtol=1e-6))
+                acceleration = found.region.coords["peak_ground_acceleration"]
+                self.assertTrue(np.allclose((acceleration / found.amplitude).values, 1 / 5.67))
+        self.overturn("run", "small.toml")
+        with h5py.File(self.folder / "small.h5") as found:
+            self.assertNotIn("pulse_period", found)
+
+    def test_a_spectrum_is_written_as_csv_to_the_last_digit(self):
+        self.overturn("run", "small.toml")
+        command = [sys.executable, TO_CSV, "small.h5"]
+        refused = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("choose with --restitution", refused.stderr)
+        subprocess.run([*command, "--restitution", "1"], cwd=self.folder, check=True,
+                       capture_output=True)
+        table = np.genfromtxt(self.folder / "small.csv", delimiter=",", names=True)
+        with h5py.File(self.folder / "small.h5") as found:
+            shape = found["region"].shape[2:]
+            for name in ("region", "angle", "velocity", "margin", "impacts", "status"):
+                self.assertTrue(np.array_equal(table[name].reshape(shape), found[name][0, 1]), name)
+            self.assertTrue((table["frequency"].reshape(shape) == found["frequency"][:]).all())
+            self.assertTrue(
+                (table["amplitude"].reshape(shape) == found["amplitude"][:][:, None]).all())
 
     def test_running_again_says_so_and_changes_nothing(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0, "24 tiles", "60.0 k points")

@@ -1,5 +1,6 @@
-// The result file of a run: HDF5 that is also valid netCDF-4, one chunk per tile. Rank 0 makes the
-// whole file first, then all ranks write tiles into it, in any order; equal jobs give equal bytes.
+// The result file of a run, a spectrum or a boundary: HDF5 that is also valid netCDF-4, one chunk
+// per tile. Rank 0 makes the whole file first, then all ranks write tiles into it, in any order;
+// equal jobs give equal bytes.
 // A tile's checksum is written after its values: it marks the tile as done.
 #pragma once
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/file/file_error.hpp"
+#include "overturn/job/job.hpp"
 
 #include <cstdint>
 #include <string>
@@ -24,6 +25,7 @@ struct FieldSummary {
 
 /// What a result file says of itself.
 struct SpectrumSummary {
+    Product product = Product::spectrum;
     std::string title;
     std::string program_version;
     std::string program_commit;
@@ -37,7 +39,7 @@ struct SpectrumSummary {
     std::uint64_t bytes = 0; ///< of the file
 };
 
-/// Throws FileError if the file is missing, not a spectrum of ours, or damaged.
+/// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
 SpectrumSummary summarize(const std::string& path);
 
 /// Numbers of the tiles whose stored values do not match their checksum, ascending; tiles that are

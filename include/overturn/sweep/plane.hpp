@@ -62,6 +62,9 @@ struct BlockSize {
     double half_height = 0;
 };
 
+/// p = sqrt(3g / 4R), R the half diagonal, g = 9.81 m/s2 [1/s].
+double frequency_parameter(const BlockSize& block);
+
 /// A point of a plane; its coordinates are taken as exact.
 struct PlanePoint {
     double slenderness; ///< [rad]

@@ -1,0 +1,67 @@
+// The regions of the paper's spectra against the analytical free stage of each of their points.
+#include "overturn/job/job.hpp"
+#include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace overturn {
+namespace {
+
+/// Followed impact after impact until it lies or cannot fall any more.
+Region region_of_free_stage(const State<double>& state, const Block<double>& block)
+{
+    FreeRocking<Theory::nonlinear, double> rocking(state, block.slenderness, {block.restitution});
+    while (rocking.impacts() < 2 && std::isfinite(rocking.impact_time())) {
+        rocking.strike();
+    }
+    if (std::isfinite(rocking.fall_time())) {
+        const bool to_plus = rocking.arc().side() > 0;
+        return rocking.impacts() == 0 ? (to_plus ? Region::U0_plus : Region::U0_minus)
+                                      : (to_plus ? Region::U1_plus : Region::U1_minus);
+    }
+    // A safe block is in a blade if without the loss at its first impact it would fall.
+    const bool in_blade = conserved_q<Theory::nonlinear>(state, block.slenderness) < 0;
+    return !in_blade ? Region::S : state.side * state.rate > 0 ? Region::S_plus : Region::S_minus;
+}
+
+TEST(FreeStageOfThePapersFigures, EndsAsTheRegionSaysAtEveryPoint)
+{
+    int spectra = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(OVERTURN_JOBS_DIRECTORY)) {
+        if (entry.path().extension() != ".toml" ||
+            entry.path().filename().string().rfind("figure_", 0) != 0) {
+            continue;
+        }
+        ++spectra;
+        const Job job =
+            read_job(entry.path(), {"plane.frequency.count=120", "plane.amplitude.count=120"});
+        const Tiling tiling(job.plane);
+        const Block<double> block{job.plane.slenderness[0], job.plane.restitution_ratio(0, 0)};
+        for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            const TileFields fields =
+                sweep_tile(job.scene, job.numerics, job.plane, tiling[number],
+                           {Field::region, Field::angle, Field::velocity}, widest_kernel());
+            const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+            const auto& angles = std::get<std::vector<double>>(fields.values[1]);
+            const auto& velocities = std::get<std::vector<double>>(fields.values[2]);
+            for (std::size_t i = 0; i < regions.size(); ++i) {
+                const auto region = Region(regions[i]);
+                if (region == Region::F_plus || region == Region::F_minus) {
+                    continue;
+                }
+                const double side = angles[i] < 0 || (angles[i] == 0 && velocities[i] < 0) ? -1 : 1;
+                const State<double> state{side * angles[i], side * velocities[i], side};
+                EXPECT_EQ(name_of(region_of_free_stage(state, block)), name_of(region))
+                    << entry.path() << ": theta " << angles[i] << ", theta' " << velocities[i];
+            }
+        }
+    }
+    EXPECT_EQ(spectra, 9);
+}
+
+} // namespace
+} // namespace overturn
