@@ -82,15 +82,16 @@ void print_events(const History& history)
 void print_outcome(const History& history)
 {
     const auto time = [](double value) {
-        return std::isinf(value) ? std::string("never") : fmt::format("after {:.6g} / p", value);
+        return std::isnan(value)   ? std::string("unknown")
+               : std::isinf(value) ? std::string("never")
+                                   : fmt::format("after {:.6g} / p", value);
     };
     print_row("region", name_of(history.region));
     print_row("margin", fmt::format("{:.6g}, at most {:.1g} off", history.margin, history.error));
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
     if (history.shortened) {
-        print_row("note",
-                  "The history breaks off: it has more impacts or steps than are followed.");
+        print_row("note", "The history breaks off: there is more than can be followed.");
     }
 }
 

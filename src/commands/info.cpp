@@ -40,9 +40,9 @@ int info(const std::string& path)
     for (const FieldSummary& field : summary.fields) {
         print_row("field", fmt::format("{}, {}", field.name, field.type));
     }
-    print_row("tiles",
-              fmt::format("{} of {} done, {} x {} points each", summary.tiles_done, summary.tiles,
-                          summary.amplitude_extent, summary.frequency_extent));
+    print_row("tiles", fmt::format("{} of {} done, {} x {} {} each", summary.tiles_done,
+                                   summary.tiles, summary.amplitude_extent,
+                                   summary.frequency_extent, is_boundary ? "flips" : "points"));
     if (summary.tiles_done < summary.tiles) {
         print_row("unfinished", fmt::format("To go on: overturn {} JOB.toml -o {}, with the job "
                                             "file and the --set arguments of the first run",

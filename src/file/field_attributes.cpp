@@ -122,9 +122,9 @@ void write_field_attributes(hid_t dataset, Field field, const std::string& coord
         write_attribute(
             dataset, "comment",
             "two amplitudes at most `width` of themselves apart, with settled verdicts, "
-            "are on either side. Missed can only be a strip between neighbours of "
-            "scan_amplitude that neither tells of: on random planes, strips thinner "
-            "than a hundredth of their distance, 1 or 2 in a hundred flips");
+            "are on either side. Missed can be a strip between neighbours of "
+            "scan_amplitude that neither tells of; below a frequency of 1 strips crowd "
+            "towards the amplitude 1, and a denser scan finds more of them");
         break;
     case Field::region_below:
         describe_region_beside_flip(dataset, "region just below the flip");

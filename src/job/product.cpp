@@ -14,8 +14,9 @@ Job boundary_of(Job spectrum)
 
 Tiling tiling_of(const Job& job)
 {
-    // A line of a boundary takes some milliseconds, as a tile of a spectrum does.
-    constexpr std::int64_t lines = 4;
+    // A line of a boundary takes longer than a tile of a spectrum: some 10 ms, and many times that
+    // where a slow pulse lets blocks bounce on and on.
+    constexpr std::int64_t lines = 1;
     return job.product == Product::boundary ? Tiling(job.plane, most_crossings, lines)
                                             : Tiling(job.plane);
 }

@@ -26,6 +26,7 @@ struct Probe {
     Region region;
     double margin;
     double impacts;
+    int halving = 0; ///< of the scan, that brought it in
 
     bool is_settled() const { return is_safe(region) || is_unsafe(region); }
     bool falls_to_plus() const
@@ -66,6 +67,9 @@ public:
 
     bool is_complete() const { return complete_; }
 
+    /// Something on it could not be found out.
+    void give_up() { complete_ = false; }
+
 private:
     Scene scene_;
     Kernel kernel_;
@@ -78,23 +82,30 @@ bool is_narrow(double below, double above)
     return above - below <= flip_width * above || std::nextafter(below, above) >= above;
 }
 
-/// Narrows a bracket of one flip. The margin changes its sign there, but may jump.
-Flip narrowed(Line& line, const Probe& below, const Probe& above)
+/// Narrows a bracket of one flip; nothing if a verdict within it cannot be settled. The margin
+/// changes its sign there, but may jump.
+std::optional<Flip> narrowed(Line& line, const Probe& below, const Probe& above)
 {
     Probe low = below;
     Probe high = above;
+    bool settled = true;
     const auto margin = [&](double amplitude) {
         const Probe probe = line.at(amplitude);
+        settled = settled && probe.is_settled();
+        if (!settled) {
+            return 0.0; // which ends the search
+        }
         (is_safe(probe.region) == is_safe(below.region) ? low : high) = probe;
         return probe.margin;
     };
     std::uintmax_t most_looks = 100;
     boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
                                       above.margin, is_narrow, most_looks);
-    while (!is_narrow(low.amplitude, high.amplitude)) { // a margin of 0 ends the method early
+    while (settled && !is_narrow(low.amplitude, high.amplitude)) { // a margin of 0 ends it early
         margin(low.amplitude + (high.amplitude - low.amplitude) / 2);
     }
-    return {low.amplitude, high.amplitude, low.region, high.region};
+    return settled ? std::optional(Flip{low.amplitude, high.amplitude, low.region, high.region})
+                   : std::nullopt;
 }
 
 /// A safe amplitude between two that overturn to different sides: by halving.
@@ -107,6 +118,7 @@ std::optional<Probe> safe_between(Line& line, Probe below, Probe above)
         }
         (middle.falls_to_plus() == below.falls_to_plus() ? below : above) = middle;
     }
+    line.give_up(); // it is there, but thinner than that
     return std::nullopt;
 }
 
@@ -125,7 +137,7 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
         if (probe.is_settled() && is_safe(probe.region) != safe) {
             found = probe;
         }
-        return std::abs(probe.margin);
+        return probe.is_settled() ? std::abs(probe.margin) : 1.0;
     };
     std::uintmax_t most_looks = 60;
     constexpr int bits = 26; // half of a double's: a minimum is no better known
@@ -164,13 +176,7 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
                      probes.end());
     };
     forget_unsettled();
-    double narrowest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < probes.size(); ++i) {
-        narrowest = std::min(narrowest, probes[i].amplitude - probes[i - 1].amplitude);
-    }
     for (int time = 0; time < times_halved; ++time) {
-        // A step that was not halved the last time is wider, and was looked at before.
-        const double widest = std::ldexp(narrowest, -time) * 1.5;
         std::vector<double> middles;
         std::size_t halved = 0; // the step that ends at this probe
         for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
@@ -178,10 +184,12 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
                 continue;
             }
             for (const std::size_t end : {i, i + 1}) {
-                const double below = probes[end - 1].amplitude;
-                const double above = probes[end].amplitude;
-                if (end > halved && (time == 0 || above - below <= widest)) {
-                    middles.push_back(below + (above - below) / 2);
+                const Probe& below = probes[end - 1];
+                const Probe& above = probes[end];
+                // Others were looked at before.
+                const bool is_new = below.halving == time || above.halving == time;
+                if (end > halved && is_new) {
+                    middles.push_back(below.amplitude + (above.amplitude - below.amplitude) / 2);
                     halved = end;
                 }
             }
@@ -189,8 +197,10 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
         if (middles.empty()) {
             break;
         }
-        const std::vector<Probe> more = line.at(middles, scanning);
-        probes.insert(probes.end(), more.begin(), more.end());
+        for (Probe& probe : line.at(middles, scanning)) {
+            probe.halving = time + 1;
+            probes.push_back(probe);
+        }
         sort_by_amplitude(probes);
         forget_unsettled();
     }
@@ -245,7 +255,9 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     Boundary boundary;
     for (std::size_t i = 1; i < probes.size(); ++i) {
         if (is_safe(probes[i - 1].region) != is_safe(probes[i].region)) {
-            boundary.flips.push_back(narrowed(line, probes[i - 1], probes[i]));
+            if (const auto flip = narrowed(line, probes[i - 1], probes[i])) {
+                boundary.flips.push_back(*flip);
+            }
         }
     }
     boundary.complete = line.is_complete();

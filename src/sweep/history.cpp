@@ -13,6 +13,7 @@ namespace overturn {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Writes down where a block is, up to the last time that is shown: at evenly spread times, and
 /// before and after each event.
@@ -79,7 +80,7 @@ public:
         const double until = std::isnan(view.until) ? time_worth_showing() : view.until;
         Recorder recorder(until, view.samples);
         tell_forced_stage(recorder);
-        bool shortened = path_.end.capped;
+        bool shortened = path_.end.capped || path_.end.not_finite;
         if (is_free() && !recorder.is_over(end_of_path_)) {
             shortened = !tell_free_stage(recorder, until / view.samples);
         }
@@ -113,7 +114,7 @@ private:
     double time_of_rest() const
     {
         if (!is_free()) {
-            return infinity;
+            return path_.end.fell ? infinity : unknown;
         }
         if (path_.milestones.empty() || path_.milestones.back().what == Happening::rest) {
             return path_.milestones.empty() ? 0 : time_at(path_.milestones.back().rocking.phase);
@@ -124,7 +125,7 @@ private:
     double time_of_fall() const
     {
         if (!is_free()) {
-            return path_.end.fell ? end_of_path_ : infinity;
+            return path_.end.fell ? end_of_path_ : unknown;
         }
         FreeRocking<theory, double> rocking = free_rocking();
         if (std::isfinite(rocking.impact_time())) {
@@ -135,6 +136,9 @@ private:
 
     double time_worth_showing() const
     {
+        if (std::isnan(time_of_rest_)) {
+            return end_of_path_;
+        }
         return std::min(
             {time_of_fall_, std::max(time_of_rest_, end_of_path_), end_of_path_ + free_time_shown});
     }

@@ -314,6 +314,24 @@ TEST(TimeOfRest, OfABlockThatLosesHardlyAnythingIsFoundWithoutAllItsImpacts)
                 1e-7 * integral);
 }
 
+TEST(TimeOfRest, OfABlockNextToTheSeparatrixThatLosesHardlyAnythingIsAnIntegral)
+{
+    // As above, with x next to 1: Li2(x) = pi^2 / 6 - log x log(1 - x) - Li2(1 - x), and
+    // Li2(-1 + y) = -pi^2 / 12 + y log 2 to first order.
+    const double d = 1e-14;
+    const Block<double> block{0.3, 1 - d};
+    const State<double> begin{0.3 - 1e-9, 0, 1}; // q = 1e-18: x = 1 - q / 2 alpha^2
+    const double y = 1e-18 / (2 * 0.3 * 0.3);
+    const double pi_square = pi<double>() * pi<double>();
+    const double half_first = std::log(2 / y) / 2; // T(v) / 2, far below 1/d
+    const double expected = 2 / d * (pi_square / 6 + pi_square / 12 + y * std::log(y)) + half_first;
+    // r itself is rounded to half an epsilon of d / 1.1e-16: a hundredth.
+    const double rounded = 1 - block.restitution;
+    EXPECT_NEAR((time_of_rest<Theory::linear, double>(begin, block)), expected * (d / rounded),
+                1e-9 * expected);
+    EXPECT_TRUE(std::isfinite(time_of_rest<Theory::nonlinear, double>(begin, block)));
+}
+
 TEST(TimeOfRest, IsInfiniteForABlockThatFallsOrLosesNothing)
 {
     EXPECT_TRUE(std::isinf(time_of_rest<Theory::nonlinear, double>({0.1, 1, 1}, {0.3, 0.8})));

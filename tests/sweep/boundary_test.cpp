@@ -162,6 +162,31 @@ TEST(Boundary, MissesNothingButStripsFarThinnerThanAStepOfTheScan)
     EXPECT_LE(missed, flips / 50);
 }
 
+TEST(Boundary, IsNoneWhereVerdictsCannotBeSettled)
+{
+    // Without loss a slow pulse lets the block bounce half a million times.
+    const Boundary boundary =
+        boundary_on({}, {papers_slenderness(), 1, 0.003}, {1, 1.0000001, 1.00001}, widest_kernel());
+    EXPECT_FALSE(boundary.complete);
+    for (const Flip& flip : boundary.flips) {
+        EXPECT_NE(flip.region_below, Region::undecided);
+        EXPECT_NE(flip.region_above, Region::undecided);
+        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
+    }
+}
+
+TEST(Boundary, LosesNothingIfMoreIsLookedAt)
+{
+    for (const double frequency : {0.6, 1.3, 3.0}) {
+        std::vector<double> scan = evenly(0.5, 12.5, 121);
+        const BoundaryLine line{paper_alpha, paper_r_max, frequency};
+        const Scene scene{PulseKind::one_cosine};
+        const std::size_t flips = boundary_on(scene, line, scan, widest_kernel()).flips.size();
+        scan.insert(scan.begin() + 1, 0.500001); // one step that is much finer than the others
+        EXPECT_EQ(boundary_on(scene, line, scan, widest_kernel()).flips.size(), flips);
+    }
+}
+
 TEST(Boundary, IsEmptyWhereNothingFlips)
 {
     EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, evenly(0, 1, 11), widest_kernel()).flips.empty());

@@ -6,6 +6,7 @@
 #include "overturn/mechanics/region.hpp"
 #include "overturn/mechanics/rocking_arc.hpp"
 
+#include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <cmath>
@@ -177,6 +178,31 @@ T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
     }
 }
 
+/// The same for r next to 1, to first order in 1 - r: twice the integral of T(v) / v over -log r,
+/// and half of the first term. q belongs to the first rate v.
+template <Theory theory, Number T>
+T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
+{
+    using std::log;
+    using std::sqrt;
+    const auto half_period = [&](const T& rate, const T& gained) -> T { // where q has grown so much
+        const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
+        return RockingArc<theory, T>(upright, block.slenderness, q + gained).time_to_impact();
+    };
+    const T root = sqrt(std::numeric_limits<T>::epsilon());
+    const T fine = root * sqrt(root);
+    boost::math::quadrature::tanh_sinh<T> integrator;
+    const T integral = integrator.integrate(
+        [&](const T& share, const T& from_end) -> T { // of v; the distance from 1, or from 0
+            const bool near_first = from_end > 0;
+            const T kept = near_first ? T(1 - from_end) : share;
+            const T lost = near_first ? T(from_end * (2 - from_end)) : T((1 - share) * (1 + share));
+            return half_period(T(v * kept), T(v * v * lost)) / kept;
+        },
+        T(0), T(1), fine);
+    return 2 * integral / -log(block.restitution) + half_period(v, T(0)) / 2;
+}
+
 /// When a block comes to rest [1/p]; infinite if it falls, stands on its edge for ever, or rocks
 /// for ever because it loses nothing.
 template <Theory theory, Number T>
@@ -201,10 +227,15 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
         return never;
     }
     // A bounce more makes the series shorter, which takes that many terms, roughly; so the work
-    // goes with 1 / sqrt(1 - r).
+    // goes with 1 / sqrt(1 - r). Where that is too much, r is so near to 1 that a sum over bounces
+    // is an integral over the rate: from one to the next its logarithm falls by half of -log r.
     const T at_rest(conserved_q<theory>({T(0), T(0), T(1)}, block.slenderness));
     const int digits = std::numeric_limits<T>::digits;
+    constexpr int most_bounces = 200'000;
     for (int bounces = 0; digits * at_rest > bounces * q; ++bounces) {
+        if (bounces == most_bounces) {
+            return time + integral_of_half_periods<theory>(rate, q, block);
+        }
         const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
         time += RockingArc<theory, T>(upright, block.slenderness, q).time_to_impact();
         rate *= sqrt(r);

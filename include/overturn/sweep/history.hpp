@@ -54,11 +54,11 @@ struct History {
     std::vector<HistoryEvent> events;   ///< those up to the last sample
     double end_of_pulse;                ///< [1/p]
     double time_of_rest; ///< after which it is not lifted any more [1/p]; or infinite
-    double time_of_fall; ///< [1/p]; infinite if it never lies
+    double time_of_fall; ///< [1/p]; infinite if it never lies; not a number if undecided
     Region region;
     double margin;
     double error;   ///< of the margin, at most
-    bool shortened; ///< there are more than most_impacts_shown
+    bool shortened; ///< there is more than can be followed
 };
 
 /// The history of a point. The forced stage does not depend on a job's method and tolerance.
