@@ -37,6 +37,16 @@ void for_random_points(const Check& check)
     }
 }
 
+Plane plane_of(const PlanePoint& point)
+{
+    Plane plane;
+    plane.slenderness = Axis(AxisList{point.slenderness});
+    plane.restitution = Axis(AxisList{point.restitution});
+    plane.frequency = Axis(AxisList{point.frequency});
+    plane.amplitude = Axis(AxisList{point.amplitude});
+    return plane;
+}
+
 int count(const History& history, Event event, double until)
 {
     return int(
@@ -48,11 +58,7 @@ int count(const History& history, Event event, double until)
 TEST(History, EndsThePulseWhereTheSpectrumSays)
 {
     for_random_points([](const Scene& scene, const PlanePoint& point) {
-        Plane plane;
-        plane.slenderness = Axis(AxisList{point.slenderness});
-        plane.restitution = Axis(AxisList{point.restitution});
-        plane.frequency = Axis(AxisList{point.frequency});
-        plane.amplitude = Axis(AxisList{point.amplitude});
+        const Plane plane = plane_of(point);
         const TileFields fields = sweep_tile(
             scene, {Method::taylor, 1e-12}, plane, Tiling(plane)[0],
             {Field::region, Field::margin, Field::error, Field::impacts}, widest_kernel());
@@ -74,11 +80,7 @@ TEST(History, EndsThePulseWhereTheSpectrumSays)
 TEST(History, IsWhatPeaksAndTimesOfFallsAreTakenFrom)
 {
     for_random_points([](const Scene& scene, const PlanePoint& point) {
-        Plane plane;
-        plane.slenderness = Axis(AxisList{point.slenderness});
-        plane.restitution = Axis(AxisList{point.restitution});
-        plane.frequency = Axis(AxisList{point.frequency});
-        plane.amplitude = Axis(AxisList{point.amplitude});
+        const Plane plane = plane_of(point);
         HistoryView view;
         view.samples = 8000;
         const History history = history_of(scene, point, view);
