@@ -119,12 +119,13 @@ void write_field_attributes(hid_t dataset, Field field, const std::string& coord
                         "beyond the last flip",
                         "1");
         write_attribute(dataset, "width", flip_width);
+        write_attribute(dataset, "finest_step", finest_step);
         write_attribute(
             dataset, "comment",
-            "two amplitudes at most `width` of themselves apart, with settled verdicts, "
-            "are on either side. Missed can be a strip between neighbours of "
-            "scan_amplitude that neither tells of; below a frequency of 1 strips crowd "
-            "towards the amplitude 1, and a denser scan finds more of them");
+            "two amplitudes at most `width` of themselves apart, with settled verdicts, are on "
+            "either side. Between neighbours of scan_amplitude the steps were halved where margins "
+            "bend or impacts change, down to `finest_step` of the amplitude. Missed can be thinner "
+            "strips, and strips between two neighbours of which neither tells");
         break;
     case Field::region_below:
         describe_region_beside_flip(dataset, "region just below the flip");

@@ -1,14 +1,37 @@
 #include "overturn/job/job.hpp"
 
+#include "plane_size.hpp"
+#include "resolved_text.hpp"
+
+#include <fmt/format.h>
+
 namespace overturn {
+
+namespace {
+
+/// A spectrum of two amplitudes may have a boundary of 64 crossings that is too large.
+void check_size(const Job& boundary)
+{
+    const PlaneSize size = size_of(boundary.plane, boundary.fields);
+    if (size.bytes > most_bytes) {
+        throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
+                                   "slenderness, whose boundaries would take {:.4g} bytes; {:.4g} "
+                                   "can be addressed. Lower the counts.",
+                                   size.points / most_crossings, size.bytes, most_bytes));
+    }
+}
+
+} // namespace
 
 Job boundary_of(Job spectrum)
 {
     Job job = std::move(spectrum);
     job.product = Product::boundary;
+    job.resolved = resolved_text(job);
     job.scan = job.plane.amplitude;
     job.plane.amplitude = Axis(AxisRange{0, double(most_crossings - 1), most_crossings});
     job.fields.assign(boundary_fields.begin(), boundary_fields.end());
+    check_size(job);
     return job;
 }
 

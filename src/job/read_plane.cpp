@@ -1,5 +1,6 @@
 #include "read_plane.hpp"
 
+#include "plane_size.hpp"
 #include "read_axis.hpp"
 
 #include <fmt/format.h>
@@ -113,24 +114,13 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
     }
 }
 
-/// Sizes are computed in floating point, which cannot overflow here.
 void check_size(const Entry& entry, const Plane& plane, const std::vector<Field>& fields)
 {
-    constexpr long double most_bytes = 0x1p62L;
-    long double points = 1;
-    for (const Axis* axis :
-         {&plane.frequency, &plane.amplitude, &plane.restitution, &plane.slenderness}) {
-        points *= static_cast<long double>(axis->size());
-    }
-    std::size_t bytes_of_point = 0;
-    for (const Field field : fields) {
-        bytes_of_point += bytes_per_point(field);
-    }
-    const long double bytes = points * static_cast<long double>(bytes_of_point);
-    if (bytes > most_bytes) {
+    const PlaneSize size = size_of(plane, fields);
+    if (size.bytes > most_bytes) {
         refuse(entry, fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
                                   "addressed. Lower the counts.",
-                                  points, bytes, most_bytes));
+                                  size.points, size.bytes, most_bytes));
     }
 }
 

@@ -71,11 +71,16 @@ std::string fields_text(const std::vector<Field>& fields)
 
 std::string resolved_text(const Job& job)
 {
-    return fmt::format("title = {}\n\n{}\n{}\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n"
-                       "{}\n[output]\nfields = [{}]\n",
-                       in_quotes(job.title), scene_text(job.scene), plane_text(job.plane),
-                       name_of(job.numerics.method), float_text(job.numerics.tolerance),
-                       job.numerics.resolve ? "resolve = true\n" : "", fields_text(job.fields));
+    std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title),
+                                   scene_text(job.scene), plane_text(job.plane));
+    if (job.product == Product::spectrum) { // a boundary is told neither
+        text +=
+            fmt::format("\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
+                        "[output]\nfields = [{}]\n",
+                        name_of(job.numerics.method), float_text(job.numerics.tolerance),
+                        job.numerics.resolve ? "resolve = true\n" : "", fields_text(job.fields));
+    }
+    return text;
 }
 
 } // namespace overturn

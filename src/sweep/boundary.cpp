@@ -17,8 +17,9 @@ namespace {
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
 constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
 
-/// A step of the scan is halved so often where it has to be.
-constexpr int times_halved = 8;
+/// A line is incomplete with the first verdict that stays in doubt, which may take a second; after
+/// so many the scan is not refined any more.
+constexpr int most_doubts = 16;
 
 /// What becomes of a block at one amplitude.
 struct Probe {
@@ -58,23 +59,22 @@ public:
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back({amplitudes[i], Region(regions[i]), margins[i], ends.impacts[i]});
-            complete_ = complete_ && probes.back().is_settled();
+            doubts_ += !probes.back().is_settled();
         }
         return probes;
     }
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
 
-    bool is_complete() const { return complete_; }
-
-    /// Something on it could not be found out.
-    void give_up() { complete_ = false; }
+    /// How often something on it could not be found out.
+    int doubts() const { return doubts_; }
+    void add_doubt() { ++doubts_; }
 
 private:
     Scene scene_;
     Kernel kernel_;
     Plane plane_;
-    bool complete_ = true;
+    int doubts_ = 0;
 };
 
 bool is_narrow(double below, double above)
@@ -118,7 +118,7 @@ std::optional<Probe> safe_between(Line& line, Probe below, Probe above)
         }
         (middle.falls_to_plus() == below.falls_to_plus() ? below : above) = middle;
     }
-    line.give_up(); // it is there, but thinner than that
+    line.add_doubt(); // it is there, but thinner than that
     return std::nullopt;
 }
 
@@ -153,30 +153,49 @@ void sort_by_amplitude(std::vector<Probe>& probes)
 }
 
 /// Whether the margin may turn back towards 0 between three neighbours: it is far from a straight
-/// line, or they had unlike impacts.
+/// line, or they had unlike impacts and it changes by more than a 64th. Of a thousand flips at low
+/// frequencies, a 16th instead of a 64th loses two in a hundred; nothing at all finds the same ones
+/// in three times the time, because it halves all steps of a block that bounces to rest.
 bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
 {
-    if (left.impacts != middle.impacts || middle.impacts != right.impacts) {
+    const auto [nearest, farthest] =
+        std::minmax({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
+    const bool unlike = left.impacts != middle.impacts || middle.impacts != right.impacts;
+    if (unlike && farthest - nearest > nearest / 64) {
         return true;
     }
     const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
     const double straight = left.margin + share * (right.margin - left.margin);
-    const double nearest =
-        std::min({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
     return std::abs(middle.margin - straight) > nearest / 4;
 }
 
-/// Halves the steps of the scan where it is rough, and those again, times_halved times at most.
-/// Leaves what is not settled out.
-std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
+/// Where the verdict changes between neighbours.
+bool is_flip(const Probe& below, const Probe& above)
 {
-    const auto forget_unsettled = [&] {
-        probes.erase(std::remove_if(probes.begin(), probes.end(),
-                                    [](const Probe& probe) { return !probe.is_settled(); }),
-                     probes.end());
-    };
-    forget_unsettled();
-    for (int time = 0; time < times_halved; ++time) {
+    return is_safe(below.region) != is_safe(above.region);
+}
+
+/// Leaves out what is not settled, and what lies beyond the first flip too many.
+void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
+{
+    probes.erase(std::remove_if(probes.begin(), probes.end(),
+                                [](const Probe& probe) { return !probe.is_settled(); }),
+                 probes.end());
+    std::size_t flips = 0;
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+        flips += is_flip(probes[i - 1], probes[i]);
+        if (flips > most_flips) {
+            probes.resize(i + 1);
+        }
+    }
+}
+
+/// Halves the steps of the scan where it is rough, and those again, down to finest_step.
+std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
+                                          std::size_t most_flips)
+{
+    forget_the_useless(probes, most_flips);
+    for (int time = 0; line.doubts() <= most_doubts; ++time) {
         std::vector<double> middles;
         std::size_t halved = 0; // the step that ends at this probe
         for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
@@ -188,7 +207,9 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
                 const Probe& above = probes[end];
                 // Others were looked at before.
                 const bool is_new = below.halving == time || above.halving == time;
-                if (end > halved && is_new) {
+                const bool is_wide =
+                    above.amplitude - below.amplitude > finest_step * above.amplitude;
+                if (end > halved && is_new && is_wide) {
                     middles.push_back(below.amplitude + (above.amplitude - below.amplitude) / 2);
                     halved = end;
                 }
@@ -202,7 +223,7 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes)
             probes.push_back(probe);
         }
         sort_by_amplitude(probes);
-        forget_unsettled();
+        forget_the_useless(probes, most_flips);
     }
     return probes;
 }
@@ -226,13 +247,13 @@ void find_what_hides_between(Line& line, std::vector<Probe>& probes)
     for (std::size_t i = 0; i + 1 < probes.size(); ++i) {
         const Probe& now = probes[i];
         const Probe& next = probes[i + 1];
-        if (is_safe(now.region) != is_safe(next.region)) {
+        if (is_flip(now, next)) {
             continue;
         }
         std::optional<Probe> other;
         if (is_unsafe(now.region) && now.falls_to_plus() != next.falls_to_plus()) {
             other = safe_between(line, now, next);
-        } else if (i > 0 && is_safe(probes[i - 1].region) == is_safe(now.region) &&
+        } else if (i > 0 && !is_flip(probes[i - 1], now) &&
                    may_reach_zero(probes[i - 1], now, next)) {
             other = other_verdict_near(line, probes[i - 1], now, next);
         }
@@ -247,20 +268,26 @@ void find_what_hides_between(Line& line, std::vector<Probe>& probes)
 } // namespace
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
-                     const std::vector<double>& amplitudes, Kernel kernel)
+                     const std::vector<double>& amplitudes, Kernel kernel, std::size_t most_flips)
 {
     Line line(scene, where, kernel);
-    std::vector<Probe> probes = looked_at_more_closely(line, line.at(amplitudes, scanning));
+    std::vector<Probe> probes =
+        looked_at_more_closely(line, line.at(amplitudes, scanning), most_flips);
     find_what_hides_between(line, probes);
     Boundary boundary;
-    for (std::size_t i = 1; i < probes.size(); ++i) {
-        if (is_safe(probes[i - 1].region) != is_safe(probes[i].region)) {
-            if (const auto flip = narrowed(line, probes[i - 1], probes[i])) {
-                boundary.flips.push_back(*flip);
-            }
+    for (std::size_t i = 1; i < probes.size() && !boundary.has_more; ++i) {
+        if (!is_flip(probes[i - 1], probes[i])) {
+            continue;
+        }
+        boundary.has_more = boundary.flips.size() == most_flips;
+        if (boundary.has_more) {
+            continue;
+        }
+        if (const auto flip = narrowed(line, probes[i - 1], probes[i])) {
+            boundary.flips.push_back(*flip);
         }
     }
-    boundary.complete = line.is_complete();
+    boundary.complete = line.doubts() == 0;
     return boundary;
 }
 
@@ -278,8 +305,8 @@ TileFields boundary_tile(const Scene& scene, const Plane& plane,
             .slenderness = plane.slenderness[tile.slenderness],
             .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
             .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
-        const Boundary boundary = boundary_on(scene, line, amplitudes, kernel);
-        const bool known = boundary.complete && boundary.flips.size() <= rows;
+        const Boundary boundary = boundary_on(scene, line, amplitudes, kernel, rows);
+        const bool known = boundary.complete && !boundary.has_more;
         for (std::size_t row = 0; row < rows; ++row) {
             const std::size_t point = row * columns + column;
             if (row < boundary.flips.size()) {
@@ -292,7 +319,7 @@ TileFields boundary_tile(const Scene& scene, const Plane& plane,
                 above[point] = boundary_code::in_doubt;
             }
         }
-        if (!known && boundary.flips.size() >= rows) {
+        if (!known && boundary.flips.size() == rows) {
             above[(rows - 1) * columns + column] = boundary_code::in_doubt;
         }
     }

@@ -63,6 +63,22 @@ class ABoundary(Scratch):
         self.assertEqual(checksum(self.folder / "both.h5"), whole)
         self.assert_exit(self.boundary("both.h5"), 0, "is complete already")
 
+    def test_goes_on_whatever_the_job_says_of_spectra_alone(self):
+        self.assert_exit(self.boundary(), 0)
+        result = self.overturn("boundary", "small.toml", "-o", "boundary.h5", *FEW,
+                               "--set", "numerics.tolerance=1e-5",
+                               "--set", "output.fields=[\"region\", \"peak\"]")
+        self.assert_exit(result, 0, "is complete already")
+
+    def test_is_refused_if_no_file_could_hold_it(self):
+        # 1e18 lines: a spectrum of two amplitudes would be told that its disk is too small.
+        result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.count=2",
+                               "--set", "plane.frequency.count=1000000000000000",
+                               *(f"--set=plane.restitution.{key}={value}"
+                                 for key, value in (("first", 0.5), ("last", 1), ("count", 1000))),
+                               "--set", "output.fields=[\"region\"]")
+        self.assert_exit(result, 65, "whose boundaries would take 6.4e+20 bytes")
+
     def test_does_not_touch_a_spectrum_nor_a_spectrum_a_boundary(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
         self.assert_exit(self.boundary("spectrum.h5"), 74,

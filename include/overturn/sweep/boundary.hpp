@@ -8,6 +8,9 @@
 #include "overturn/sweep/scene.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace overturn {
@@ -26,6 +29,9 @@ struct Flip {
 /// [1].
 inline constexpr double flip_width = 1e-12;
 
+/// Steps of a scan over their amplitude, below which they are not halved any more [1].
+inline constexpr double finest_step = 1e-6;
+
 /// One line through a plane: everything but the amplitude.
 struct BoundaryLine {
     double slenderness; ///< [rad]
@@ -36,15 +42,20 @@ struct BoundaryLine {
 struct Boundary {
     std::vector<Flip> flips; ///< in ascending order
     bool complete = true;    ///< every verdict that was looked at could be settled
+    bool has_more = false;   ///< there are flips beyond the last one
 };
 
-/// The flips between the first and the last of these ascending amplitudes, which are all looked at.
-/// Where two neighbours differ in their verdict, a flip is between them. Where both overturn, but
-/// to different sides, a safe strip is between them, however thin. And where the margin has come
+/// The lowest flips, most_flips at most, between the first and the last of these ascending
+/// amplitudes, which are all looked at.
+/// Steps are halved where the margin bends or the impacts change, down to finest_step. Where two
+/// neighbours differ in their verdict, a flip is between them. Where both overturn, but to
+/// different sides, a safe strip is between them, however thin. And where the margin has come
 /// nearest to 0, without reaching it, two flips may be: what is there is found by going on to its
-/// extremum. Missed can only be a strip thinner than two steps of the scan of which neither tells.
+/// extremum. Missed can only be a strip thinner than two steps of the scan of which none of these
+/// tells.
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
-                     const std::vector<double>& amplitudes, Kernel kernel);
+                     const std::vector<double>& amplitudes, Kernel kernel,
+                     std::size_t most_flips = std::numeric_limits<std::size_t>::max());
 
 /// Values of region_below and region_above beyond those of regions: no flip is there; or nobody can
 /// tell, because a verdict stays in doubt or there are more flips than rows.
