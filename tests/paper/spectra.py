@@ -1,5 +1,6 @@
 """Spectra and histories of the jobs in jobs/, computed once per process, and what their maps show:
-connected parts, and which of them touch. Wants OVERTURN (the binary) in the environment."""
+connected parts, which of them touch, and how far another restitution moves what lands. Wants
+OVERTURN (the binary) in the environment."""
 
 import contextlib
 import dataclasses
@@ -15,6 +16,9 @@ import numpy as np
 OVERTURN = os.environ["OVERTURN"]
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 COUNT = 150  # points along an axis; the paper has 100
+MOST = 0.5
+PRACTICALLY_ALL = 0.99
+VERY_FEW = 0.02
 PATIENCE = 60  # [s] for one run of the program; the longest takes half a second
 
 REGIONS = ("S", "S+", "S-", "U0+", "U0-", "U1+", "U1-", "F+", "F-")
@@ -187,3 +191,14 @@ def touching(one, other):
 def share(part, whole):
     """The share of the points of whole that are in part as well."""
     return np.count_nonzero(part & whole) / np.count_nonzero(whole)
+
+
+def output(spectrum):
+    """Where the forced stage ends, in phase space."""
+    return np.stack([spectrum.angle, spectrum.velocity])
+
+
+def moved(one, other):
+    """How far r moves the output, where both blocks rocked and reached the free stage; else 0."""
+    distance = np.hypot(*(output(one) - output(other)))
+    return np.where(one.landed & other.landed, distance, 0)

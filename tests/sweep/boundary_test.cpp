@@ -1,4 +1,5 @@
 #include "overturn/sweep/boundary.hpp"
+#include "support/every_scene.hpp"
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -155,19 +156,15 @@ Comparison compare_scans(double lowest_frequency, double highest_frequency)
     std::mt19937_64 generator(8);
     std::uniform_real_distribution<double> uniform(0, 1);
     Comparison comparison;
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
-        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            for (int i = 0; i < 8; ++i) {
-                const double alpha = 0.08 + 0.3 * uniform(generator);
-                const double r = largest_restitution(alpha) * (0.6 + 0.4 * uniform(generator));
-                const double share = uniform(generator);
-                const double frequency =
-                    lowest_frequency + share * (highest_frequency - lowest_frequency);
-                const BoundaryLine line{alpha, r, frequency};
-                const Scene scene{PulseKind(pulse), theory};
-                compare(boundary_on(scene, line, evenly(1, 12, 111), widest_kernel()),
-                        boundary_on(scene, line, evenly(1, 12, 1101), widest_kernel()), comparison);
-            }
+    for (const Scene& scene : every_scene()) {
+        for (int i = 0; i < 8; ++i) {
+            const double alpha = 0.08 + 0.3 * uniform(generator);
+            const double r = largest_restitution(alpha) * (0.6 + 0.4 * uniform(generator));
+            const double share = uniform(generator);
+            const BoundaryLine line{
+                alpha, r, lowest_frequency + share * (highest_frequency - lowest_frequency)};
+            compare(boundary_on(scene, line, evenly(1, 12, 111), widest_kernel()),
+                    boundary_on(scene, line, evenly(1, 12, 1101), widest_kernel()), comparison);
         }
     }
     return comparison;

@@ -1,5 +1,6 @@
 #include "overturn/sweep/history.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
+#include "support/every_scene.hpp"
 #include "support/random_point.hpp"
 
 #include <gtest/gtest.h>
@@ -12,39 +13,18 @@ namespace {
 const PlanePoint safe_point{
     .slenderness = 0.1745716, .restitution = 0.9, .amplitude = 1.3, .frequency = 3};
 
-std::vector<Scene> all_scenes()
-{
-    std::vector<Scene> scenes;
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
-        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            scenes.push_back({PulseKind(pulse), theory, 1.0});
-        }
-    }
-    return scenes;
-}
-
 /// Calls check(scene, point) for some points under every pulse and theory.
 template <class Check>
 void for_random_points(const Check& check)
 {
     std::mt19937_64 generator(33);
-    for (const Scene& scene : all_scenes()) {
+    for (const Scene& scene : every_scene()) {
         for (int i = 0; i < 12; ++i) {
             const Point<double> point = random_point(generator);
             check(scene, PlanePoint{point.slenderness, point.restitution, point.amplitude,
                                     point.frequency});
         }
     }
-}
-
-Plane plane_of(const PlanePoint& point)
-{
-    Plane plane;
-    plane.slenderness = Axis(AxisList{point.slenderness});
-    plane.restitution = Axis(AxisList{point.restitution});
-    plane.frequency = Axis(AxisList{point.frequency});
-    plane.amplitude = Axis(AxisList{point.amplitude});
-    return plane;
 }
 
 int count(const History& history, Event event, double until)

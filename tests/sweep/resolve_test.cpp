@@ -1,5 +1,6 @@
 // Verdicts in doubt are settled with more digits, and only those.
 #include "overturn/sweep/sweep_tile.hpp"
+#include "support/every_scene.hpp"
 #include "support/one_point.hpp"
 #include "tile_run.hpp"
 
@@ -15,16 +16,6 @@ struct Found {
     double margin, error;
     std::uint8_t flags;
 };
-
-Plane plane_of(const Point<double>& point)
-{
-    Plane plane;
-    plane.slenderness = Axis(AxisList{point.slenderness});
-    plane.restitution = Axis(AxisList{point.restitution});
-    plane.frequency = Axis(AxisList{point.frequency});
-    plane.amplitude = Axis(AxisList{point.amplitude});
-    return plane;
-}
 
 Found compute(const Numerics& numerics, const Point<double>& point)
 {
@@ -102,7 +93,7 @@ TEST(ResolvedVerdicts, AreNotGuessedWhereNoDigitsHelp)
 TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
 {
     // Without loss, from hardly lifted to thrown over.
-    Plane plane = plane_of({0.2, 1, 0, 0});
+    Plane plane = plane_of(Point<double>{0.2, 1, 0, 0});
     plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
     plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
@@ -134,7 +125,7 @@ TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
 
 TEST(FirstPass, DoubtsAVerdictUnlessItsMarginIsLargerThanItsError)
 {
-    Plane plane = plane_of({0.2, 0.9, 0, 0});
+    Plane plane = plane_of(Point<double>{0.2, 0.9, 0, 0});
     plane.frequency = Axis(AxisRange{0.3, 8, 32, Spacing::log});
     plane.amplitude = Axis(AxisRange{1.001, 20, 32, Spacing::log});
     int sure = 0;

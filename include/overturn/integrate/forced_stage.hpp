@@ -4,11 +4,11 @@
 #pragma once
 
 #include "overturn/integrate/in_doubt.hpp"
+#include "overturn/integrate/margin_error.hpp"
 #include "overturn/integrate/milestone.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
-#include "overturn/mechanics/region.hpp"
 
 #include <type_traits>
 
@@ -61,8 +61,7 @@ public:
                 InDoubt in_doubt = InDoubt::goes_on)
         : block_(block), excitation_(excitation), end_(excitation.end), zero_(S(0)),
           stepper_(block, excitation, tolerance), now_{T(excitation.begin), zero_, zero_, T(S(1))},
-          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
-          doubtful_(!active_), in_doubt_(in_doubt)
+          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_), in_doubt_(in_doubt)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -94,7 +93,7 @@ public:
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
         if constexpr (records.error) {
-            pass_errors(step, moved);
+            margin_error_.pass_step(block_, excitation_, now_, step, moved);
         }
         if constexpr (records.peak) {
             T& peak = end_of_run_.peak;
@@ -125,7 +124,10 @@ public:
     {
         ForcedEnd<T> end = end_of_run_;
         if constexpr (records.error) {
-            tell_error(end);
+            const Mask stopped = end.capped || end.not_finite;
+            const auto bound = margin_error_.at_end(block_, excitation_, now_, end.fell, stopped);
+            end.error = bound.error;
+            end.in_doubt = bound.in_doubt;
         }
         return end;
     }
@@ -188,7 +190,7 @@ private:
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
         if constexpr (records.error) {
-            pass_errors_over_impact(lanes, rests);
+            margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
         }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);
@@ -203,131 +205,16 @@ private:
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
             if constexpr (records.error) {
-                growth_.forget(rests);
+                margin_error_.forget(rests);
             }
             wait_for_uplift(rests);
         }
         stepper_.turn(now_, lanes && active_);
         if constexpr (records.error) {
             if (in_doubt_ == InDoubt::ends) {
-                finish(active_ && doubtful_);
+                finish(active_ && margin_error_.is_doubtful());
             }
         }
-    }
-
-    /// Errors grow over a step, and its own come on top.
-    void pass_errors(const WatchedStepEnd<T>& step, const Mask& lanes)
-    {
-        using arithmetic::fma;
-        using std::abs;
-        const T rounding(std::numeric_limits<S>::epsilon());
-        const T rate = abs(now_.rate) + abs(step.rate);
-        const T acceleration = abs(excitation_.acceleration) + block_.slenderness; // at most
-        // What is wrong by a rounding all the time, such as the peak of the pulse, adds up; that of
-        // the phase and the state is random.
-        const T duration = (step.phase - now_.phase) / excitation_.frequency;
-        const T late = abs(step.phase) / excitation_.frequency;
-        growth_.pass(step.errors.variation, lanes);
-        growth_.add(fma(rounding * duration, rate, step.errors.tilt),
-                    fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
-        growth_.add_round_off(T(rounding * step.tilt), T(rounding * rate), T(rounding * late),
-                              step.rate, step.errors.acceleration, lanes);
-
-        // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
-        const Mask inward = lanes && now_.rate < zero_ && step.rate > zero_ && !step.falls;
-        const Mask outward = lanes && now_.rate > zero_ && step.rate < zero_ && !step.strikes;
-        if (any<T>(inward || outward)) {
-            const T radius = growth_.bound(T(S(1)), zero_);
-            const T turn = step.errors.turning_tilt;
-            const Mask met =
-                (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
-            doubtful_ = doubtful_ || met;
-        }
-    }
-
-    /// What is known to first order is trusted as long as the square of the speed is known to a
-    /// quarter of itself; that a series of bounces dies out, to a 64th. A block that stood on its
-    /// edge for long before it came back may as well have overturned: its distance from the top has
-    /// grown since, like its error, which must still be small beside alpha.
-    void pass_errors_over_impact(const Mask& lanes, const Mask& rests)
-    {
-        const T push = now_.side * excitation_.ground(now_.phase);
-        const T before = rocking_acceleration<theory>(zero_, block_.slenderness, push);
-        const T after = rocking_acceleration<theory>(zero_, block_.slenderness, T(-push));
-        const T speed = select<T>(lanes && now_.rate < zero_, -now_.rate, T(S(1)));
-        const T square_error = growth_.bound(T(before + before), T(speed + speed));
-        const T share = select<T>(rests, T(S(64)), T(S(4)));
-        const T radius = growth_.bound(T(S(1)), zero_);
-        const Mask known =
-            share * square_error < speed * speed && T(S(4)) * radius < block_.slenderness;
-        doubtful_ = doubtful_ || (lanes && !(known && now_.rate < zero_));
-        growth_.forget(doubtful_); // it would only grow to numbers that are too large
-        growth_.pass(variation_over_impact<T>(sqrt_restitution_, speed, before, after), lanes);
-    }
-
-    /// Bound of the error of the margin where the lanes are, and whether it could turn the verdict.
-    void tell_error(ForcedEnd<T>& end) const
-    {
-        using arithmetic::fma;
-        using std::abs;
-        using std::sqrt;
-        const State<T> state{now_.tilt, now_.rate, now_.side};
-        const T radius = growth_.bound(T(S(1)), zero_);
-        const T largest = separatrix_rate<theory>(zero_, block_.slenderness);
-        const T roundings(8 * std::numeric_limits<S>::epsilon());
-
-        // The margin is the smaller of two distances, and either may turn out smaller than it
-        // looks. The lower one is convex in c, so its gradient is largest at one end of what c may
-        // be.
-        const SafeRates<T> safe = safe_rates<theory>(state.tilt, block_);
-        const T slope = separatrix_slope<theory>(state.tilt, block_.slenderness);
-        const auto round_off = [&](const T& limit) -> T {
-            return roundings * (abs(state.rate) + abs(limit)) / largest;
-        };
-        const auto below_gradient = [&](const T& c) -> T {
-            const T inward = sqrt(fma(c, c, safe.minus_q_min));
-            return c / select<T>(inward > zero_, inward, largest);
-        };
-        const T one(S(1));
-        const T above = (safe.outward - state.rate) / largest;
-        const T below = (state.rate + safe.inward) / largest;
-        const T above_error = growth_.bound(slope, -one) / largest + round_off(safe.outward);
-        const T below_error =
-            greater<T>(growth_.bound(T(slope * below_gradient(safe.outward - radius)), one),
-                       growth_.bound(T(slope * below_gradient(safe.outward + radius)), one)) /
-                largest +
-            round_off(safe.inward);
-        const T margin = lesser<T>(above, below);
-        const T standing =
-            greater<T>(below_error - (below - margin), above_error - (above - margin));
-        // Just before an impact and just after, the margin differs by sqrt r.
-        const T jump = abs(margin) * (one / sqrt_restitution_ - one);
-        const T near_impact = select<T>(state.tilt < radius, jump, zero_);
-
-        // On its way to pi/2, at the acceleration a, the square of its speed v changes by
-        // 2 v d(rate) - 2 a d(tilt).
-        const T push = now_.side * excitation_.ground(now_.phase);
-        const T pull = -rocking_acceleration<theory>(now_.tilt, block_.slenderness, push);
-        const T lying = (growth_.bound(T(pull + pull), T(now_.rate + now_.rate)) +
-                         roundings * now_.rate * now_.rate) /
-                        (largest * largest);
-        // Whether it lies before the pulse ends.
-        const T left = (end_ - now_.phase) / excitation_.frequency;
-        const Mask& fell = end_of_run_.fell;
-        const Mask either =
-            (fell && left * now_.rate < radius) || (!fell && T(pi<S>() / 2) - now_.tilt < radius);
-        // Nor whether it lies at all, unless it comes down with some energy. That is bounded away
-        // from zero, its distance from the separatrix is not: that distance has grown like the
-        // error, which must be a small share of it.
-        const Mask barely = fell && !(T(S(4)) * standing < abs(margin) &&
-                                      lying * largest * largest < now_.rate * now_.rate);
-        const T error = select<T>(fell, lying, standing + near_impact);
-        const Mask known = growth_.bound(T(S(1)), T(S(1))) < T(unknown_error<S> * S(0x1p-100));
-        const Mask unknown = doubtful_ || end_of_run_.capped || end_of_run_.not_finite || either ||
-                             barely || !known || !(error == error);
-        end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
-        end.in_doubt =
-            !(end.error < abs(select<T>(fell, margin_of_fall<theory>(now_.rate, block_), margin)));
     }
 
     const Block<T> block_;
@@ -342,12 +229,12 @@ private:
     Mask active_;
     ForcedEnd<T> end_of_run_;
 
-    struct NoGrowth {};
+    struct NoError {};
     struct NoMilestones {};
-    [[no_unique_address]] std::conditional_t<records.error, ErrorGrowth<T>, NoGrowth> growth_;
+    [[no_unique_address]] std::conditional_t<records.error, MarginError<theory, T>, NoError>
+        margin_error_;
     [[no_unique_address]] std::conditional_t<records.milestones, Milestones<T>, NoMilestones>
         milestones_;
-    Mask doubtful_; // an event may or may not have happened
     InDoubt in_doubt_;
 };
 

@@ -1,0 +1,169 @@
+// How wrong the margin of a run may be, to first order: the local errors of its steps, passed on by
+// the linearised motion over steps and impacts, and what they come to in the margin (Eqs. 11-20).
+#pragma once
+
+#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/region.hpp"
+
+namespace overturn {
+
+/// What is known of a margin.
+template <Number T>
+struct MarginBound {
+    T error;            ///< at most, to first order; infinite where unknown [1]
+    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
+};
+
+template <Theory theory, Number T>
+class MarginError {
+    using S = scalar_t<T>;
+    using Mask = mask_t<T>;
+
+public:
+    /// Whether an event may or may not have happened: no error is known any more.
+    const Mask& is_doubtful() const { return doubtful_; }
+
+    /// Of a block at rest nothing is left of former errors.
+    void forget(const Mask& lanes) { growth_.forget(lanes); }
+
+    /// Errors grow over a step, and its own come on top.
+    template <class Pulse>
+    void pass_step(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+                   const Rocking<T>& now, const WatchedStepEnd<T>& step, const Mask& lanes)
+    {
+        using arithmetic::fma;
+        using std::abs;
+        const T rounding(std::numeric_limits<S>::epsilon());
+        const T rate = abs(now.rate) + abs(step.rate);
+        const T acceleration = abs(excitation.acceleration) + block.slenderness; // at most
+        // What is wrong by a rounding all the time, such as the peak of the pulse, adds up; that of
+        // the phase and the state is random.
+        const T duration = (step.phase - now.phase) / excitation.frequency;
+        const T late = abs(step.phase) / excitation.frequency;
+        growth_.pass(step.errors.variation, lanes);
+        growth_.add(fma(rounding * duration, rate, step.errors.tilt),
+                    fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
+        growth_.add_round_off(T(rounding * step.tilt), T(rounding * rate), T(rounding * late),
+                              step.rate, step.errors.acceleration, lanes);
+
+        // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
+        const Mask inward = lanes && now.rate < zero_ && step.rate > zero_ && !step.falls;
+        const Mask outward = lanes && now.rate > zero_ && step.rate < zero_ && !step.strikes;
+        if (any<T>(inward || outward)) {
+            const T radius = growth_.bound(T(S(1)), zero_);
+            const T turn = step.errors.turning_tilt;
+            const Mask met =
+                (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
+            doubtful_ = doubtful_ || met;
+        }
+    }
+
+    /// What is known to first order is trusted as long as the square of the speed is known to a
+    /// quarter of itself; that a series of bounces dies out, to a 64th. A block that stood on its
+    /// edge for long before it came back may as well have overturned: its distance from the top has
+    /// grown since, like its error, which must still be small beside alpha.
+    template <class Pulse>
+    void pass_impact(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+                     const Rocking<T>& now, const Mask& lanes, const Mask& rests)
+    {
+        using std::sqrt;
+        const T push = now.side * excitation.ground(now.phase);
+        const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
+        const T after = rocking_acceleration<theory>(zero_, block.slenderness, T(-push));
+        const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
+        const T square_error = growth_.bound(T(before + before), T(speed + speed));
+        const T share = select<T>(rests, T(S(64)), T(S(4)));
+        const T radius = growth_.bound(T(S(1)), zero_);
+        const Mask known =
+            share * square_error < speed * speed && T(S(4)) * radius < block.slenderness;
+        doubtful_ = doubtful_ || (lanes && !(known && now.rate < zero_));
+        growth_.forget(doubtful_); // it would only grow to numbers that are too large
+        growth_.pass(variation_over_impact<T>(sqrt(block.restitution), speed, before, after),
+                     lanes);
+    }
+
+    /// Where the lanes have ended. fell: |theta| reached pi/2; stopped: the state means nothing.
+    template <class Pulse>
+    MarginBound<T> at_end(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+                          const Rocking<T>& now, const Mask& fell, const Mask& stopped) const
+    {
+        using std::abs;
+        using std::sqrt;
+        const T one(S(1));
+        const T radius = growth_.bound(one, zero_);
+        const T largest = separatrix_rate<theory>(zero_, block.slenderness);
+        const Distance standing = distance_to_separatrix(block, now, radius, largest);
+        // Just before an impact and just after, the margin differs by sqrt r.
+        const T jump = abs(standing.margin) * (one / sqrt(block.restitution) - one);
+        const T near_impact = select<T>(now.tilt < radius, jump, zero_);
+
+        // On its way to pi/2, at the acceleration a, the square of its speed v changes by
+        // 2 v d(rate) - 2 a d(tilt).
+        const T push = now.side * excitation.ground(now.phase);
+        const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
+        const T lying = (growth_.bound(T(pull + pull), T(now.rate + now.rate)) +
+                         roundings() * now.rate * now.rate) /
+                        (largest * largest);
+        // Whether it lies before the pulse ends.
+        const T left = (excitation.end - now.phase) / excitation.frequency;
+        const Mask either =
+            (fell && left * now.rate < radius) || (!fell && T(pi<S>() / 2) - now.tilt < radius);
+        // Nor whether it lies at all, unless it comes down with some energy. That is bounded away
+        // from zero, its distance from the separatrix is not: that distance has grown like the
+        // error, which must be a small share of it.
+        const Mask barely = fell && !(T(S(4)) * standing.error < abs(standing.margin) &&
+                                      lying * largest * largest < now.rate * now.rate);
+        const T error = select<T>(fell, lying, standing.error + near_impact);
+        const Mask known = growth_.bound(one, one) < T(unknown_error<S> * S(0x1p-100));
+        const Mask unknown =
+            doubtful_ || stopped || either || barely || !known || !(error == error);
+        const T bound = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
+        const T margin = select<T>(fell, margin_of_fall<theory>(now.rate, block), standing.margin);
+        return {bound, !(bound < abs(margin))};
+    }
+
+private:
+    static T roundings() { return T(8 * std::numeric_limits<S>::epsilon()); }
+
+    struct Distance {
+        T margin;
+        T error;
+    };
+
+    /// The margin is the smaller of two distances, and either may turn out smaller than it looks.
+    /// The lower one is convex in c, so its gradient is largest at one end of what c may be.
+    Distance distance_to_separatrix(const Block<T>& block, const Rocking<T>& now, const T& radius,
+                                    const T& largest) const
+    {
+        using arithmetic::fma;
+        using std::abs;
+        using std::sqrt;
+        const T one(S(1));
+        const SafeRates<T> safe = safe_rates<theory>(now.tilt, block);
+        const T slope = separatrix_slope<theory>(now.tilt, block.slenderness);
+        const auto round_off = [&](const T& limit) -> T {
+            return roundings() * (abs(now.rate) + abs(limit)) / largest;
+        };
+        const auto below_gradient = [&](const T& c) -> T {
+            const T inward = sqrt(fma(c, c, safe.minus_q_min));
+            return c / select<T>(inward > zero_, inward, largest);
+        };
+        const T above = (safe.outward - now.rate) / largest;
+        const T below = (now.rate + safe.inward) / largest;
+        const T above_error = growth_.bound(slope, -one) / largest + round_off(safe.outward);
+        const T below_error =
+            greater<T>(growth_.bound(T(slope * below_gradient(safe.outward - radius)), one),
+                       growth_.bound(T(slope * below_gradient(safe.outward + radius)), one)) /
+                largest +
+            round_off(safe.inward);
+        const T margin = lesser<T>(above, below);
+        return {margin, greater<T>(below_error - (below - margin), above_error - (above - margin))};
+    }
+
+    T zero_ = T(S(0));
+    ErrorGrowth<T> growth_;
+    Mask doubtful_ = !(zero_ == zero_); // an event may or may not have happened
+};
+
+} // namespace overturn
