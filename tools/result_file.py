@@ -1,5 +1,6 @@
 """Result files as the drawing tools read them, and what they say if one cannot be drawn."""
 
+import json
 import pathlib
 import sys
 import textwrap
@@ -9,6 +10,7 @@ import h5py
 USAGE, FILE = 2, 74  # exit codes, as those of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 PICTURES = (".png", ".pdf", ".svg")
+PANELS = "overturn:panels"  # the text in a PNG that tells where its panels lie
 
 
 class PlotError(Exception):
@@ -66,7 +68,20 @@ def name_picture(parser, arguments, default=None):
         parser.error(f"\"{arguments.output}\" should end in .png, .pdf or .svg")
 
 
-def save(figure, path, **how):
+def place_of(panel, shows):
+    """Where a panel lies, as shares of its picture from the top left, and the values at its edges:
+    so that others can tell what a pixel shows, or mark a value."""
+    box = panel.get_position()
+    return {"shows": shows, "left": box.x0, "right": box.x1, "top": 1 - box.y1,
+            "bottom": 1 - box.y0,
+            "across": {"limits": list(map(float, panel.get_xlim())), "scale": panel.get_xscale()},
+            "up": {"limits": list(map(float, panel.get_ylim())), "scale": panel.get_yscale()}}
+
+
+def save(figure, path, places=(), **how):
+    """A PNG also tells the places of its panels."""
+    if places and pathlib.Path(path).suffix == ".png":
+        how["metadata"] = {PANELS: json.dumps(places)}
     try:
         figure.savefig(path, **how)
     except OSError as error:
