@@ -41,6 +41,7 @@ constexpr const char* overview = R"(Examples:
   overturn run jobs/smoke.toml
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5
   overturn info smoke.h5
+  overturn verify smoke.h5
   overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
   overturn boundary jobs/smoke.toml
 
@@ -90,6 +91,12 @@ over time. The pulse is integrated as finely as doubles allow, whatever [numeric
 constexpr const char* info_help = R"(Example:
   overturn info smoke.h5)";
 
+constexpr const char* verify_help = R"(Example:
+  overturn verify smoke.h5
+
+Reads every value, and compares each tile with the checksum that marks it as done. Exit code 0: all that
+is there is as it was written; 74: some is not. A run with the same job computes damaged tiles again.)";
+
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
     command.add_option("JOB", job.path, "The job file (TOML)")->required();
@@ -112,6 +119,14 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
                     "Lanes to compute with; changes the speed, but no byte of the result")
         ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
         ->capture_default_str();
+    command.add_flag("--durable", options.durable,
+                     "Bring each tile to the disk before it counts as done, so that it outlasts a "
+                     "loss of power; slower");
+    command
+        .add_option("--patience", options.patience,
+                    "End the run, resumable, if nothing is heard of a rank for so long [s]")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
 }
 
 /// Everything that the options are parsed into: it must live as long as the parser.
@@ -122,6 +137,7 @@ struct Arguments {
     AccuracyOptions accuracy;
     HistoryOptions history;
     std::string info;
+    std::string verify;
 };
 
 } // namespace
@@ -195,6 +211,11 @@ Command read_command_line(int argc, const char* const* argv)
     info_command->footer(info_help);
     info_command->add_option("FILE", arguments->info, "The result file")->required();
 
+    CLI::App* const verify_command =
+        app.add_subcommand("verify", "Tell whether a result file is as it was written");
+    verify_command->footer(verify_help);
+    verify_command->add_option("FILE", arguments->verify, "The result file")->required();
+
     const auto is_meant = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(is_meant).empty()) {
         throw UsageError(
@@ -226,6 +247,9 @@ Command read_command_line(int argc, const char* const* argv)
     }
     if (history_command->parsed()) {
         return {.execute = [arguments] { return history(arguments->history); }};
+    }
+    if (verify_command->parsed()) {
+        return {.execute = [arguments] { return verify(arguments->verify); }};
     }
     return {.execute = [arguments] { return info(arguments->info); }};
 }

@@ -17,6 +17,8 @@ struct RunOptions {
     JobSource job;
     std::string output; ///< path of the result file; empty: the job's name in the working directory
     std::string kernel = "auto";
+    bool durable = false;  ///< tiles outlast a loss of power
+    int patience = 300;    ///< with a rank of which nothing is heard [s]
     bool boundary = false; ///< where verdicts flip, instead of a spectrum
 };
 int run(const RunOptions& options);
@@ -45,5 +47,8 @@ int history(const HistoryOptions& options);
 
 /// Tells what a result file holds.
 int info(const std::string& path);
+
+/// Reads all values of a result file, and tells which tiles are not as they were written.
+int verify(const std::string& path);
 
 } // namespace overturn

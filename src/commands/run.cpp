@@ -11,12 +11,14 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -37,8 +39,10 @@ struct Task {
     const Job& job;
     const Tiling tiling;
     const std::string path;
+    const RunOptions& options;
     const Kernel kernel;
-    const Clock::time_point start; ///< of the program
+    const Clock::time_point start;           ///< of the program
+    const std::vector<std::int64_t> damaged; ///< tiles of the file; on rank 0
 
     bool leads() const { return session.rank() == 0; }
     /// Points of a spectrum, or lines of a boundary.
@@ -90,26 +94,41 @@ Kernel kernel_of(const RunOptions& options)
                                  options.kernel, name_of(widest_kernel())));
 }
 
-/// Makes sure that a file for the job stands at the path. Returns go_on, or the exit code if there
-/// is nothing left to do.
-int prepare_output(const Job& job, const std::string& path)
+/// What stands at the output path once it is prepared.
+struct Prepared {
+    int verdict = go_on;               ///< or the exit code, if there is nothing left to do
+    std::vector<std::int64_t> damaged; ///< tiles to be computed again
+};
+
+/// Makes sure that a file for the job stands at the path, and that what is marked as done in it can
+/// be trusted: a machine that lost its power may have kept the mark and lost the values.
+Prepared prepare_output(const Job& job, const std::string& path)
 {
     const Tiling tiling = tiling_of(job);
-    switch (examine(path, job, tiling)) {
-    case Existing::complete: say(path + " is complete already."); return exit_code::complete;
-    case Existing::nothing: create_spectrum_file(path, job, tiling); break;
-    case Existing::unfinished: break;
+    const Existing existing = examine(path, job, tiling);
+    if (existing == Existing::nothing) {
+        create_spectrum_file(path, job, tiling);
+        return {};
     }
-    return go_on;
+    Prepared prepared{.verdict = go_on, .damaged = damaged_tiles(path)};
+    if (existing == Existing::complete && prepared.damaged.empty()) {
+        say(path + " is complete already.");
+        prepared.verdict = exit_code::complete;
+    }
+    return prepared;
 }
 
 std::string beginning(const Task& task, std::int64_t tiles_before)
 {
-    const std::string what =
+    std::string what =
         tiles_before == 0
             ? fmt::format("{} {} in {} tiles", human_count(double(task.items())), task.item_name(),
                           task.tiling.size())
             : fmt::format("going on, {} of {} tiles are there", tiles_before, task.tiling.size());
+    if (!task.damaged.empty()) {
+        what += fmt::format(", {} damaged {} computed again", task.damaged.size(),
+                            task.damaged.size() == 1 ? "tile is" : "tiles are");
+    }
     return fmt::format("{}: {}; {} rank{}, kernel {}", task.path, what, task.session.size(),
                        task.session.size() == 1 ? "" : "s", name_of(task.kernel));
 }
@@ -142,21 +161,29 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
     TileFields fields;
     const TileWork tile_work{
         .compute =
-            [&](std::int64_t number) {
+            [&](std::int64_t number, const DropRequested& drop_requested) {
                 const Tile tile = task.tiling[number];
-                fields = job.product == Product::boundary
-                             ? boundary_tile(job.scene, job.plane, scan, tile, task.kernel)
-                             : sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
-                                          task.kernel);
+                try {
+                    fields = job.product == Product::boundary
+                                 ? boundary_tile(job.scene, job.plane, scan, tile, task.kernel,
+                                                 drop_requested)
+                                 : sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
+                                              task.kernel, drop_requested);
+                } catch (const TileDropped&) {
+                    return false;
+                }
+                return true;
             },
         .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
     return farm_out(
         task.session, missing, tile_work,
         [&](std::int64_t done) { progress.update(task.items(tiles_before + done)); },
-        StopSignals::requested);
+        {StopSignals::requested, StopSignals::overdue},
+        std::chrono::seconds(task.options.patience));
 }
 
-void write_record(const Task& task, const FarmReport& report, double seconds)
+void write_record(const Task& task, const std::vector<std::string>& hosts, const FarmReport& report,
+                  double seconds)
 {
     RunRecord record;
     record.start = task.start;
@@ -164,7 +191,6 @@ void write_record(const Task& task, const FarmReport& report, double seconds)
     record.kernel = name_of(task.kernel);
     record.requests = report.dealing.requests;
     record.dealing_seconds = report.dealing.seconds;
-    const std::vector<std::string> hosts = task.session.host_names();
     for (std::size_t rank = 0; rank < hosts.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
         record.ranks.push_back(
@@ -175,19 +201,41 @@ void write_record(const Task& task, const FarmReport& report, double seconds)
     }
 }
 
+/// Ends all ranks if one is not heard of any more.
+FarmReport compute_or_tell_who_is_silent(const Task& task, const std::vector<std::string>& hosts,
+                                         const std::vector<std::int64_t>& missing,
+                                         SpectrumFile& file)
+{
+    try {
+        return compute_tiles(task, missing, file);
+    } catch (const SilentRank& silent) {
+        const std::string host =
+            hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank())]);
+        task.session.abort(
+            exit_code::stopped,
+            fmt::format("{}{}: it was stopped, its disk hangs, or its host cannot be reached. What "
+                        "was computed is kept; run the same command again to resume.",
+                        silent.what(), host));
+    }
+}
+
 int compute_what_is_missing(const Task& task)
 {
-    SpectrumFile file(task.path, task.session.communicator(), task.job);
+    SpectrumFile file(task.path, task.session.communicator(), task.job,
+                      task.options.durable ? Durability::on_disk : Durability::written);
     std::vector<std::int64_t> missing;
     if (task.leads()) {
         missing = file.missing_tiles();
+        missing.insert(missing.end(), task.damaged.begin(), task.damaged.end());
+        std::sort(missing.begin(), missing.end());
         say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
     }
-    const FarmReport report = compute_tiles(task, missing, file);
+    const std::vector<std::string> hosts = task.session.host_names();
+    const FarmReport report = compute_or_tell_who_is_silent(task, hosts, missing, file);
     file.close();
 
     const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-    write_record(task, report, seconds);
+    write_record(task, hosts, report, seconds);
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (report.stopped) {
@@ -215,18 +263,18 @@ int run(const RunOptions& options)
     // Rank 0 looks first. What it finds wrong is said once, and all ranks leave with it; what goes
     // wrong on a single rank after that stops the others.
     std::optional<SoleWriter> sole_writer;
-    int verdict = go_on;
+    Prepared prepared;
     if (session.rank() == 0) {
         try {
             kernel_of(options); // throws if it does not run here
             job = read_job_of(options);
             sole_writer.emplace(path);
-            verdict = prepare_output(job, path);
+            prepared = prepare_output(job, path);
         } catch (const std::exception& error) {
-            verdict = complain(error);
+            prepared.verdict = complain(error);
         }
     }
-    verdict = session.from_rank_0(verdict);
+    const int verdict = session.from_rank_0(prepared.verdict);
     if (verdict != go_on) {
         return verdict;
     }
@@ -237,8 +285,8 @@ int run(const RunOptions& options)
         if (session.from_rank_0(job.resolved) != job.resolved) {
             throw JobError(options.job.path + " is another job here than on rank 0.");
         }
-        return compute_what_is_missing(
-            {session, job, tiling_of(job), path, kernel_of(options), start});
+        return compute_what_is_missing({session, job, tiling_of(job), path, options,
+                                        kernel_of(options), start, prepared.damaged});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

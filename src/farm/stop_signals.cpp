@@ -1,13 +1,17 @@
 #include "overturn/farm/stop_signals.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <initializer_list>
+#include <optional>
 
 namespace overturn {
 
 namespace {
 
 volatile std::sig_atomic_t stop_flag = 0; // the only thing that a signal handler may write
+std::optional<std::chrono::steady_clock::time_point> noticed;
+constexpr std::chrono::seconds patience{1};
 
 extern "C" void raise_stop_flag(int)
 {
@@ -28,6 +32,7 @@ void listen(int signal, void (*handler)(int), int flags)
 StopSignals::StopSignals()
 {
     stop_flag = 0;
+    noticed.reset();
     // Restart: a write of a tile must not fail because a signal came.
     listen(SIGUSR1, raise_stop_flag, SA_RESTART);
     listen(SIGTERM, raise_stop_flag, SA_RESTART);
@@ -44,6 +49,18 @@ StopSignals::~StopSignals()
 bool StopSignals::requested()
 {
     return stop_flag != 0;
+}
+
+bool StopSignals::overdue()
+{
+    if (!requested()) {
+        return false;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (!noticed) {
+        noticed = now;
+    }
+    return now - *noticed >= patience;
 }
 
 } // namespace overturn

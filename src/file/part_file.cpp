@@ -1,5 +1,6 @@
 #include "part_file.hpp"
 
+#include "sync.hpp"
 #include "system_reason.hpp"
 
 #include "overturn/file/file_error.hpp"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <fcntl.h>
 #include <filesystem>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -15,21 +15,6 @@
 namespace overturn {
 
 namespace {
-
-/// Waits until the file or folder is on the disk.
-bool sync(const std::string& path)
-{
-    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return false;
-    }
-    const int result = fsync(descriptor);
-    const int reason = errno;
-    close(descriptor);
-    errno = reason;
-    // Some file systems cannot sync a folder, and say so with EINVAL.
-    return result == 0 || reason == EINVAL;
-}
 
 std::string folder_of(const std::string& path)
 {

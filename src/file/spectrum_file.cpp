@@ -2,6 +2,7 @@
 
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
+#include "sync.hpp"
 #include "system_reason.hpp"
 #include "tile_access.hpp"
 #include "tile_checksum.hpp"
@@ -29,7 +30,10 @@ struct SpectrumFile::Open {
     Handle file;
     std::vector<Handle> datasets; ///< in the order of `fields`
     Handle checksums;
+    Durability durability;
 
+    /// If a loss of power matters.
+    void bring_to_disk() const;
     FileError cannot_write(const Tile& tile, std::string_view dataset,
                            const hdf5::Hdf5Error& error) const;
 };
@@ -50,10 +54,21 @@ FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view da
                     reason == ENOSPC || reason == EDQUOT ? "Free some and run" : "Run"));
 }
 
-SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job)
+void SpectrumFile::Open::bring_to_disk() const
+{
+    // MPI-IO has handed each write to the system when it returns; its own sync would want all ranks
+    // at once.
+    if (durability == Durability::on_disk && !sync(path)) {
+        throw hdf5::Hdf5Error("the disk did not take it");
+    }
+}
+
+SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job,
+                           Durability durability)
     : open_(std::make_unique<Open>())
 {
     open_->path = path;
+    open_->durability = durability;
     open_->fields = job.fields;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // MPI-IO would say "invalid access mode".
@@ -108,6 +123,7 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
             dataset = name_of(open_->fields[i]);
             write_tile(open_->datasets[i], tile, open_->fields[i], fields.values[i]);
         }
+        open_->bring_to_disk();
         dataset = layout::checksum;
         write_checksum(open_->checksums, tile.number, tile_checksum(fields.values));
     } catch (const hdf5::Hdf5Error& error) {
@@ -122,6 +138,7 @@ void SpectrumFile::close()
         open_->checksums.close();
         check(H5Fflush(open_->file, H5F_SCOPE_GLOBAL));
         open_->file.close();
+        open_->bring_to_disk();
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
             fmt::format("cannot bring all of \"{}\" to the disk: {}. What it holds cannot "

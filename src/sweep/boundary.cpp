@@ -38,8 +38,8 @@ struct Probe {
 
 class Line {
 public:
-    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel)
-        : scene_(scene), kernel_(kernel)
+    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested)
+        : scene_(scene), kernel_(kernel), drop_requested_(drop_requested)
     {
         plane_.slenderness = Axis(AxisList{line.slenderness});
         plane_.restitution = Axis(AxisList{line.restitution});
@@ -52,7 +52,7 @@ public:
         Tile tile;
         tile.amplitude_count = std::int64_t(amplitudes.size());
         tile.frequency_count = 1;
-        const TileRun run(scene_, plane_, tile, kernel_);
+        const TileRun run(scene_, plane_, tile, kernel_, drop_requested_);
         Ends ends = ends_of(run, numerics, {.impacts = true});
         const std::vector<std::uint8_t> regions = run.regions(ends);
         const std::vector<double> margins = run.margins(ends);
@@ -73,6 +73,7 @@ public:
 private:
     Scene scene_;
     Kernel kernel_;
+    DropRequested drop_requested_;
     Plane plane_;
     int doubts_ = 0;
 };
@@ -268,9 +269,10 @@ void find_what_hides_between(Line& line, std::vector<Probe>& probes)
 } // namespace
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
-                     const std::vector<double>& amplitudes, Kernel kernel, std::size_t most_flips)
+                     const std::vector<double>& amplitudes, Kernel kernel, std::size_t most_flips,
+                     DropRequested drop_requested)
 {
-    Line line(scene, where, kernel);
+    Line line(scene, where, kernel, drop_requested);
     std::vector<Probe> probes =
         looked_at_more_closely(line, line.at(amplitudes, scanning), most_flips);
     find_what_hides_between(line, probes);
@@ -292,7 +294,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
 }
 
 TileFields boundary_tile(const Scene& scene, const Plane& plane,
-                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel)
+                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
+                         DropRequested drop_requested)
 {
     const auto points = std::size_t(tile.points());
     std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
@@ -305,7 +308,8 @@ TileFields boundary_tile(const Scene& scene, const Plane& plane,
             .slenderness = plane.slenderness[tile.slenderness],
             .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
             .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
-        const Boundary boundary = boundary_on(scene, line, amplitudes, kernel, rows);
+        const Boundary boundary =
+            boundary_on(scene, line, amplitudes, kernel, rows, drop_requested);
         const bool known = boundary.complete && !boundary.has_more;
         for (std::size_t row = 0; row < rows; ++row) {
             const std::size_t point = row * columns + column;

@@ -102,6 +102,10 @@ Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
     return excitation;
 }
 
+/// Steps of a pack between two looks at whether the tile is to be dropped: some milliseconds. A
+/// pack may take a million.
+constexpr int turns_between_looks = 4096;
+
 template <class Method, Theory theory, Records records>
 void sweep(const TilePoints& points, const PointEnds& ends)
 {
@@ -110,10 +114,16 @@ void sweep(const TilePoints& points, const PointEnds& ends)
         return ForcedStage<Method, Pulse, theory, records, T>(block, excitation_from(points, first),
                                                               points.tolerance, points.in_doubt);
     };
+    int turns = turns_between_looks;
     for (int first = 0; first < points.chosen_count; first += packs_in_turns * lanes) {
         std::array stages{stage_from(first), stage_from(first + lanes)};
         static_assert(stages.size() == packs_in_turns);
-        run_in_turns(stages);
+        while (run_in_turns(stages, turns)) {
+            if (points.drop_requested(points.context)) {
+                return;
+            }
+            turns = turns_between_looks;
+        }
         for (int i = 0; i < packs_in_turns; ++i) {
             store<records>(stages[i].end(), points, first + i * lanes, ends);
         }

@@ -26,6 +26,9 @@ struct TilePoints {
 
     const int* chosen; ///< which points to compute, counted row by row; nullptr: all
     int chosen_count;
+
+    bool (*drop_requested)(const void* context); ///< asked now and then: leave the rest alone?
+    const void* context;
 };
 
 /// How a point left the forced stage, in the bits of PointEnds::flags.

@@ -70,12 +70,13 @@ FieldValues field_values(Field field, const TileRun& tile, Ends& ends)
 } // namespace
 
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel)
+                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
+                      DropRequested drop_requested)
 {
     const auto wanted = [&](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const TileRun run(scene, plane, tile, kernel);
+    const TileRun run(scene, plane, tile, kernel, drop_requested);
     Ends ends = ends_of(run, numerics,
                         {.impacts = wanted(Field::impacts),
                          .error = wanted(Field::error),

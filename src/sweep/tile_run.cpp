@@ -64,12 +64,14 @@ PointEnds Ends::pointers()
             unless_empty(steps), unless_empty(phase),   unless_empty(peak)};
 }
 
-TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel)
+TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel,
+                 DropRequested drop_requested)
     : scene_(scene), plane_(plane),
       tile_(tile), block_{plane.slenderness[tile.slenderness],
                           plane.restitution_ratio(tile.slenderness, tile.restitution)},
-      kernel_(kernel), frequency_(plane.frequency.values(
-                           tile.frequency_begin, tile.frequency_begin + tile.frequency_count))
+      kernel_(kernel), drop_requested_(std::move(drop_requested)),
+      frequency_(
+          plane.frequency.values(tile.frequency_begin, tile.frequency_begin + tile.frequency_count))
 {
     const double threshold = with_theory(scene.theory, [&]<Theory theory>() {
         return uplift_acceleration<theory>(block_.slenderness);
@@ -84,6 +86,13 @@ TileRun::TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kerne
             uplifts_.insert(uplifts_.end(), phases.begin(), phases.end());
         }
     });
+}
+
+void TileRun::heed_drop() const
+{
+    if (drop_requested_ && drop_requested_()) {
+        throw TileDropped();
+    }
 }
 
 void TileRun::run(const Numerics& numerics, Ends& ends, InDoubt in_doubt) const
@@ -113,7 +122,14 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
                             .tolerance = numerics.tolerance,
                             .in_doubt = in_doubt,
                             .chosen = chosen,
-                            .chosen_count = count};
+                            .chosen_count = count,
+                            .drop_requested =
+                                [](const void* context) {
+                                    const auto& requested =
+                                        *static_cast<const DropRequested*>(context);
+                                    return requested && requested();
+                                },
+                            .context = &drop_requested_};
     const Recorded recorded = !ends.error.empty()     ? Recorded::error
                               : !ends.peak.empty()    ? Recorded::peak
                               : !ends.impacts.empty() ? Recorded::impacts
@@ -121,11 +137,13 @@ void TileRun::run(const Numerics& numerics, const int* chosen, int count, Ends& 
     const SweepKernelChoice choice = kernels[std::size_t(kernel_)][std::size_t(scene_.pulse)];
     const SweepKernel sweep = choice(integrator_of(numerics), scene_.theory, recorded);
     sweep(points, ends.pointers());
+    heed_drop(); // or some ends may be missing
 }
 
 template <class T>
 void TileRun::run_exactly(int point, Ends& ends) const
 {
+    heed_drop();
     const int columns = int(frequency_.size());
     const ExactEnd end = exact_end<T>(
         scene_, {.slenderness = block_.slenderness,

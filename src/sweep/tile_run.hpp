@@ -7,6 +7,7 @@
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
 #include "overturn/sweep/tile.hpp"
 
 #include <vector>
@@ -49,10 +50,12 @@ struct Ends {
     std::vector<int> unresolved;       ///< points that stay in doubt
 };
 
-/// One tile, made ready to run; of a plane that lives longer.
+/// One tile, made ready to run; of a plane that lives longer. Whatever takes long throws
+/// TileDropped once it is requested.
 class TileRun {
 public:
-    TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel);
+    TileRun(const Scene& scene, const Plane& plane, const Tile& tile, Kernel kernel,
+            DropRequested drop_requested = nullptr);
 
     int points() const { return int(tile_.points()); }
 
@@ -78,6 +81,7 @@ public:
     std::vector<double> fall_times(Ends& ends) const;
 
 private:
+    void heed_drop() const;
     void run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
              InDoubt in_doubt) const;
     double first_uplift(std::size_t row) const;
@@ -87,6 +91,7 @@ private:
     Tile tile_;
     Block<double> block_;
     Kernel kernel_;
+    DropRequested drop_requested_;
     std::vector<double> acceleration_, uplifts_, frequency_;
     double begin_, end_;
 };

@@ -39,8 +39,8 @@ fields = ["region", "angle", "velocity", "margin", "impacts", "status"]
 
 # 2 x 3 x 4 tiles, some of them cut off at the far edges: a moment's work.
 SMALL = JOB.format(columns=200, rows=150, restitutions="[0.7, 1.0]", tolerance="1e-6")
-# 3 x 9 x 9 tiles: some seconds, so that a signal comes in the midst of them.
-LONG = JOB.format(columns=576, rows=576, restitutions="[0.7, 0.85, 1.0]", tolerance="1e-13")
+# 3 x 7 x 7 tiles: some seconds, so that a signal comes in the midst of them.
+LONG = JOB.format(columns=448, rows=448, restitutions="[0.7, 0.85, 1.0]", tolerance="1e-13")
 
 
 def checksum(path):
@@ -49,6 +49,12 @@ def checksum(path):
 
 def under_mpi(ranks):
     return [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
+
+
+def children(pid):
+    """Of mpirun: its ranks, in their order."""
+    return [int(child) for child in
+            pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
 def words(text):

@@ -13,6 +13,8 @@ namespace overturn {
 namespace {
 
 const auto never = [] { return false; };
+const StopRequest no_stop{never, never};
+constexpr std::chrono::seconds patience{60};
 const auto no_progress = [](std::int64_t) {};
 
 /// The farm without anything to write.
@@ -21,7 +23,12 @@ FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t
                        const std::function<void(std::int64_t)>& on_progress,
                        const std::function<bool()>& stop_requested)
 {
-    return farm_out(session, tiles, {compute, [](std::int64_t) {}}, on_progress, stop_requested);
+    const auto compute_whole = [&](std::int64_t number, const std::function<bool()>&) {
+        compute(number);
+        return true;
+    };
+    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}}, on_progress,
+                    {stop_requested, never}, patience);
 }
 
 /// Every `stride`-th number from 0, on rank 0; nothing elsewhere, as the farm wants it.
@@ -79,15 +86,18 @@ TEST(Farm, ReportsWhatEachRankDid)
 {
     const MpiSession session;
     std::int64_t own = 0;
-    const TileWork tile_work{
-        .compute = [](std::int64_t) { work_for(std::chrono::milliseconds(2)); },
-        .write =
-            [&](std::int64_t) {
-                work_for(std::chrono::milliseconds(1));
-                ++own;
-            }};
+    const TileWork tile_work{.compute =
+                                 [](std::int64_t, const std::function<bool()>&) {
+                                     work_for(std::chrono::milliseconds(2));
+                                     return true;
+                                 },
+                             .write =
+                                 [&](std::int64_t) {
+                                     work_for(std::chrono::milliseconds(1));
+                                     ++own;
+                                 }};
     const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_progress, never);
+        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_progress, no_stop, patience);
 
     std::vector<std::int64_t> counted(std::size_t(session.size()));
     MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
@@ -178,6 +188,54 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
     EXPECT_EQ(own, 0);
     EXPECT_EQ(report.tiles, 0);
     EXPECT_TRUE(report.stopped);
+}
+
+TEST(Farm, ATileDroppedAtAStopIsNeitherWrittenNorCounted)
+{
+    const MpiSession session;
+    const int stopping_rank = session.size() - 1;
+    int begun = 0;
+    std::int64_t written = 0;
+    const auto stop = [&] { return session.rank() == stopping_rank && begun >= 3; };
+    const TileWork tile_work{.compute =
+                                 [&](std::int64_t, const std::function<bool()>& drop_requested) {
+                                     work_for(std::chrono::milliseconds(1));
+                                     ++begun;
+                                     return !drop_requested();
+                                 },
+                             .write = [&](std::int64_t) { ++written; }};
+    const FarmReport report = farm_out(session, tiles_on_rank_0(session, 500), tile_work,
+                                       no_progress, {stop, stop}, patience);
+    if (session.rank() == stopping_rank) {
+        EXPECT_EQ(written, 2);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &written, 1, MPI_INT64_T, MPI_SUM, session.communicator());
+    EXPECT_EQ(report.tiles, written);
+    EXPECT_TRUE(report.stopped);
+}
+
+TEST(Farm, WorkersGoOnWhileRank0ComputesALongTile)
+{
+    const MpiSession session;
+    constexpr std::int64_t count = 100;
+    std::int64_t done = 0;
+    // The first tile of rank 0 lasts until the workers have done all others.
+    const TileWork tile_work{.compute =
+                                 [&](std::int64_t, const std::function<bool()>& drop_requested) {
+                                     while (session.rank() == 0 && session.size() > 1 &&
+                                            done < count - 1) {
+                                         drop_requested();
+                                     }
+                                     return true;
+                                 },
+                             .write = [](std::int64_t) {}};
+    const FarmReport report = farm_out(
+        session, tiles_on_rank_0(session, count), tile_work,
+        [&](std::int64_t now_done) { done = now_done; }, no_stop, patience);
+    EXPECT_EQ(report.tiles, count);
+    if (session.rank() == 0 && session.size() > 1) {
+        EXPECT_EQ(report.ranks[0].tiles, 1);
+    }
 }
 
 TEST(Farm, AStopAfterTheLastTileIsNoStop)

@@ -1,4 +1,5 @@
 #include "overturn/sweep/sweep_tile.hpp"
+#include "support/every_scene.hpp"
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -20,17 +21,6 @@ Plane small_plane()
     plane.restitution_of = RestitutionOf::maximum;
     plane.slenderness = Axis(AxisList{0.12, 0.3});
     return plane;
-}
-
-std::vector<Scene> all_scenes()
-{
-    std::vector<Scene> scenes;
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
-        for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            scenes.push_back({PulseKind(pulse), theory, 1.0});
-        }
-    }
-    return scenes;
 }
 
 /// Every method, and every order of the Taylor series.
@@ -88,7 +78,7 @@ TEST(SweepTile, EveryKernelGivesTheSameBits)
             continue;
         }
         ++compared;
-        for (const Scene& scene : all_scenes()) {
+        for (const Scene& scene : every_scene()) {
             for (const Numerics& numerics : all_numerics) {
                 EXPECT_EQ(sweep_plane(scene, numerics, plane, Tiling(plane), kernel),
                           sweep_plane(scene, numerics, plane, Tiling(plane), Kernel::one_lane))
@@ -102,7 +92,7 @@ TEST(SweepTile, EveryKernelGivesTheSameBits)
 TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
 {
     const Plane plane = small_plane();
-    for (const Scene& scene : all_scenes()) {
+    for (const Scene& scene : every_scene()) {
         for (const Numerics& numerics : all_numerics) {
             const auto swept = [&](const Tiling& tiling) {
                 return sweep_plane(scene, numerics, plane, tiling, widest_kernel());
@@ -126,6 +116,55 @@ TEST(SweepTile, AFieldDoesNotDependOnWhichOthersAreAskedFor)
         const TileFields one = sweep_tile({}, {}, plane, tile, {all_fields[f]}, widest_kernel());
         ASSERT_EQ(one.values.size(), 1u);
         EXPECT_EQ(one.values[0], all.values[f]) << name_of(all_fields[f]);
+    }
+}
+
+int looks = 0; // at whether the tile is to be dropped
+
+bool never()
+{
+    ++looks;
+    return false;
+}
+
+bool from_the_third_look_on()
+{
+    return ++looks >= 3;
+}
+
+TEST(SweepTile, IsTheSameIfItMightHaveBeenDropped)
+{
+    const Plane plane = small_plane();
+    const Tile tile = Tiling(plane)[0];
+    for (const Numerics& numerics : all_numerics) {
+        looks = 0;
+        EXPECT_EQ(sweep_tile({}, numerics, plane, tile, all_fields, widest_kernel(), never).values,
+                  sweep_tile({}, numerics, plane, tile, all_fields, widest_kernel()).values);
+        EXPECT_GE(looks, 1);
+    }
+}
+
+TEST(SweepTile, IsDroppedOnceThatIsAskedFor)
+{
+    const Plane plane = small_plane();
+    const auto at_once = [] { return true; };
+    for (const Numerics& numerics : all_numerics) {
+        EXPECT_THROW(
+            sweep_tile({}, numerics, plane, Tiling(plane)[0], all_fields, widest_kernel(), at_once),
+            TileDropped);
+    }
+}
+
+TEST(SweepTile, IsDroppedInTheMidstOfABlockThatBouncesAMillionTimes)
+{
+    const Plane plane = plane_of(PlanePoint{
+        .slenderness = 0.2, .restitution = 1, .amplitude = 1.000002, .frequency = 0.003});
+    for (const Numerics& numerics : all_numerics) {
+        looks = 0;
+        EXPECT_THROW(sweep_tile({}, numerics, plane, Tiling(plane)[0], {Field::region},
+                                widest_kernel(), from_the_third_look_on),
+                     TileDropped);
+        EXPECT_LE(looks, 4); // once more when it has left
     }
 }
 
@@ -166,7 +205,7 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
 TEST(SweepTile, MethodsGiveTheSameRegions)
 {
     const Plane plane = small_plane();
-    for (const Scene& scene : all_scenes()) {
+    for (const Scene& scene : every_scene()) {
         const auto regions = [&](const Numerics& numerics) {
             return sweep_plane(scene, numerics, plane, Tiling(plane), widest_kernel())[0];
         };
@@ -180,7 +219,7 @@ TEST(SweepTile, MethodsGiveTheSameRegions)
 TEST(SweepTile, RegionsWithASignFollowTheAngleOrTheVelocity)
 {
     const Plane plane = small_plane();
-    for (const Scene& scene : all_scenes()) {
+    for (const Scene& scene : every_scene()) {
         const TileFields fields =
             sweep_tile(scene, {}, plane, Tiling(plane)[0],
                        {Field::region, Field::angle, Field::velocity}, widest_kernel());

@@ -92,7 +92,9 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
                             .tolerance = work.numerics.tolerance,
                             .in_doubt = InDoubt::goes_on,
                             .chosen = nullptr,
-                            .chosen_count = int(work.tile.points())};
+                            .chosen_count = int(work.tile.points()),
+                            .drop_requested = [](const void*) { return false; },
+                            .context = nullptr};
     const std::size_t count = std::size_t(work.tile.points());
     std::vector<double> tilt(count);
     std::vector<double> rate(count);

@@ -1,5 +1,6 @@
 // The polite ways to stop a run: SIGUSR1 (a batch system's warning), SIGTERM and SIGINT raise a
-// flag; the ranks finish the tile in hand. A second SIGINT ends the process at once.
+// flag; the ranks finish the tile in hand, if it takes no longer than a second. A second SIGINT
+// ends the process at once.
 #pragma once
 
 namespace overturn {
@@ -14,6 +15,10 @@ public:
 
     /// Whether a signal came since construction.
     static bool requested();
+
+    /// Whether a signal came, and a second has passed since this was asked first after it: what is
+    /// in hand had better be dropped.
+    static bool overdue();
 };
 
 } // namespace overturn

@@ -37,6 +37,10 @@ std::uint64_t spectrum_file_bytes(const Job& job, const Tiling& tiling);
 /// behind, if the folder is missing or not writable, or if the file does not fit.
 void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling);
 
+/// When a tile counts as done: once its values are in the file, which outlasts the death of any
+/// process; or once they are on the disk, which outlasts a loss of power as well.
+enum class Durability { written, on_disk };
+
 /// The file while it is written, opened by all ranks of a communicator.
 ///
 /// Opening and closing are collective. For that reason the destructor does not close: a rank that
@@ -44,7 +48,8 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
 class SpectrumFile {
 public:
     /// The file must have been examined or created for the same job. Throws FileError.
-    SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job);
+    SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job,
+                 Durability durability = Durability::written);
     ~SpectrumFile();
     SpectrumFile(const SpectrumFile&) = delete;
     SpectrumFile& operator=(const SpectrumFile&) = delete;
@@ -55,7 +60,7 @@ public:
     /// Stores a tile, its checksum last. Each rank at its own time.
     void write(const Tile& tile, const TileFields& fields);
 
-    /// Collective. Returns when everything is on the disk.
+    /// Collective. Returns when everything is in the file, or on the disk.
     void close();
 
 private:

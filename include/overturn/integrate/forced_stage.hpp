@@ -238,11 +238,13 @@ private:
     InDoubt in_doubt_;
 };
 
-/// Steps every stage in turn until all are done.
+/// Steps every stage in turn until all are done, or for so many turns, from which those that it
+/// took are subtracted. Returns whether they have to go on.
 template <class Stage, std::size_t count>
-void run_in_turns(std::array<Stage, count>& stages)
+bool run_in_turns(std::array<Stage, count>& stages, int& turns)
 {
-    for (bool goes_on = true; goes_on;) {
+    bool goes_on = true;
+    for (; goes_on && turns > 0; --turns) {
         goes_on = false;
         for (Stage& stage : stages) {
             if (stage.is_active()) {
@@ -251,6 +253,7 @@ void run_in_turns(std::array<Stage, count>& stages)
             }
         }
     }
+    return goes_on;
 }
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step

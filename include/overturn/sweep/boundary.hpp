@@ -55,7 +55,8 @@ struct Boundary {
 /// tells.
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
-                     std::size_t most_flips = std::numeric_limits<std::size_t>::max());
+                     std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
+                     DropRequested drop_requested = nullptr);
 
 /// Values of region_below and region_above beyond those of regions: no flip is there; or nobody can
 /// tell, because a verdict stays in doubt or there are more flips than rows.
@@ -68,6 +69,7 @@ inline constexpr std::uint8_t in_doubt = 254;
 /// columns are frequencies. Values in the order of boundary_fields; not a number beyond the last
 /// flip.
 TileFields boundary_tile(const Scene& scene, const Plane& plane,
-                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel);
+                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
+                         DropRequested drop_requested = nullptr);
 
 } // namespace overturn

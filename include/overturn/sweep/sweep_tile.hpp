@@ -7,6 +7,7 @@
 #include "overturn/sweep/scene.hpp"
 #include "overturn/sweep/tile.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace overturn {
@@ -16,9 +17,15 @@ struct TileFields {
     std::vector<FieldValues> values;
 };
 
+/// Asked every second or more often while a tile is computed, by its own thread. Once it is true it
+/// stays so, and TileDropped leaves whatever computes the tile.
+using DropRequested = std::function<bool()>;
+class TileDropped {};
+
 /// Computes every point of a tile. The values of a point depend on the point, the scene and the
 /// numerics alone: not on the tile's shape, the other points, or the kernel.
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel);
+                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
+                      DropRequested drop_requested = nullptr);
 
 } // namespace overturn

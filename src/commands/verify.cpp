@@ -1,0 +1,45 @@
+// Whether a result file is as it was written.
+#include "commands.hpp"
+#include "exit_code.hpp"
+
+#include "overturn/file/spectrum_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace overturn {
+
+namespace {
+
+/// The first of them, so that a file that is all wrong takes a line.
+std::string list_text(const std::vector<std::int64_t>& numbers)
+{
+    constexpr std::size_t most = 20;
+    const auto shown = std::min(numbers.size(), most);
+    return fmt::format("{}{}",
+                       fmt::join(numbers.begin(), numbers.begin() + std::ptrdiff_t(shown), ", "),
+                       numbers.size() > most ? ", ..." : "");
+}
+
+} // namespace
+
+int verify(const std::string& path)
+{
+    const SpectrumSummary summary = summarize(path);
+    const std::vector<std::int64_t> damaged = damaged_tiles(path);
+    const char* const command = summary.product == Product::boundary ? "boundary" : "run";
+    if (!damaged.empty()) {
+        throw FileError(fmt::format(
+            "\"{}\" is damaged: {} of {} tiles are not as they were written, by number {}. To "
+            "compute them again: overturn {} JOB.toml -o {}, with the job file and the --set "
+            "arguments of the first run.",
+            path, damaged.size(), summary.tiles_done, list_text(damaged), command, path));
+    }
+    fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
+               summary.tiles_done, summary.tiles);
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,24 @@
+// One tile, computed and written, with the time that it took.
+#pragma once
+
+#include "overturn/farm/farm.hpp"
+
+namespace overturn {
+
+inline void do_tile(std::int64_t number, const TileWork& tile_work,
+                    const std::function<bool()>& drop_requested, RankShare& share)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const bool is_there = tile_work.compute(number, drop_requested);
+    const auto computed = Clock::now();
+    share.compute_seconds += std::chrono::duration<double>(computed - start).count();
+    if (!is_there) {
+        return;
+    }
+    tile_work.write(number);
+    share.write_seconds += std::chrono::duration<double>(Clock::now() - computed).count();
+    ++share.tiles;
+}
+
+} // namespace overturn

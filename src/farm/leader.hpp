@@ -1,0 +1,52 @@
+// The first rank of a farm: it hands out ranges of tiles, and computes in between.
+#pragma once
+
+#include "occasionally.hpp"
+
+#include "overturn/farm/farm.hpp"
+#include "overturn/farm/tile_dealer.hpp"
+
+namespace overturn {
+
+/// Rank 0: answers every request that has come, then does one tile of its own, until nothing is
+/// left and every worker has said its last word.
+class Leader {
+public:
+    Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
+           const TileWork& tile_work, const std::function<void(std::int64_t)>& on_progress,
+           const StopRequest& stop, std::chrono::seconds patience);
+
+    /// Throws SilentRank.
+    RankShare lead();
+
+    const DealingShare& dealing() const { return dealing_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Worker {
+        Clock::time_point heard = Clock::now();
+        bool is_here = true;
+    };
+
+    void attend();
+    void hear_all();
+    void hear(int rank);
+    void call_the_roll();
+
+    MPI_Comm communicator_;
+    TileDealer dealer_;
+    const TileWork& tile_work_;
+    const std::function<void(std::int64_t)>& on_progress_;
+    const StopRequest& stop_;
+    std::chrono::seconds patience_;
+    std::vector<Worker> workers_; ///< by rank; the first is rank 0 itself, and not asked for
+    int still_here_;              ///< workers that have not left
+    Occasionally roll_call_{std::chrono::milliseconds(patience_) / 20};
+    Clock::time_point last_roll_call_ = Clock::now();
+    RankShare share_;
+    std::int64_t done_by_workers_ = 0;
+    DealingShare dealing_;
+};
+
+} // namespace overturn

@@ -1,0 +1,28 @@
+// Something to be done every so often, asked for as often as one likes.
+#pragma once
+
+#include <chrono>
+
+namespace overturn {
+
+class Occasionally {
+    using Clock = std::chrono::steady_clock;
+
+public:
+    explicit Occasionally(Clock::duration interval) : interval_(interval) {}
+
+    /// True once per interval, if it is asked as often.
+    bool is_due()
+    {
+        const auto now = Clock::now();
+        const bool due = now - last_ >= interval_;
+        last_ = due ? now : last_;
+        return due;
+    }
+
+private:
+    Clock::duration interval_;
+    Clock::time_point last_ = Clock::now();
+};
+
+} // namespace overturn

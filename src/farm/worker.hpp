@@ -1,0 +1,12 @@
+// All ranks of a farm but the first: they ask for ranges of tiles, and compute them.
+#pragma once
+
+#include "overturn/farm/farm.hpp"
+
+namespace overturn {
+
+/// Until rank 0 has nothing left to give. Throws SilentRank.
+RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
+               std::chrono::seconds patience);
+
+} // namespace overturn

@@ -1,0 +1,93 @@
+"""What overturn does about tiles that are not as they were written, and ranks that fall silent."""
+
+import os
+import signal
+import socket
+import subprocess
+import unittest
+
+import h5py
+import numpy as np
+
+from program import ENVIRONMENT, OVERTURN, PATIENCE, Scratch, checksum, children, under_mpi
+
+
+class ADamagedFile(Scratch):
+    TILES = 24
+
+    def setUp(self):
+        super().setUp()
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
+        self.whole = checksum(self.folder / "whole.h5")
+
+    def damage(self, name, tiles):
+        """One value in each of these tiles; tiles of one restitution are 3 x 4."""
+        with h5py.File(self.folder / name, "r+") as file:
+            for tile in tiles:
+                place = (0, tile // 12, tile % 12 // 4 * 64 + 1, tile % 4 * 64 + 2)
+                file["velocity"][place] += 1e-9
+
+    def test_is_found_by_verify_with_the_numbers_of_its_tiles(self):
+        self.assert_exit(self.overturn("verify", "whole.h5"), 0,
+                         "24 of 24 tiles are done, and all of them are as they were written")
+        self.damage("whole.h5", (0, 7, 23))
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74,
+                         "3 of 24 tiles are not as they were written, by number 0, 7, 23",
+                         "overturn run JOB.toml -o whole.h5")
+
+    def test_is_found_if_the_mark_is_damaged_instead(self):
+        with h5py.File(self.folder / "whole.h5", "r+") as file:
+            file["checksum"][11] += np.uint64(1)
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "by number 11")
+
+    def test_is_mended_by_the_same_run_even_if_it_was_complete(self):
+        for ranks in (None, 2):
+            self.damage("whole.h5", (3, 12))
+            result = self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks)
+            self.assert_exit(result, 0, "22 of 24 tiles are there, 2 damaged tiles are computed again")
+            self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
+
+    def test_is_mended_together_with_what_is_missing(self):
+        self.damage("whole.h5", (5, 6))
+        with h5py.File(self.folder / "whole.h5", "r+") as file:
+            file["checksum"][6:9] = 0
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 tiles", "by number 5")
+        result = self.overturn("run", "small.toml", "-o", "whole.h5")
+        self.assert_exit(result, 0, "20 of 24 tiles are there, 1 damaged tile is")
+        self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
+
+    def test_is_refused_by_verify_if_it_lacks_its_end(self):
+        path = self.folder / "whole.h5"
+        os.truncate(path, path.stat().st_size - 5000)
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "damaged")
+
+
+class ADurableRun(Scratch):
+    def test_gives_the_same_bytes(self):
+        self.assert_exit(self.overturn("run", "small.toml"), 0)
+        self.assert_exit(self.overturn("run", "small.toml", "--durable", "-o", "durable.h5", ranks=2), 0)
+        self.assertEqual(checksum(self.folder / "durable.h5"), checksum(self.folder / "small.h5"))
+
+
+class ASilentRank(Scratch):
+    def test_ends_the_run_which_resumes(self):
+        self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
+        for silent in (2, 0):
+            with subprocess.Popen(
+                    [*under_mpi(3), OVERTURN, "run", "long.toml", "--patience", "1"],
+                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT, text=True) as process:
+                self.addCleanup(process.kill)
+                self.assertIn("tiles", process.stdout.readline())
+                os.kill(children(process.pid)[silent], signal.SIGSTOP)
+                output, _ = process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 85, output)
+            self.assertIn(f"nothing was heard of rank {silent} for 1 s", output)
+            if silent != 0:  # rank 0 alone knows the hosts
+                self.assertIn(f"on {socket.gethostname()}", output)
+        self.assert_exit(self.overturn("run", "long.toml"), 0)
+        self.assertEqual(checksum(self.folder / "long.h5"), checksum(self.folder / "whole.h5"))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

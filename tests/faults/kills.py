@@ -1,0 +1,219 @@
+#!/usr/bin/python3
+"""Kills overturn again and again, and looks whether anything is lost.
+
+    kills.py [--kills N] [--seed S]
+
+Each kill hits a run of 1, 2 or 4 ranks that makes or resumes a file: at a random write to the file
+(also those that make it, those between a tile's values and its checksum, and in half of the cases
+after half of the bytes), or at a random time a rank, mpirun, or all at once. After each, what is
+marked as done must be right, byte for byte, and each file that becomes complete must be the one of
+an undisturbed run. Wants OVERTURN, MPIEXEC and KILL_AT_WRITE (the library) in the environment."""
+
+import argparse
+import collections
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+import numpy as np
+
+OVERTURN, MPIEXEC, LIBRARY = (os.environ[name] for name in ("OVERTURN", "MPIEXEC", "KILL_AT_WRITE"))
+ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+PATIENCE = 60  # [s]
+SIDE = 64  # of a tile
+FIELDS = ("region", "velocity", "margin")
+JOB = f"""
+[scene]
+pulse = "one_sine"
+theory = "nonlinear"
+[plane]
+frequency = {{ first = 0.5, last = 8.0, count = 250 }}
+amplitude = {{ first = 0.5, last = 12.0, count = 320 }}
+restitution = {{ values = [0.7, 0.85, 1.0], of = "maximum" }}
+slenderness = {{ values = [0.1745716] }}
+[numerics]
+tolerance = 1e-12
+[output]
+fields = {list(FIELDS)}
+""".replace("'", '"')
+
+
+class Loss(Exception):
+    """What must not happen."""
+
+
+class Runs:
+    """Runs of one job in a folder, disturbed and undisturbed."""
+
+    def __init__(self, folder, chance):
+        self.folder, self.chance = pathlib.Path(folder), chance
+        (self.folder / "job.toml").write_text(JOB)
+        self.file = self.folder / "killed.h5"
+        self.counts = collections.Counter()
+        began = time.monotonic()
+        self.run_undisturbed("whole.h5", 1)
+        self.seconds = time.monotonic() - began
+        self.whole = (self.folder / "whole.h5").read_bytes()
+        with h5py.File(self.folder / "whole.h5") as file:
+            self.values = {name: file[name][0] for name in FIELDS}
+            self.tiles = len(file["checksum"])
+        # Each tile takes a write per field and one for its checksum; the others make the file.
+        self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
+        self.writes = self.count_writes()
+
+    def command(self, ranks, output):
+        launcher = [] if ranks == 1 else [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
+        return [*launcher, OVERTURN, "run", "job.toml", "-o", output]
+
+    def run_undisturbed(self, output, ranks, **more):
+        done = subprocess.run(self.command(ranks, output), cwd=self.folder, timeout=PATIENCE,
+                              env=ENVIRONMENT | more, capture_output=True, text=True)
+        if done.returncode:
+            raise Loss(f"a run could not be resumed, with exit code {done.returncode}: {done.stderr}")
+
+    def count_writes(self):
+        count = self.folder / "count"
+        self.run_undisturbed("counted.h5", 1, LD_PRELOAD=LIBRARY, COUNT_WRITES_IN=str(count),
+                             KILL_IN_FILE=str(self.folder / "counted.h5"))
+        return int(count.read_text())
+
+    def start(self, ranks, **more):
+        return subprocess.Popen(self.command(ranks, self.file.name), cwd=self.folder,
+                                env=ENVIRONMENT | more, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def kill_at_a_write(self, ranks):
+        """On one of the ranks; half of the writes that make the file are in the second half."""
+        rank = self.chance.randrange(ranks)
+        making = self.writes - self.writes_of_tiles
+        most = making if self.chance.random() < 0.3 else making + self.writes_of_tiles // ranks
+        torn = self.chance.random() < 0.5
+        process = self.start(ranks, LD_PRELOAD=LIBRARY, KILL_IN_FILE=str(self.file),
+                             KILL_AT_RANK=str(rank), KILL_TORN=str(int(torn)),
+                             KILL_AT_WRITE=str(self.chance.randint(1, most)))
+        self.wait_for_end(process)
+        return "in the midst of a write" if torn else "just before a write"
+
+    def kill_at_a_time(self, ranks):
+        process = self.start(ranks)
+        time.sleep(self.chance.uniform(0, 1.2 * self.seconds / min(ranks, os.cpu_count())))
+        victims = [process.pid, *children(process.pid)]
+        what = self.chance.choice(("a rank", "mpirun", "all at once")) if ranks > 1 else "a rank"
+        if what == "a rank":
+            victims = [self.chance.choice(victims[1:] or victims)]
+        elif what == "mpirun":
+            victims = victims[:1]
+        for victim in victims:
+            try:
+                os.kill(victim, signal.SIGKILL)
+            except ProcessLookupError:
+                pass  # it had ended
+        self.wait_for_end(process)
+        return f"{what} at a random time"
+
+    def wait_for_end(self, process):
+        """Of all that belongs to it: ranks outlive an mpirun that was killed by a moment."""
+        deadline = time.monotonic() + PATIENCE
+        process.wait(timeout=PATIENCE)
+        while session_is_alive(process.pid):
+            if time.monotonic() > deadline:
+                os.killpg(process.pid, signal.SIGKILL)
+                raise Loss("ranks outlive mpirun")
+            time.sleep(0.01)
+        self.last = process.returncode
+
+    def look(self):
+        """At what the kill has left; returns how far the file is."""
+        if not self.file.exists():
+            return "before there was a file"
+        verdict = subprocess.run([OVERTURN, "verify", self.file], capture_output=True, text=True,
+                                 timeout=PATIENCE)
+        if verdict.returncode:
+            raise Loss(f"verify: {verdict.stderr}")
+        with h5py.File(self.file) as file:
+            done = np.flatnonzero(file["checksum"][:])
+            stored = {name: file[name][0] for name in FIELDS}
+        for tile in done:
+            for name in FIELDS:
+                place = self.place(tile)
+                if stored[name][place].tobytes() != self.values[name][place].tobytes():
+                    raise Loss(f"tile {tile} is marked as done, and its {name} is wrong")
+        return "with all tiles there" if len(done) == self.tiles else "between the tiles"
+
+    def place(self, tile):
+        rows, columns = (-(-extent // SIDE) for extent in self.values["region"].shape[1:])
+        row, column = divmod(tile % (rows * columns), columns)
+        return (tile // (rows * columns), slice(row * SIDE, (row + 1) * SIDE),
+                slice(column * SIDE, (column + 1) * SIDE))
+
+    def finish(self):
+        self.run_undisturbed(self.file.name, self.chance.choice((1, 2, 3)))
+        if self.file.read_bytes() != self.whole:
+            raise Loss("the resumed file is not that of an undisturbed run")
+        left = {path.name for path in self.folder.iterdir()} & {"killed.h5.part", "killed.h5.lock"}
+        if left:
+            raise Loss(f"left behind: {left}")
+        self.file.unlink()
+        self.counts["files finished"] += 1
+
+    def kill_once(self):
+        ranks = self.chance.choice((1, 2, 4))
+        way = self.chance.choice((self.kill_at_a_write, self.kill_at_a_time))(ranks)
+        where = self.look()
+        if self.last == 0:
+            self.counts["runs that ended before"] += 1
+        else:
+            self.counts["kills"] += 1
+            self.counts[f"  {way}"] += 1
+            self.counts[f"  {where}"] += 1
+        if self.last == 0 or self.chance.random() < 0.3:
+            self.finish()
+
+
+def children(pid):
+    try:
+        return [int(child) for child in
+                pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:
+        return []
+
+
+def session_is_alive(session):
+    for status in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            after_name = status.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(after_name[3]) == session and after_name[0] != "Z":
+            return True
+    return False
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        runs = Runs(folder, random.Random(arguments.seed))
+        try:
+            while runs.counts["kills"] < arguments.kills:
+                runs.kill_once()
+                if runs.counts["kills"] % 20 == 0:
+                    print(f"{runs.counts['kills']} of {arguments.kills} kills", flush=True)
+            runs.finish()
+        except Loss as loss:
+            sys.exit(f"LOST after {runs.counts['kills']} kills (seed {arguments.seed}): {loss}")
+    for what in sorted(runs.counts, key=lambda name: (name[0] == " ", name)):
+        print(f"{runs.counts[what]:5d} {what}")
+    print("    0 tiles or runs lost, 0 bytes differ from an undisturbed run")
+
+
+if __name__ == "__main__":
+    main()
