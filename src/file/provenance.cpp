@@ -2,12 +2,14 @@
 
 #include "part_file.hpp"
 #include "program_identity.hpp"
+#include "system_reason.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <mpi.h>
 
+#include <cerrno>
 #include <fstream>
 
 namespace overturn {
@@ -100,11 +102,14 @@ std::string_view program_commit()
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
 {
     PartFile part(spectrum_path + ".json");
+    errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
     stream << as_json(record);
     stream.close();
     if (!stream) {
-        throw FileError(fmt::format("cannot write \"{}.json\".", spectrum_path));
+        throw FileError(fmt::format("cannot write \"{0}.json\", the record of this run: {1}. What "
+                                    "it computed is in \"{0}\" all the same.",
+                                    spectrum_path, system_reason(errno)));
     }
     part.move_into_place();
 }

@@ -1,4 +1,5 @@
 #include "file/sample_job.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
@@ -8,9 +9,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <csignal>
 #include <optional>
-#include <sys/resource.h>
 
 namespace overturn {
 namespace {
@@ -153,16 +152,9 @@ TEST(CreateSpectrumFile, LeavesNothingBehindWhenTheDiskFailsMidway)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
-    rlimit before = {};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limited{20000, before.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
-    const std::string message =
-        refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); });
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, SIG_DFL);
-    EXPECT_THAT(message, HasSubstr("file too large"));
+    const FileSizeLimit limit(20000);
+    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); }),
+                HasSubstr("file too large"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 

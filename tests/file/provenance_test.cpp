@@ -1,3 +1,4 @@
+#include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
@@ -61,6 +62,20 @@ TEST(Sidecar, ReplacesAnOlderOne)
     write_sidecar(folder / "a.h5", sample_record());
     EXPECT_THAT(bytes_of(folder / "a.h5.json"), Not(HasSubstr("xx")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
+}
+
+TEST(Sidecar, ThatADiskDoesNotTakeSaysThatNothingElseIsLost)
+{
+    const ScratchFolder folder;
+    const FileSizeLimit limit(20);
+    try {
+        write_sidecar(folder / "a.h5", sample_record());
+        ADD_FAILURE() << "was written";
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("a.h5.json\", the record of this run: file too large"));
+        EXPECT_THAT(error.what(), HasSubstr("all the same"));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
 TEST(Sidecar, NeedsAFolder)
