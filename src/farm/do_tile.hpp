@@ -5,6 +5,11 @@
 
 namespace overturn {
 
+inline double busy_seconds(const RankShare& share)
+{
+    return share.compute_seconds + share.write_seconds;
+}
+
 inline void do_tile(std::int64_t number, const TileWork& tile_work,
                     const std::function<bool()>& drop_requested, RankShare& share)
 {

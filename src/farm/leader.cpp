@@ -80,6 +80,7 @@ void Leader::hear(int rank)
     Worker& worker = workers_[std::size_t(rank)];
     worker.heard = start;
     done_by_workers_ += word.tiles_done;
+    seconds_of_workers_ += 1e-9 * double(word.busy_nanoseconds);
     if (word.stop) {
         dealer_.stop();
     }
@@ -87,11 +88,22 @@ void Leader::hear(int rank)
         worker.is_here = false;
         --still_here_;
     } else if (word.kind == Word::asking) {
-        const TileRange range = dealer_.deal();
+        const TileRange range = dealer_.deal(limits());
         MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, communicator_);
         ++dealing_.requests;
         dealing_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
+}
+
+/// From what answers and tiles have taken so far.
+RangeLimits Leader::limits() const
+{
+    const std::int64_t done = share_.tiles + done_by_workers_;
+    if (done == 0 || dealing_.requests == 0) {
+        return {};
+    }
+    return range_limits(int(workers_.size()), dealing_.seconds / double(dealing_.requests),
+                        (busy_seconds(share_) + seconds_of_workers_) / double(done));
 }
 
 /// Misses the workers of which nothing was heard for too long. After a while in which rank 0

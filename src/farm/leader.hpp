@@ -33,6 +33,7 @@ private:
     void hear_all();
     void hear(int rank);
     void call_the_roll();
+    RangeLimits limits() const;
 
     MPI_Comm communicator_;
     TileDealer dealer_;
@@ -46,6 +47,7 @@ private:
     Clock::time_point last_roll_call_ = Clock::now();
     RankShare share_;
     std::int64_t done_by_workers_ = 0;
+    double seconds_of_workers_ = 0; ///< that they took for them
     DealingShare dealing_;
 };
 

@@ -1,6 +1,7 @@
 #include "overturn/farm/tile_dealer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace overturn {
@@ -12,20 +13,35 @@ namespace {
 /// front kept one of three ranks busy 1.7 times as long as another.)
 constexpr std::size_t ranges_per_share = 16;
 
-/// A tile takes milliseconds and a message microseconds: longer ranges would save nothing, and
-/// would let the ranks see a stop later.
-constexpr std::size_t longest_range = 16;
+constexpr double longest_range = 0.1;      // [s]
+constexpr double share_of_answering = 0.5; // of rank 0's time
 
 } // namespace
+
+RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile)
+{
+    constexpr double far_enough = 1e6; // tiles: neither measure may be trusted beyond
+    RangeLimits limits;
+    if (!(seconds_of_tile > 0)) {
+        return limits;
+    }
+    const auto count = [&](double tiles) {
+        return std::size_t(std::clamp(tiles, 1.0, far_enough));
+    };
+    limits.least =
+        count(std::ceil(ranks * seconds_of_answer / (share_of_answering * seconds_of_tile)));
+    limits.most = std::max({limits.least, limits.most, count(longest_range / seconds_of_tile)});
+    return limits;
+}
 
 TileDealer::TileDealer(std::vector<std::int64_t> tiles, int ranks)
     : tiles_(std::move(tiles)), ranks_(std::size_t(ranks))
 {}
 
-TileRange TileDealer::deal()
+TileRange TileDealer::deal(const RangeLimits& limits)
 {
     const std::size_t share = (tiles_.size() - next_) / (ranges_per_share * ranks_);
-    return take(std::clamp<std::size_t>(share, 1, longest_range));
+    return take(std::clamp(share, limits.least, limits.most));
 }
 
 TileRange TileDealer::take(std::size_t at_most)

@@ -17,11 +17,12 @@ inline constexpr int range_tag = 2;
 struct Word {
     enum Kind : std::int64_t { asking, alive, leaving };
 
-    Kind kind = asking;          ///< who asks wants a range; who leaves is not heard again
-    std::int64_t tiles_done = 0; ///< since the last word
-    std::int64_t stop = 0;       ///< 1: the worker was asked to stop
+    Kind kind = asking;                ///< who asks wants a range; who leaves is not heard again
+    std::int64_t tiles_done = 0;       ///< since the last word
+    std::int64_t busy_nanoseconds = 0; ///< with them
+    std::int64_t stop = 0;             ///< 1: the worker was asked to stop
 };
-inline constexpr int word_length = 3;
+inline constexpr int word_length = 4;
 inline constexpr int range_length = 2;
 static_assert(sizeof(Word) == word_length * sizeof(std::int64_t));
 static_assert(sizeof(TileRange) == range_length * sizeof(std::int64_t));

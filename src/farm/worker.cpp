@@ -58,10 +58,14 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
                std::chrono::seconds patience)
 {
     RankShare share;
-    std::int64_t told = 0;
+    RankShare told;
     const auto news = [&](Word::Kind kind) {
-        const Word word{.kind = kind, .tiles_done = share.tiles - told, .stop = stop.requested()};
-        told = share.tiles;
+        const double seconds = busy_seconds(share) - busy_seconds(told);
+        const Word word{.kind = kind,
+                        .tiles_done = share.tiles - told.tiles,
+                        .busy_nanoseconds = std::int64_t(1e9 * seconds),
+                        .stop = stop.requested()};
+        told = share;
         return word;
     };
     LineToRank0 rank_0(session.communicator(), patience);

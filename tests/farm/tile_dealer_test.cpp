@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -73,6 +74,39 @@ TEST(TileDealer, DealsShorterRangesTowardsTheEnd)
     for (std::size_t i = ranges.size() - 4; i < ranges.size(); ++i) {
         EXPECT_EQ(length(ranges[i]), 1);
     }
+}
+
+TEST(TileDealer, DealsRangesWithinLimitsUntilTheEnd)
+{
+    TileDealer dealer(first_numbers(10000), 4);
+    const RangeLimits limits{.least = 5, .most = 40};
+    std::int64_t left = 10000;
+    while (left > 0) {
+        const TileRange range = dealer.deal(limits);
+        const std::int64_t length = range.end - range.begin;
+        EXPECT_LE(length, 40);
+        EXPECT_GE(length, std::min<std::int64_t>(left, 5));
+        left -= length;
+    }
+    EXPECT_TRUE(dealer.deal(limits).empty());
+}
+
+TEST(RangeLimits, LeaveRank0HalfOfItsTime)
+{
+    // 10,000 ranks on tiles of 0.4 ms ask 25 million times a second for one tile each; an answer
+    // takes 0.4 us, so that rank 0 can give 1.25 million in half of its time: 20 tiles each.
+    const RangeLimits limits = range_limits(10000, 4e-7, 4e-4);
+    EXPECT_EQ(limits.least, 20u);
+    EXPECT_EQ(limits.most, 250u); // 0.1 s
+}
+
+TEST(RangeLimits, AreThoseOfAFewRanksWhereRank0HasTime)
+{
+    EXPECT_EQ(range_limits(8, 1e-6, 1e-2).least, 1u);
+    EXPECT_EQ(range_limits(8, 1e-6, 1e-2).most, 16u);
+    EXPECT_EQ(range_limits(8, 1e-6, 100).most, 16u);
+    EXPECT_EQ(range_limits(8, 1e-6, 0).least, 1u); // nothing is known yet
+    EXPECT_GE(range_limits(1 << 20, 1e-3, 1e-9).most, range_limits(1 << 20, 1e-3, 1e-9).least);
 }
 
 TEST(TileDealer, DealsNothingAfterAStop)

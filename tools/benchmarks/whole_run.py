@@ -10,7 +10,6 @@ from launching import add_program_argument, launcher, measured_run, program
 
 METHODS = ("rk45", "taylor")
 SIDES = (16, 32, 64, 128, 256, 512, 1024, 2048, 4096)  # of square planes
-LONGEST_RANGE = 16  # tiles that a request is answered with while many are left
 
 EXPLANATION = """\
 Runs jobs/figure_07a.toml, regions only, from the shell, and tells what is not kernel: start-up,
@@ -66,10 +65,8 @@ def print_saturation(found):
     answer = found["dealing_seconds"] / found["requests"]
     tile = found["compute_seconds"] / found["tiles"]
     print(f"rank 0 answers a request in {1e6 * answer:.1f} us, {1 / answer:.2g} a second. A tile of "
-          f"{found['method']} takes {1e3 * tile:.2f} ms:\n"
-          f"it would saturate at {tile / answer:.2g} ranks that ask for every tile, as near the end "
-          f"of a run,\nand at {LONGEST_RANGE * tile / answer:.2g} that ask for {LONGEST_RANGE}, as "
-          "before.", flush=True)
+          f"{found['method']} takes {1e3 * tile:.2f} ms: it would saturate\nat {tile / answer:.2g} "
+          "ranks that ask for every tile; with more of them, ranges become longer.", flush=True)
 
 
 def run(options):
