@@ -209,13 +209,14 @@ FarmReport compute_or_tell_who_is_silent(const Task& task, const std::vector<std
     try {
         return compute_tiles(task, missing, file);
     } catch (const SilentRank& silent) {
-        const std::string host =
-            hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank())]);
+        const std::string host = // rank 0 knows the hosts
+            hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank)]);
         task.session.abort(
             exit_code::stopped,
-            fmt::format("{}{}: it was stopped, its disk hangs, or its host cannot be reached. What "
-                        "was computed is kept; run the same command again to resume.",
-                        silent.what(), host));
+            fmt::format("nothing was heard of rank {}{} for {} s: it was stopped, its disk hangs, "
+                        "or its host cannot be reached. What was computed is kept; run the same "
+                        "command again to resume.",
+                        silent.rank, host, silent.silence.count()));
     }
 }
 

@@ -44,10 +44,9 @@ std::array<std::int64_t, 2> from_rank_0(const MpiSession& session,
 
 } // namespace
 
-SilentRank::SilentRank(int rank, std::chrono::seconds silence)
-    : std::runtime_error("nothing was heard of rank " + std::to_string(rank) + " for " +
-                         std::to_string(silence.count()) + " s"),
-      rank_(rank)
+SilentRank::SilentRank(int silent_rank, std::chrono::seconds for_so_long)
+    : std::runtime_error("nothing was heard of rank " + std::to_string(silent_rank)),
+      rank(silent_rank), silence(for_so_long)
 {}
 
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,

@@ -51,10 +51,16 @@ def under_mpi(ranks):
     return [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
 
 
-def children(pid):
-    """Of mpirun: its ranks, in their order."""
-    return [int(child) for child in
-            pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+def ranks_of(pid):
+    """The processes of mpirun's ranks, in their order: it does not always start them in that."""
+    numbers = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    ranks = {}
+    for number in numbers:
+        for variable in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0"):
+            name, _, value = variable.partition("=")
+            if name == "OMPI_COMM_WORLD_RANK":
+                ranks[int(value)] = int(number)
+    return [ranks[rank] for rank in sorted(ranks)]
 
 
 def words(text):

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import xarray
 
-from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, children,
+from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, ranks_of,
                      under_mpi, words)
 
 TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
@@ -237,7 +237,7 @@ class AnInterruptedRun(Scratch):
 
     def test_resumes_after_a_signal_to_one_rank_only(self):
         process = self.start(ranks=3)
-        os.kill(children(process.pid)[-1], signal.SIGUSR1)
+        os.kill(ranks_of(process.pid)[-1], signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 85, output)
         self.assert_resumes(ranks=5)
@@ -275,7 +275,7 @@ class AnInterruptedRun(Scratch):
 
     def test_resumes_after_the_death_of_mpirun(self):
         process = self.start(ranks=2)
-        ranks = children(process.pid)
+        ranks = ranks_of(process.pid)
         process.kill()
         process.communicate(timeout=PATIENCE)
         self.wait_for_end(ranks)
@@ -283,7 +283,7 @@ class AnInterruptedRun(Scratch):
 
     def test_resumes_after_the_death_of_a_rank(self):
         process = self.start(ranks=3)
-        ranks = children(process.pid)
+        ranks = ranks_of(process.pid)
         os.kill(ranks[1], signal.SIGKILL)
         process.communicate(timeout=PATIENCE)
         self.assertNotEqual(process.returncode, 0)

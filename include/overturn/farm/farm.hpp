@@ -30,11 +30,10 @@ struct StopRequest {
 /// Of a rank nothing was heard for too long: it was stopped, hangs on its disk, or is cut off.
 class SilentRank : public std::runtime_error {
 public:
-    SilentRank(int rank, std::chrono::seconds silence);
-    int rank() const { return rank_; }
+    SilentRank(int silent_rank, std::chrono::seconds for_so_long);
 
-private:
-    int rank_;
+    int rank;
+    std::chrono::seconds silence;
 };
 
 /// What one rank did. Time that is in neither was spent waiting, or on messages.
