@@ -18,7 +18,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -224,14 +223,13 @@ int compute_what_is_missing(const Task& task)
 {
     SpectrumFile file(task.path, task.session.communicator(), task.job,
                       task.options.durable ? Durability::on_disk : Durability::written);
+    const std::vector<std::string> hosts = task.session.host_names();
     std::vector<std::int64_t> missing;
     if (task.leads()) {
+        file.forget(task.damaged);
         missing = file.missing_tiles();
-        missing.insert(missing.end(), task.damaged.begin(), task.damaged.end());
-        std::sort(missing.begin(), missing.end());
         say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
     }
-    const std::vector<std::string> hosts = task.session.host_names();
     const FarmReport report = compute_or_tell_who_is_silent(task, hosts, missing, file);
     file.close();
 

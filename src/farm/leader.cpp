@@ -3,6 +3,7 @@
 #include "do_tile.hpp"
 #include "words.hpp"
 
+#include <algorithm>
 #include <thread>
 
 namespace overturn {
@@ -13,6 +14,9 @@ namespace {
 /// words takes a thousandth of it.
 constexpr std::chrono::milliseconds between_answers{10};
 
+/// Beyond that it was not the answer that took long: rank 0 was not running, or a line was opened.
+constexpr double longest_answer = 1e-4; // [s]
+
 } // namespace
 
 Leader::Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
@@ -20,7 +24,7 @@ Leader::Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles
                const StopRequest& stop, std::chrono::seconds patience)
     : communicator_(session.communicator()), dealer_(tiles, session.size()), tile_work_(tile_work),
       on_progress_(on_progress), stop_(stop), patience_(patience),
-      workers_(std::size_t(session.size())), still_here_(session.size() - 1)
+      workers_(std::size_t(session.size())), still_busy_(session.size() - 1)
 {}
 
 RankShare Leader::lead()
@@ -37,9 +41,10 @@ RankShare Leader::lead()
         const TileRange own = dealer_.deal_one();
         if (!own.empty()) {
             do_tile(own.begin, tile_work_, drop_requested, share_);
-        } else if (still_here_ > 0) {
+        } else if (still_busy_ > 0) {
             std::this_thread::sleep_for(between_looks);
         } else {
+            dismiss_all();
             return share_;
         }
     }
@@ -84,14 +89,33 @@ void Leader::hear(int rank)
     if (word.stop) {
         dealer_.stop();
     }
-    if (word.kind == Word::leaving) {
-        worker.is_here = false;
-        --still_here_;
-    } else if (word.kind == Word::asking) {
+    const bool was_done = worker.is_done();
+    worker.waits = worker.waits || word.asking;
+    worker.idle = word.idle; // of no meaning if it does not wait: an answer is on its way
+    still_busy_ += int(was_done) - int(worker.is_done());
+    if (word.asking) {
         const TileRange range = dealer_.deal(limits());
-        MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, communicator_);
+        if (!range.empty()) {
+            answer(rank, range);
+        }
+        const std::chrono::duration<double> seconds = Clock::now() - start;
         ++dealing_.requests;
-        dealing_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+        dealing_.seconds += std::min(seconds.count(), longest_answer);
+    }
+}
+
+void Leader::answer(int rank, const TileRange& range)
+{
+    MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, communicator_);
+    Worker& worker = workers_[std::size_t(rank)];
+    still_busy_ += int(worker.is_done());
+    worker.waits = false;
+}
+
+void Leader::dismiss_all()
+{
+    for (int rank = 1; rank < int(workers_.size()); ++rank) {
+        answer(rank, dismissal);
     }
 }
 
@@ -106,20 +130,23 @@ RangeLimits Leader::limits() const
                         (busy_seconds(share_) + seconds_of_workers_) / double(done));
 }
 
-/// Misses the workers of which nothing was heard for too long. After a while in which rank 0
-/// itself did not listen, because it was stopped or its disk hung, they get as long again: the
-/// same may have happened to them.
+/// Misses the workers of which nothing was heard for too long, and lets those that are done show
+/// themselves. After a while in which rank 0 itself did not listen, because it was stopped or its
+/// disk hung, all get as long again: the same may have happened to them.
 void Leader::call_the_roll()
 {
     const auto now = Clock::now();
     const bool was_away = now - last_roll_call_ > std::chrono::milliseconds(patience_) / 2;
     last_roll_call_ = now;
-    for (std::size_t rank = 1; rank < workers_.size(); ++rank) {
-        Worker& worker = workers_[rank];
+    for (int rank = 1; rank < int(workers_.size()); ++rank) {
+        Worker& worker = workers_[std::size_t(rank)];
         if (was_away) {
             worker.heard = now;
-        } else if (worker.is_here && now - worker.heard > patience_) {
-            throw SilentRank(int(rank), patience_);
+        } else if (now - worker.heard > patience_) {
+            throw SilentRank(rank, patience_);
+        }
+        if (worker.is_done()) {
+            answer(rank, {});
         }
     }
 }

@@ -9,7 +9,7 @@
 namespace overturn {
 
 /// Rank 0: answers every request that has come, then does one tile of its own, until nothing is
-/// left and every worker has said its last word.
+/// left and no worker has anything to do.
 class Leader {
 public:
     Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
@@ -26,13 +26,18 @@ private:
 
     struct Worker {
         Clock::time_point heard = Clock::now();
-        bool is_here = true;
+        bool waits = false; ///< for an answer
+        bool idle = false;  ///< and has nothing else to do
+
+        bool is_done() const { return waits && idle; }
     };
 
     void attend();
     void hear_all();
     void hear(int rank);
+    void answer(int rank, const TileRange& range);
     void call_the_roll();
+    void dismiss_all();
     RangeLimits limits() const;
 
     MPI_Comm communicator_;
@@ -42,7 +47,7 @@ private:
     const StopRequest& stop_;
     std::chrono::seconds patience_;
     std::vector<Worker> workers_; ///< by rank; the first is rank 0 itself, and not asked for
-    int still_here_;              ///< workers that have not left
+    int still_busy_;              ///< workers that are not done
     Occasionally roll_call_{std::chrono::milliseconds(patience_) / 20};
     Clock::time_point last_roll_call_ = Clock::now();
     RankShare share_;

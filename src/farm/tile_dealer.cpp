@@ -40,8 +40,12 @@ TileDealer::TileDealer(std::vector<std::int64_t> tiles, int ranks)
 
 TileRange TileDealer::deal(const RangeLimits& limits)
 {
-    const std::size_t share = (tiles_.size() - next_) / (ranges_per_share * ranks_);
-    return take(std::clamp(share, limits.least, limits.most));
+    // However long ranges should be: with more than half of its fair share a rank would be the
+    // last.
+    const std::size_t left = tiles_.size() - next_;
+    const std::size_t least = std::min(limits.least, left / (2 * ranks_));
+    const std::size_t share = left / (ranges_per_share * ranks_);
+    return take(std::max<std::size_t>(std::clamp(share, least, limits.most), 1));
 }
 
 TileRange TileDealer::take(std::size_t at_most)

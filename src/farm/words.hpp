@@ -1,4 +1,7 @@
-// What the ranks of a farm say to each other.
+// What the ranks of a farm say to each other. A worker asks for a range while it still computes the
+// one before. Rank 0 answers at once while tiles are left. Then it keeps the request, answers it
+// now and then with an empty range, at which the worker asks again and so shows that it is there,
+// and in the end with the dismissal.
 #pragma once
 
 #include "overturn/farm/tile_dealer.hpp"
@@ -15,17 +18,24 @@ inline constexpr int range_tag = 2;
 
 /// From a worker to rank 0.
 struct Word {
-    enum Kind : std::int64_t { asking, alive, leaving };
-
-    Kind kind = asking;                ///< who asks wants a range; who leaves is not heard again
+    std::int64_t asking = 0;           ///< 1: it wants a range
+    std::int64_t idle = 0;             ///< 1: it has nothing else to do
+    std::int64_t stop = 0;             ///< 1: it was asked to stop
     std::int64_t tiles_done = 0;       ///< since the last word
     std::int64_t busy_nanoseconds = 0; ///< with them
-    std::int64_t stop = 0;             ///< 1: the worker was asked to stop
 };
-inline constexpr int word_length = 4;
+inline constexpr int word_length = 5;
 inline constexpr int range_length = 2;
 static_assert(sizeof(Word) == word_length * sizeof(std::int64_t));
 static_assert(sizeof(TileRange) == range_length * sizeof(std::int64_t));
+
+/// From rank 0: every tile is done, or left because of a stop.
+inline constexpr TileRange dismissal{-1, -1};
+
+inline bool is_dismissal(const TileRange& range)
+{
+    return range.begin < 0;
+}
 
 /// Waiting ranks look for messages this often and sleep in between: MPI's own waiting spins, and
 /// takes a core from ranks that compute when there are more ranks than cores.

@@ -22,17 +22,30 @@ public:
         : communicator_(communicator), patience_(patience)
     {}
 
-    void ask(const Word& word)
+    void ask(Word word)
     {
         MPI_Irecv(&range_, range_length, MPI_INT64_T, 0, range_tag, communicator_, &receiving_);
+        word.asking = 1;
         say(word);
     }
+    bool has_answer()
+    {
+        int arrived = 0;
+        MPI_Test(&receiving_, &arrived, MPI_STATUS_IGNORE);
+        return arrived != 0;
+    }
+    /// Time in which this rank itself was stopped does not count.
     TileRange answer()
     {
-        const auto start = Clock::now();
-        int arrived = 0;
-        while (MPI_Test(&receiving_, &arrived, MPI_STATUS_IGNORE), !arrived) {
-            if (Clock::now() - start > patience_) {
+        auto start = Clock::now();
+        auto last_look = start;
+        while (!has_answer()) {
+            const auto now = Clock::now();
+            if (now - last_look > std::chrono::milliseconds(patience_) / 4) {
+                start = now;
+            }
+            last_look = now;
+            if (now - start > patience_) {
                 throw SilentRank(0, patience_);
             }
             std::this_thread::sleep_for(between_looks);
@@ -59,12 +72,12 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
 {
     RankShare share;
     RankShare told;
-    const auto news = [&](Word::Kind kind) {
+    const auto news = [&](bool idle) {
         const double seconds = busy_seconds(share) - busy_seconds(told);
-        const Word word{.kind = kind,
+        const Word word{.idle = idle,
+                        .stop = stop.requested(),
                         .tiles_done = share.tiles - told.tiles,
-                        .busy_nanoseconds = std::int64_t(1e9 * seconds),
-                        .stop = stop.requested()};
+                        .busy_nanoseconds = std::int64_t(1e9 * seconds)};
         told = share;
         return word;
     };
@@ -72,23 +85,24 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
     Occasionally sign_of_life(std::chrono::milliseconds(patience) / signs_in_patience);
     const std::function<bool()> drop_requested = [&] {
         if (sign_of_life.is_due()) {
-            rank_0.say(news(Word::alive));
+            rank_0.say(news(false));
         }
         return stop.overdue();
     };
-    rank_0.ask(news(Word::asking));
+    rank_0.ask(news(true));
     while (true) {
         const TileRange range = rank_0.answer();
-        if (range.empty()) {
-            break;
+        if (is_dismissal(range)) {
+            return share;
         }
-        rank_0.ask(news(Word::asking)); // one range ahead
+        rank_0.ask(news(range.empty())); // one range ahead
         for (auto number = range.begin; number < range.end && !stop.requested(); ++number) {
             do_tile(number, tile_work, drop_requested, share);
         }
+        if (!range.empty() && !rank_0.has_answer()) {
+            rank_0.say(news(true));
+        }
     }
-    rank_0.say(news(Word::leaving));
-    return share;
 }
 
 } // namespace overturn

@@ -5,7 +5,7 @@
 
 namespace overturn {
 
-/// Until rank 0 has nothing left to give. Throws SilentRank.
+/// Until rank 0 dismisses it. Throws SilentRank.
 RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
                std::chrono::seconds patience);
 

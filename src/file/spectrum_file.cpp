@@ -113,6 +113,18 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
     }
 }
 
+void SpectrumFile::forget(const std::vector<std::int64_t>& tiles)
+{
+    try {
+        for (const std::int64_t tile : tiles) {
+            write_checksum(open_->checksums, tile, not_computed_checksum);
+        }
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(
+            fmt::format("cannot mark the damaged tiles of \"{}\": {}.", open_->path, error.what()));
+    }
+}
+
 void SpectrumFile::write(const Tile& tile, const TileFields& fields)
 {
     assert(fields.values.size() == open_->fields.size());

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <filesystem>
 #include <unistd.h>
 
 namespace overturn {
@@ -17,7 +18,7 @@ bool sync(const std::string& path)
     close(descriptor);
     errno = reason;
     // Some file systems cannot sync a folder, and say so with EINVAL.
-    return result == 0 || reason == EINVAL;
+    return result == 0 || (reason == EINVAL && std::filesystem::is_directory(path));
 }
 
 } // namespace overturn

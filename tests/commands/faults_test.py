@@ -35,6 +35,20 @@ class ADamagedFile(Scratch):
                          "3 of 24 tiles are not as they were written, by number 0, 7, 23",
                          "overturn run JOB.toml -o whole.h5")
 
+    def test_is_not_taken_for_done_if_the_run_that_would_mend_it_is_stopped(self):
+        self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
+        with h5py.File(self.folder / "long.h5", "r+") as file:
+            file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
+        with subprocess.Popen([OVERTURN, "run", "long.toml"], cwd=self.folder, env=ENVIRONMENT,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+            self.assertIn("147 damaged tiles are computed again", process.stdout.readline())
+            process.send_signal(signal.SIGUSR1)
+            process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 85)
+        self.assert_exit(self.overturn("verify", "long.h5"), 0)
+        with h5py.File(self.folder / "long.h5") as file:
+            self.assertGreater(np.count_nonzero(file["checksum"][:] == 0), 100)
+
     def test_is_found_if_the_mark_is_damaged_instead(self):
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][11] += np.uint64(1)
@@ -60,13 +74,6 @@ class ADamagedFile(Scratch):
         path = self.folder / "whole.h5"
         os.truncate(path, path.stat().st_size - 5000)
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "damaged")
-
-
-class ADurableRun(Scratch):
-    def test_gives_the_same_bytes(self):
-        self.assert_exit(self.overturn("run", "small.toml"), 0)
-        self.assert_exit(self.overturn("run", "small.toml", "--durable", "-o", "durable.h5", ranks=2), 0)
-        self.assertEqual(checksum(self.folder / "durable.h5"), checksum(self.folder / "small.h5"))
 
 
 class ASilentRank(Scratch):

@@ -269,7 +269,7 @@ class AnInterruptedRun(Scratch):
                     beginning = process.stdout.readline()
                     self.assertIn("tiles", beginning)
                     process.send_signal(signal.SIGUSR1)
-                    output, _ = process.communicate(timeout=PATIENCE)
+                    output, _ = process.communicate(timeout=PATIENCE / 2)
                     self.assertEqual(process.returncode, 85, output)
                     self.assertRegex(output, "stopped by a signal; ([0-9]+) of \\1 tiles are missing")
 

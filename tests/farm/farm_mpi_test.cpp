@@ -111,7 +111,7 @@ TEST(Farm, ReportsWhatEachRankDid)
         EXPECT_GE(report.ranks[rank].compute_seconds, 0.002 * double(counted[rank]));
         EXPECT_GE(report.ranks[rank].write_seconds, 0.001 * double(counted[rank]));
     }
-    // Every worker asks for its first range, one ahead of each, and once in vain.
+    // Every worker asks for its first range, and one ahead of each.
     EXPECT_GE(report.dealing.requests, 2 * (session.size() - 1));
     EXPECT_EQ(report.dealing.seconds > 0, session.size() > 1);
 }
@@ -170,7 +170,8 @@ TEST(Farm, AStopOfAnyRankLeavesTheRestUndone)
         EXPECT_TRUE(report.stopped);
         EXPECT_EQ(report.tiles, done);
         EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
-        // Others finish the ranges that they hold, of at most 16 tiles, one in hand and one ahead.
+        // Others finish the ranges that they hold, of a 16th of a fair share, one in hand and one
+        // ahead.
         EXPECT_LT(done, count / 2);
         if (session.rank() == stopping_rank) {
             EXPECT_EQ(own, 5);
@@ -234,7 +235,7 @@ TEST(Farm, WorkersGoOnWhileRank0ComputesALongTile)
         [&](std::int64_t now_done) { done = now_done; }, no_stop, patience);
     EXPECT_EQ(report.tiles, count);
     if (session.rank() == 0 && session.size() > 1) {
-        EXPECT_EQ(report.ranks[0].tiles, 1);
+        EXPECT_LE(report.ranks[0].tiles, 1);
     }
 }
 

@@ -3,7 +3,8 @@
 //   KILL_AT_WRITE=17       the 17th write of this process to KILL_IN_FILE
 //   KILL_AT_RANK=1         of this rank alone; without a launcher the rank is 0
 //   KILL_TORN=1            half of the bytes get through
-//   COUNT_WRITES_IN=PATH   kills nobody, but says at exit how many writes there were
+//   COUNT_WRITES_IN=PATH   kills nobody, but says at exit how many writes there were, and how often
+//                          the file was brought to the disk
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -34,20 +35,22 @@ bool is_the_file(int descriptor)
 
 struct Count {
     long writes = 0;
+    long syncs = 0;
     ~Count()
     {
         if (const char* path = std::getenv("COUNT_WRITES_IN")) {
             std::FILE* file = std::fopen(path, "a");
-            std::fprintf(file, "%ld\n", writes);
+            std::fprintf(file, "%ld %ld\n", writes, syncs);
             std::fclose(file);
         }
     }
 };
 
+Count count;
+
 /// How many of the bytes are to be written before the end; -1: all of them, and no end.
 long bytes_before_the_end(int descriptor, size_t bytes)
 {
-    static Count count;
     if (!is_the_file(descriptor)) {
         return -1;
     }
@@ -93,6 +96,13 @@ extern "C" ssize_t write(int descriptor, const void* buffer, size_t bytes)
         raise(SIGKILL);
     }
     return real(descriptor, buffer, bytes);
+}
+
+extern "C" int fsync(int descriptor)
+{
+    static const auto real = original<int (*)(int)>("fsync");
+    count.syncs += is_the_file(descriptor);
+    return real(descriptor);
 }
 
 extern "C" ssize_t writev(int descriptor, const iovec* parts, int count)

@@ -81,7 +81,7 @@ class Runs:
         count = self.folder / "count"
         self.run_undisturbed("counted.h5", 1, LD_PRELOAD=LIBRARY, COUNT_WRITES_IN=str(count),
                              KILL_IN_FILE=str(self.folder / "counted.h5"))
-        return int(count.read_text())
+        return int(count.read_text().split()[0])
 
     def start(self, ranks, **more):
         return subprocess.Popen(self.command(ranks, self.file.name), cwd=self.folder,

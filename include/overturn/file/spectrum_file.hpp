@@ -29,8 +29,8 @@ enum class Existing { nothing, unfinished, complete };
 Existing examine(const std::string& path, const Job& job, const Tiling& tiling);
 
 /// Size of the job's result file [byte], rounded up: the file itself is at most 3 % + 32 KiB
-/// smaller.
-std::uint64_t spectrum_file_bytes(const Job& job, const Tiling& tiling);
+/// smaller. In floating point, which cannot overflow here.
+long double spectrum_file_bytes(const Job& job, const Tiling& tiling);
 
 /// Makes the file of which no tile is computed yet, under a name of its own, and renames it into
 /// place when it is safe on the disk. For one rank alone. Throws FileError, and leaves nothing
@@ -56,6 +56,9 @@ public:
 
     /// Numbers of the tiles that are not computed yet, ascending. For any rank.
     std::vector<std::int64_t> missing_tiles();
+
+    /// Marks these tiles as not computed. For one rank.
+    void forget(const std::vector<std::int64_t>& tiles);
 
     /// Stores a tile, its checksum last. Each rank at its own time.
     void write(const Tile& tile, const TileFields& fields);
