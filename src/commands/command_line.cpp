@@ -1,7 +1,9 @@
 #include "command_line.hpp"
 
 #include "commands.hpp"
+#include "completion.hpp"
 #include "exit_code.hpp"
+#include "manual.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
@@ -12,6 +14,7 @@
 
 #include <memory>
 #include <sstream>
+#include <string_view>
 
 namespace overturn {
 
@@ -94,8 +97,9 @@ constexpr const char* info_help = R"(Example:
 constexpr const char* verify_help = R"(Example:
   overturn verify smoke.h5
 
-Reads every value, and compares each tile with the checksum that marks it as done. Exit code 0: all that
-is there is as it was written; 74: some is not. A run with the same job computes damaged tiles again.)";
+Reads the values of all fields, and compares each tile with the checksum that marks it as done. Exit code
+0: the tiles that are done are as they were written; 74: some are not. A run with the same job computes
+damaged tiles again.)";
 
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
@@ -216,6 +220,14 @@ Command read_command_line(int argc, const char* const* argv)
     verify_command->footer(verify_help);
     verify_command->add_option("FILE", arguments->verify, "The result file")->required();
 
+    // For the build, which installs what they print; --help does not tell of them.
+    const std::string_view only = argc == 2 ? argv[1] : "";
+    if (only == "--manual" || only == "--bash-completion") {
+        return {.execute = [text = only == "--manual" ? manual_page(app) : bash_completion(app)] {
+            fmt::print("{}", text);
+            return exit_code::complete;
+        }};
+    }
     const auto is_meant = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(is_meant).empty()) {
         throw UsageError(

@@ -1,0 +1,37 @@
+// One block of the paper's under a one-sine pulse: prints its region, the angle and velocity at the
+// end of the pulse, and the margin, as the program stores them.
+// Headers that are included but not used stand for what they need: Boost and xsimd.
+#include <overturn/integrate/forced_stage.hpp>
+#include <overturn/mechanics/free_rocking.hpp>
+#include <overturn/mechanics/region.hpp>
+#include <overturn/number/digits50.hpp>
+#include <overturn/number/pack.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+
+int main(int argc, char** argv)
+{
+    using namespace overturn;
+    if (argc != 5) {
+        std::fprintf(stderr, "usage: one_block SLENDERNESS RESTITUTION FREQUENCY AMPLITUDE\n");
+        return 2;
+    }
+    const double slenderness = std::atof(argv[1]), restitution = std::atof(argv[2]);
+    const double frequency = std::atof(argv[3]), amplitude = std::atof(argv[4]);
+
+    constexpr Theory theory = Theory::nonlinear;
+    const Block<double> block{slenderness, restitution};
+    const double window = 1; // matters to wavelets only
+    const Excitation<OneSine, double> excitation{
+        .acceleration = amplitude * uplift_acceleration<theory>(slenderness),
+        .frequency = frequency,
+        .uplifts = uplift_phases<OneSine>(amplitude, window),
+        .begin = OneSine::begin(window),
+        .end = OneSine::end(window)};
+    const ForcedEnd<double> end =
+        run_forced_stage<RungeKutta, OneSine, theory>(block, excitation, 1e-9);
+    std::printf("%d %.17g %.17g %.17g\n", int(region_after_pulse<theory>(end.state, block)),
+                end.state.side * end.state.tilt, end.state.side * end.state.rate,
+                margin_after_pulse<theory>(end.state, block));
+}

@@ -1,0 +1,130 @@
+"""What `cmake --install` leaves behind: a program and tools that run, a manual, and headers from which
+a project of somebody else's computes what the program computes, to the last bit.
+
+CMAKE, BUILD (the folder that is installed), CXX, CMAKE_GENERATOR and MPIEXEC come from the
+environment."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+
+HERE = pathlib.Path(__file__).resolve().parent
+SLENDERNESS, RESTITUTION, FREQUENCY = 0.17457163, 0.9, 3.0
+AMPLITUDES = (2.0, 3.5, 4.0)  # safe and unsafe, none of them falls during the pulse
+JOB = f"""
+[scene]
+pulse = "one_sine"
+[plane]
+frequency = {{ values = [{FREQUENCY}] }}
+amplitude = {{ values = {list(AMPLITUDES)} }}
+restitution = {{ values = [{RESTITUTION}] }}
+slenderness = {{ values = [{SLENDERNESS}] }}
+[output]
+fields = ["region", "angle", "velocity", "margin"]
+"""
+
+
+class AnInstallation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-install-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.prefix = cls.folder / "prefix"
+        run(os.environ["CMAKE"], "--install", os.environ["BUILD"], "--prefix", cls.prefix)
+        cls.overturn = cls.prefix / "bin" / "overturn"
+        (cls.folder / "job.toml").write_text(JOB)
+        cls.spectrum = cls.folder / "spectrum.h5"
+        run(os.environ["MPIEXEC"], "--oversubscribe", "-n", "2", cls.overturn, "run",
+            cls.folder / "job.toml", "-o", cls.spectrum)
+
+    def test_the_program_tells_its_version(self):
+        self.assertRegex(run(self.overturn, "--version"), r"^overturn \d+\.\d+\.\d+ ")
+
+    def test_its_jobs_are_good(self):
+        jobs = sorted((self.prefix / "share/overturn/jobs").glob("*.toml"))
+        self.assertGreater(len(jobs), 5)
+        for job in jobs:
+            run(self.overturn, "check", job)
+
+    def test_another_project_computes_what_the_program_computes(self):
+        build = self.folder / "consumer"
+        run(os.environ["CMAKE"], "-S", HERE / "consumer", "-B", build, "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -Wall -Werror", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run(os.environ["CMAKE"], "--build", build)
+        regions = set()
+        with h5py.File(self.spectrum) as file:
+            for i, amplitude in enumerate(AMPLITUDES):
+                computed = run(build / "one_block", SLENDERNESS, RESTITUTION, FREQUENCY, amplitude)
+                stored = [file[field][0, 0, i, 0]
+                          for field in ("region", "angle", "velocity", "margin")]
+                self.assertEqual([float(word) for word in computed.split()], stored)
+                regions.add(int(stored[0]))
+        self.assertGreater(len(regions), 1)
+
+    def test_every_tool_is_a_command_that_the_manual_names(self):
+        manual = (pathlib.Path(os.environ["BUILD"]) / "src/commands/overturn.1").read_text()
+        tools = sorted((self.prefix / "bin").glob("overturn-*"))
+        self.assertGreater(len(tools), 5)
+        for tool in tools:
+            self.assertIn("usage:", run(tool, "--help"))
+            self.assertIn(tool.name.replace("-", "\\-"), manual)
+            self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
+
+    def test_a_tool_draws_what_the_program_computed(self):
+        history, picture = self.folder / "history.h5", self.folder / "history.png"
+        run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
+        run(self.prefix / "bin/overturn-plot-history", history, "-o", picture)
+        self.assertGreater(picture.stat().st_size, 1000)
+
+    def test_a_tool_finds_the_program(self):
+        for name, slenderness in (("one", 0.1), ("two", 0.2)):
+            run(self.overturn, "run", self.folder / "job.toml", "-o", self.folder / f"{name}.h5",
+                "--set", f"plane.slenderness.values=[{slenderness}]")
+        run(self.prefix / "bin/overturn-join-spectra", self.folder / "one.h5",
+            self.folder / "two.h5", "-o", self.folder / "both.h5")
+        with h5py.File(self.folder / "both.h5") as file:
+            self.assertEqual(list(file["slenderness"]), [0.1, 0.2])
+
+    @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "there is no man here")
+    def test_man_shows_the_manual_without_a_warning(self):
+        page = self.prefix / "share/man/man1/overturn.1.gz"
+        shown = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True,
+                               env={**os.environ, "LC_ALL": "C.UTF-8", "MANWIDTH": "100"})
+        self.assertEqual((shown.returncode, shown.stderr), (0, ""))
+        for words in ("overturn boundary JOB", "--patience", "Exit", "OUT.h5"):
+            self.assertIn(words.casefold(), shown.stdout.casefold())
+
+    def test_bash_completes_subcommands_options_choices_and_files(self):
+        for line, expected in (("overturn ver", ["verify"]), ("overturn run --dur", ["--durable"]),
+                               ("overturn run --kernel avx", ["avx2", "avx512"]),
+                               ("overturn check j", ["job.toml"]), ("overturn info sp", ["spectrum.h5"]),
+                               ("overturn run job.toml -o sp", ["spectrum.h5"]),
+                               ("overturn run --set p", [])):
+            self.assertEqual(self.completions_of(line), expected, line)
+
+    def completions_of(self, line):
+        script = self.prefix / "share/bash-completion/completions/overturn"
+        words = line.split()
+        text = (f"source '{script}'; compopt() {{ :; }}; COMP_WORDS=({' '.join(words)}); "
+                f"COMP_CWORD={len(words) - 1}; _overturn; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+        shown = subprocess.run(["bash", "-c", text], cwd=self.folder, check=True,
+                               capture_output=True, text=True)
+        return shown.stdout.split()
+
+
+def run(*command):
+    done = subprocess.run([str(word) for word in command], text=True, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stdout}")
+    return done.stdout
+
+
+if __name__ == "__main__":
+    unittest.main()
