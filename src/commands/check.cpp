@@ -3,6 +3,7 @@
 #include "estimate.hpp"
 #include "exit_code.hpp"
 #include "print_row.hpp"
+#include "printable.hpp"
 
 #include "overturn/farm/human_units.hpp"
 #include "overturn/file/spectrum_file.hpp"
@@ -65,7 +66,7 @@ int check(const JobSource& source)
     const Kernel kernel = widest_kernel(); // throws if this processor has none
     const Job job = read_job(source.path, source.overrides);
     if (!job.title.empty()) {
-        fmt::print("{}\n\n", job.title);
+        fmt::print("{}\n\n", printable(job.title));
     }
     print_scene(job);
     print_plane(job.plane);

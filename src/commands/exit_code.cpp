@@ -1,5 +1,7 @@
 #include "exit_code.hpp"
 
+#include "printable.hpp"
+
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/file_error.hpp"
 #include "overturn/job/job.hpp"
@@ -36,7 +38,7 @@ int exit_code_of(const std::exception& error)
 int complain(const std::exception& error)
 {
     std::fflush(stdout);
-    std::fprintf(stderr, "overturn: %s\n", error.what());
+    std::fprintf(stderr, "overturn: %s\n", printable(error.what()).c_str());
     return exit_code_of(error);
 }
 

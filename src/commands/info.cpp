@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "print_row.hpp"
+#include "printable.hpp"
 
 #include "overturn/farm/human_units.hpp"
 #include "overturn/file/spectrum_summary.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 std::string axis_text(const AxisSummary& axis)
 {
-    const std::string unit = axis.units == "1" ? "" : " " + axis.units;
+    const std::string unit = axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units));
     if (axis.size == 1) {
         return fmt::format("{}{}", axis.first, unit);
     }
@@ -27,13 +28,13 @@ int info(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
     if (!summary.title.empty()) {
-        fmt::print("{}\n\n", summary.title);
+        fmt::print("{}\n\n", printable(summary.title));
     }
     print_row("file", fmt::format("{}, {}", path, human_bytes(double(summary.bytes))));
     const bool is_boundary = summary.product == Product::boundary;
     print_row("holds", is_boundary ? "where verdicts flip" : "a spectrum");
-    print_row("made by", fmt::format("overturn {} (commit {})", summary.program_version,
-                                     summary.program_commit));
+    print_row("made by", printable(fmt::format("overturn {} (commit {})", summary.program_version,
+                                               summary.program_commit)));
     for (const AxisSummary& axis : summary.axes) {
         print_row(axis.name, axis_text(axis));
     }
@@ -48,7 +49,7 @@ int info(const std::string& path)
                                             "file and the --set arguments of the first run",
                                             is_boundary ? "boundary" : "run", path));
     }
-    fmt::print("\nThe job as resolved:\n\n{}", summary.resolved_job);
+    fmt::print("\nThe job as resolved:\n\n{}", printable(summary.resolved_job));
     return exit_code::complete;
 }
 

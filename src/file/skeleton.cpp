@@ -182,11 +182,11 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
 void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling)
 {
     PartFile part(path);
-    const std::uint64_t needed = spectrum_file_bytes(job, tiling);
+    const long double needed = spectrum_file_bytes(job, tiling);
     const std::uint64_t available = part.available_bytes();
-    if (needed > available) {
+    if (needed > static_cast<long double>(available)) {
         throw FileError(
-            fmt::format("cannot create \"{}\": it takes {} bytes, and {} are available. "
+            fmt::format("cannot create \"{}\": it takes {:.0f} bytes, and {} are available. "
                         "Free some, choose another disk with -o, or ask for fewer "
                         "points or fields.",
                         path, needed, available));
@@ -196,7 +196,7 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
         write_skeleton(part.path(), job, tiling);
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
-            fmt::format("cannot create \"{}\" of {} bytes: {}. Choose another name with "
+            fmt::format("cannot create \"{}\" of {:.0f} bytes: {}. Choose another name with "
                         "-o.",
                         path, needed, error.what()));
     }

@@ -27,9 +27,18 @@ void demand(bool condition, const char* what_is_wrong)
     }
 }
 
+/// A dataset that lies in the file itself. HDF5 also follows links and storage into other files, to
+/// read them, and to write to them when a run goes on.
 Handle open_dataset(hid_t file, const char* name)
 {
-    return Handle(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    H5L_info_t link = {};
+    check(H5Lget_info(file, name, &link, H5P_DEFAULT));
+    demand(link.type == H5L_TYPE_HARD, "a dataset is a link to elsewhere");
+    Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
+           "the values of a dataset lie in another file");
+    return dataset;
 }
 
 std::vector<hsize_t> shape_of(hid_t dataset)

@@ -1,5 +1,6 @@
 #include "overrides.hpp"
 
+#include "deep_key.hpp"
 #include "overturn/job/job.hpp"
 #include "toml_reading.hpp"
 #include "toml_text.hpp"
@@ -24,10 +25,7 @@ constexpr std::size_t longest_place = 100;
 /// The argument on one line.
 std::string place_of_argument(const std::string& argument)
 {
-    std::string place = std::string(override_prefix) + shortened(argument, longest_place);
-    std::replace_if(
-        place.begin(), place.end(), [](unsigned char letter) { return letter < 0x20; }, ' ');
-    return place;
+    return on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
 }
 
 [[noreturn]] void refuse_argument(const std::string& argument, std::string_view text)
@@ -65,6 +63,11 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
 {
     Path path;
     while (true) {
+        if (path.size() == most_key_parts) {
+            refuse_argument(argument, fmt::format("the key has more than {} parts, and those of a "
+                                                  "job have three at most.",
+                                                  most_key_parts));
+        }
         const std::size_t dot = dotted_key.find('.');
         const std::string_view key = trimmed(dotted_key.substr(0, dot));
         if (!is_bare_key(key)) {
@@ -87,12 +90,16 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
 toml::table job_of(const std::string& argument, const Path& path, std::string_view value)
 {
     std::string problem;
-    const auto parsed = [&](std::string_view text) -> std::optional<toml::table> {
+    const auto parsed = [&](std::string_view value_text) -> std::optional<toml::table> {
+        const std::string text = fmt::format("{} = {}", fmt::join(path, "."), value_text);
+        if (find_deep_key(text) != text.npos) {
+            problem = fmt::format("a key has more than {} parts", most_key_parts);
+            return std::nullopt;
+        }
         try {
-            return toml::parse(fmt::format("{} = {}", fmt::join(path, "."), text),
-                               place_of_argument(argument));
+            return toml::parse(text, place_of_argument(argument));
         } catch (const toml::parse_error& error) {
-            problem = error.description();
+            problem = on_one_line(std::string(error.description()));
             return std::nullopt;
         }
     };

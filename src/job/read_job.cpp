@@ -1,14 +1,17 @@
 #include "overturn/job/job.hpp"
 
+#include "deep_key.hpp"
 #include "file_text.hpp"
 #include "overrides.hpp"
 #include "read_plane.hpp"
 #include "read_scene.hpp"
 #include "resolved_text.hpp"
 #include "toml_reading.hpp"
+#include "toml_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace overturn {
@@ -18,14 +21,27 @@ namespace {
 constexpr std::array<std::string_view, 6> job_keys{"title", "scene",    "plane",
                                                    "block", "numerics", "output"};
 
+void expect_no_deep_key(const std::string& text, const std::string& path)
+{
+    const std::size_t deep = find_deep_key(text);
+    if (deep != text.npos) {
+        const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
+        throw JobError(fmt::format("{}:{}: a key has more than {} parts, and those of a job have "
+                                   "three at most, such as plane.frequency.count. Mend it.",
+                                   path, line, most_key_parts));
+    }
+}
+
 toml::table parse(const std::string& text, const std::string& path)
 {
+    expect_no_deep_key(text, path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
         throw JobError(fmt::format("{}: this is not TOML: {}. Mend it here or just before; text "
                                    "wants \"quotes\".",
-                                   place_of(error.source()), error.description()));
+                                   place_of(error.source()),
+                                   on_one_line(std::string(error.description()))));
     }
 }
 

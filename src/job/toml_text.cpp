@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace overturn {
 
 std::string in_quotes(std::string_view text)
@@ -38,6 +40,13 @@ std::string shortened(std::string_view text, std::size_t longest)
         --end;
     }
     return std::string(text.substr(0, end)) + "...";
+}
+
+std::string on_one_line(std::string text)
+{
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20; }, ' ');
+    return text;
 }
 
 } // namespace overturn

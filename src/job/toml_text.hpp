@@ -16,4 +16,7 @@ std::string float_text(double value);
 /// The text itself, or its beginning and "..." if it is longer than `longest` bytes.
 std::string shortened(std::string_view text, std::size_t longest);
 
+/// The text with a space for each control character, as ends of lines are.
+std::string on_one_line(std::string text);
+
 } // namespace overturn

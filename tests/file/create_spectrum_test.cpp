@@ -141,7 +141,8 @@ TEST(CreateSpectrumFile, SaysHowManyBytesAreNeededWhenTheyAreNotThere)
     const Tiling tiling(job.plane);
     const std::string message =
         refusal([&] { create_spectrum_file(folder / "a.h5", job, tiling); });
-    EXPECT_THAT(message, HasSubstr(std::to_string(spectrum_file_bytes(job, tiling)) + " bytes"));
+    EXPECT_THAT(message, HasSubstr(std::to_string(std::uint64_t(spectrum_file_bytes(job, tiling))) +
+                                   " bytes"));
     EXPECT_THAT(message, HasSubstr("are available"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
@@ -169,10 +170,31 @@ TEST(SpectrumFileBytes, AreTheFilesSizeOrLittleMore)
         const Tiling tiling(job.plane, 16, 16);
         const std::string path = folder / std::to_string(size);
         create_spectrum_file(path, job, tiling);
-        const std::uint64_t actual = std::filesystem::file_size(path);
+        const auto actual = static_cast<long double>(std::filesystem::file_size(path));
         EXPECT_GE(spectrum_file_bytes(job, tiling), actual) << size;
         // What the header promises. Forgetting the text would miss by half at 500.
         EXPECT_LE(spectrum_file_bytes(job, tiling), actual + actual / 32 + 32768) << size;
+    }
+}
+
+// A plane can be as large as can be addressed, and what comes with each of its tiles is larger.
+TEST(SpectrumFileBytes, DoNotOverflow)
+{
+    Job job = sample_job();
+    const AxisRange many{0.1, 1, std::int64_t(1) << 31, Spacing::linear};
+    job.plane.frequency = Axis(AxisList{1});
+    job.plane.amplitude = Axis(AxisList{1});
+    job.plane.restitution = Axis(many);
+    job.plane.slenderness = Axis(many);
+    job.plane.restitution_of = RestitutionOf::absolute;
+    job.fields = {Field::region};
+    const ScratchFolder folder;
+    EXPECT_GT(spectrum_file_bytes(job, Tiling(job.plane)), 0x1p68L);
+    try {
+        create_spectrum_file(folder / "a.h5", job, Tiling(job.plane));
+        FAIL() << "the file was created";
+    } catch (const FileError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("it takes 38"));
     }
 }
 

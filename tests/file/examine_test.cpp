@@ -159,6 +159,75 @@ TEST_F(Examine, RefusesAFileThatLacksItsEnd)
     EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("damaged"), HasSubstr("truncated file")));
 }
 
+/// What a run would otherwise write to: values, links and views that lie in other files.
+class ExamineOfAFileThatLeadsElsewhere : public Examine {
+protected:
+    /// Replaces the field `region`, and leaves a file of that name to those who follow.
+    template <class Add>
+    void replace_region(const Add& add)
+    {
+        create();
+        std::filesystem::copy(path, elsewhere);
+        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+        const hid_t region = H5Dopen2(file, "region", H5P_DEFAULT);
+        const hid_t space = H5Dget_space(region);
+        H5Dclose(region);
+        ASSERT_GE(H5Lmove(file, "region", file, "moved", H5P_DEFAULT, H5P_DEFAULT), 0);
+        ASSERT_GE(add(file, space), 0);
+        H5Sclose(space);
+        ASSERT_GE(H5Fclose(file), 0);
+    }
+
+    /// A dataset in place of `region`, stored as `set` says.
+    template <class Set>
+    void store_region(const Set& set)
+    {
+        replace_region([&](hid_t file, hid_t space) {
+            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+            set(creation, space);
+            const hid_t region =
+                H5Dcreate2(file, "region", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+            H5Pclose(creation);
+            return region < 0 ? herr_t(-1) : H5Dclose(region);
+        });
+    }
+
+    std::string elsewhere = folder / "elsewhere.h5";
+};
+
+TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesValuesInAnotherFile)
+{
+    store_region([&](hid_t creation, hid_t) {
+        H5Pset_external(creation, elsewhere.c_str(), 0, H5F_UNLIMITED);
+    });
+    EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
+}
+
+TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesAViewOfAnotherFile)
+{
+    store_region([&](hid_t creation, hid_t space) {
+        H5Pset_virtual(creation, space, elsewhere.c_str(), "region", space);
+    });
+    EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
+}
+
+TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkToAnotherFile)
+{
+    replace_region([&](hid_t file, hid_t) {
+        return H5Lcreate_external(elsewhere.c_str(), "region", file, "region", H5P_DEFAULT,
+                                  H5P_DEFAULT);
+    });
+    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
+}
+
+TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkByName)
+{
+    replace_region([&](hid_t file, hid_t) {
+        return H5Lcreate_soft("moved", file, "region", H5P_DEFAULT, H5P_DEFAULT);
+    });
+    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
+}
+
 TEST_F(Examine, RefusesAFileThatIsCutIntoOtherTiles)
 {
     create_spectrum_file(path, job, Tiling(job.plane, 3, 3));

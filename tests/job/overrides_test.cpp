@@ -155,6 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::
     {"WithoutValue", "title=", {"value is missing"}},
     {"WithABrokenValue", "plane.frequency.values=[1,", {"not valid TOML"}},
     {"WithANumberGoneWrong", "numerics.tolerance=1e-6x", {"not valid TOML"}},
+    {"WithAWordCutShort", "title=i\n", {"not valid TOML"}},
     {"WithInvalidUtf8", "title=a\xff", {"not valid TOML", "utf-8"}},
     {"WithTwoValues", "numerics.tolerance=1e-6\nmethod='rk45'", {"more than one value"}},
     {"WithASecondTable", "title='x'\n[scene]\npulse='one_sine'", {"more than one value"}},

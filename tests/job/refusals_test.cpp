@@ -57,6 +57,7 @@ TEST_P(ReadingAJobRefuses, AndLeadsTo)
 // clang-format off
 MISTAKES(Form,
     {"BrokenToml", 3, "pulse = \"one_sine", "3:18", {"not TOML", "Mend"}},
+    {"AWordCutShort", 1, "title = i", "1:10", {"not TOML", "'inf'"}},
     {"AnUnfinishedTable", 5, "frequency = { first = 0.1,", "5:27", {"not TOML"}},
     {"AKeyGivenTwice", 10, "tolerance = 1e-9\ntolerance = 1e-8", "11:13", {"not TOML", "tolerance"}},
     {"InvalidUtf8", 1, "title = \"\xff\"", "1:9", {"not TOML", "utf-8"}},

@@ -1,0 +1,113 @@
+"""Jobs and result files of others: what they say is neither obeyed by the terminal nor makes the
+program write anywhere but to the output and its sidecar."""
+
+import os
+import unittest
+
+import h5py
+import numpy
+
+from program import JOB, Scratch
+
+TINY = JOB.format(columns=2, rows=2, restitutions="[0.7]", tolerance="1e-4")
+PATHS = ("../up", "/tmp/overturn-was-here", "..", "a/b/../../../c", "~/home", "$(touch x)", "a|b", "")
+CLEAR_SCREEN = "\x1b[2J"
+
+
+class AHostileJob(Scratch):
+    def inner(self):
+        """A folder in the folder, so that what leaves it by ".." is seen."""
+        folder = self.folder / "inner"
+        folder.mkdir(exist_ok=True)
+        return folder
+
+    def test_writes_only_the_output_and_its_sidecar_whatever_it_says(self):
+        outside = self.files() + ["inner"]
+        for number, path in enumerate(PATHS):
+            job = self.inner() / f"{number}.toml"
+            job.write_text(TINY.replace("A small plane", path))
+            output = self.inner() / f"{number}.h5"
+            override = f"title='''{path}'''"
+            self.assert_exit(self.overturn("run", job, "-o", output, "--set", override), 0)
+        wanted = [f"{number}{ending}" for number in range(len(PATHS))
+                  for ending in (".h5", ".h5.json", ".toml")]  # fmt: skip
+        self.assertEqual(sorted(path.name for path in self.inner().iterdir()), sorted(wanted))
+        self.assertEqual(self.files(), sorted(outside))
+        self.assertFalse(os.path.exists("/tmp/overturn-was-here"))
+
+    def test_names_no_file_by_its_keys_and_words(self):
+        for path in PATHS[:-1]:
+            for line in (f'"{path}" = 1', f'["{path}"]', f'output.path = "{path}"',
+                         f'scene.pulse = "{path}"'):  # fmt: skip
+                (self.folder / "hostile.toml").write_text(line + "\n")
+                self.assert_refused(65, ["hostile.toml"], "run", "hostile.toml", "-o", "out.h5")
+
+    def test_gives_its_output_no_folder(self):
+        job = self.inner() / "job.toml"
+        job.write_text(TINY)
+        self.assert_exit(self.overturn("run", "inner/../inner/job.toml"), 0)
+        self.assertIn("job.h5", self.files())
+
+    def test_cannot_command_the_terminal(self):
+        (self.folder / "tiny.toml").write_text(TINY.replace("A small plane", "\\u001b[2J\\u009b2J"))
+        checked = self.overturn("check", "tiny.toml")
+        self.assert_exit(checked, 0, "?[2J?2J")
+        self.assertNotIn("\x1b", checked.stdout)
+        self.assert_exit(self.overturn("run", "tiny.toml"), 0)
+        told = self.overturn("info", "tiny.h5")
+        self.assert_exit(told, 0, "?[2J?2J")
+        self.assertNotIn("\x1b", told.stdout)
+
+
+class AHostileResultFile(Scratch):
+    """A complete file of the job, altered so that a run has something to compute again."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "tiny.toml").write_text(TINY)
+        self.assert_exit(self.overturn("run", "tiny.toml"), 0)
+        (self.folder / "elsewhere").write_bytes(b"the only copy of a thesis")
+
+    def replace_region(self, add):
+        with h5py.File(self.folder / "tiny.h5", "r+") as file:
+            file["checksum"][:] = 0
+            del file["region"]
+            add(file)
+
+    def assert_refused_by_all(self, phrase):
+        before = (self.folder / "elsewhere").read_bytes()
+        for command in (["info", "tiny.h5"], ["verify", "tiny.h5"], ["run", "tiny.toml"]):
+            self.assert_refused(74, [phrase], *command)
+            self.assertEqual((self.folder / "elsewhere").read_bytes(), before)
+
+    def test_does_not_make_a_run_write_to_a_file_that_it_stores_values_in(self):
+        def add(file):
+            creation = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+            creation.set_external(str(self.folder / "elsewhere").encode(), 0, 25)
+            space = h5py.h5s.create_simple((1, 1, 2, 2))
+            h5py.h5d.create(file.id, b"region", h5py.h5t.STD_U8LE, space, creation)
+
+        self.replace_region(add)
+        self.assert_refused_by_all("lie in another file")
+
+    def test_does_not_make_a_run_write_to_a_file_that_it_links_to(self):
+        with h5py.File(self.folder / "elsewhere", "w") as file:
+            file.create_dataset("region", (1, 1, 2, 2), "u1")
+
+        def add(file):
+            file["region"] = h5py.ExternalLink("elsewhere", "/region")
+
+        self.replace_region(add)
+        self.assert_refused_by_all("a link to elsewhere")
+
+    def test_cannot_command_the_terminal(self):
+        for name in ("kind", "title", "program_version"):
+            with h5py.File(self.folder / "tiny.h5", "r+") as file:
+                file.attrs.create(name, numpy.bytes_(CLEAR_SCREEN))
+            for command in (["info", "tiny.h5"], ["run", "tiny.toml"]):
+                result = self.overturn(*command)
+                self.assertNotIn("\x1b", result.stdout + result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,70 @@
+#include "hostile_input.hpp"
+
+#include "commands/command_line.hpp"
+#include "commands/commands.hpp"
+#include "commands/exit_code.hpp"
+
+#include <stdexcept>
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+[[noreturn]] int refuse_to_run()
+{
+    throw std::logic_error("reading a command line has run a command");
+}
+
+} // namespace
+
+// The parser needs something to name; nothing is ever executed here.
+int run(const RunOptions&)
+{
+    refuse_to_run();
+}
+int check(const JobSource&)
+{
+    refuse_to_run();
+}
+int accuracy(const AccuracyOptions&)
+{
+    refuse_to_run();
+}
+int history(const HistoryOptions&)
+{
+    refuse_to_run();
+}
+int info(const std::string&)
+{
+    refuse_to_run();
+}
+int verify(const std::string&)
+{
+    refuse_to_run();
+}
+
+Verdict use_as_command_line(std::string_view bytes)
+{
+    std::vector<std::string> words{"overturn"};
+    while (!bytes.empty()) {
+        const std::string_view line = bytes.substr(0, bytes.find('\n'));
+        words.emplace_back(line.substr(0, line.find('\0'))); // where an argument ends
+        bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
+    }
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) {
+        arguments.push_back(word.c_str());
+    }
+    const int count = int(arguments.size());
+    arguments.push_back(nullptr); // as main() is given them
+    try {
+        const Command command = read_command_line(count, arguments.data());
+        return command.execute ? Verdict::accepted
+                               : throw std::logic_error("a command has nothing to execute");
+    } catch (const UsageError&) {
+        return Verdict::refused;
+    }
+}
+
+} // namespace overturn

@@ -1,0 +1,67 @@
+#include "hostile_input.hpp"
+
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/job/job.hpp"
+#include "support/scratch_folder.hpp"
+#include "support/untrapped_floating_point.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <vector>
+
+namespace overturn {
+
+namespace {
+
+void demand(bool condition, const std::string& otherwise)
+{
+    if (!condition) {
+        throw std::logic_error(otherwise);
+    }
+}
+
+/// Takes the lines "--set KEY=VALUE" off the beginning.
+std::vector<std::string> take_overrides(std::string_view& bytes)
+{
+    constexpr std::string_view option = "--set ";
+    std::vector<std::string> overrides;
+    while (bytes.starts_with(option)) {
+        const std::string_view line = bytes.substr(0, bytes.find('\n'));
+        overrides.emplace_back(line.substr(option.size()));
+        bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
+    }
+    return overrides;
+}
+
+void use(const Job& job, const std::string& path)
+{
+    demand(job.plane.points() > 0 && tiling_of(job).size() > 0, "an accepted job has no points");
+    demand(spectrum_file_bytes(job, tiling_of(job)) > double(job.plane.points()),
+           "a file is smaller than its values");
+    cut_by_window(job.scene);
+    write_bytes(path, job.resolved);
+    const std::string again = read_job(path).resolved;
+    demand(again == job.resolved,
+           fmt::format("the resolved job\n{}\nis read back as\n{}", job.resolved, again));
+    demand(boundary_of(job).plane.points() > 0, "a boundary has no points");
+}
+
+} // namespace
+
+Verdict use_as_job(std::string_view bytes, const std::string& path)
+{
+    const UntrappedFloatingPoint overflows; // of jobs that are refused because it did
+    const std::vector<std::string> overrides = take_overrides(bytes);
+    write_bytes(path, std::string(bytes));
+    try {
+        use(read_job(path, overrides), path);
+        return Verdict::accepted;
+    } catch (const JobError& error) {
+        const std::string message = error.what();
+        demand(message.find('\n') == message.npos, "a refusal takes more than a line: " + message);
+        return Verdict::refused;
+    }
+}
+
+} // namespace overturn

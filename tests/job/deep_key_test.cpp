@@ -1,0 +1,92 @@
+#include "deep_key.hpp"
+
+#include "job_file.hpp"
+
+#include "overturn/job/job.hpp"
+
+namespace overturn {
+
+namespace {
+
+/// a.a.a: a key of so many parts.
+std::string key_of(std::size_t parts)
+{
+    std::string key = "a";
+    for (std::size_t i = 1; i < parts; ++i) {
+        key += ".a";
+    }
+    return key;
+}
+
+bool has_deep_key(const std::string& text)
+{
+    return find_deep_key(text) != text.npos;
+}
+
+TEST(ADeepKey, BeginsBeyondTheMostParts)
+{
+    EXPECT_FALSE(has_deep_key(key_of(most_key_parts) + " = 1"));
+    EXPECT_TRUE(has_deep_key(key_of(most_key_parts + 1) + " = 1"));
+    EXPECT_EQ(find_deep_key("b = 1\n" + key_of(100) + " = 1"), 6 + 2 * most_key_parts - 1);
+}
+
+TEST(ADeepKey, IsFoundInHeadersAndTablesAndBetweenOthers)
+{
+    const std::string deep = key_of(most_key_parts + 1);
+    EXPECT_TRUE(has_deep_key("[" + deep + "]"));
+    EXPECT_TRUE(has_deep_key("[[" + deep + "]]"));
+    EXPECT_TRUE(has_deep_key("x = { y = 1.5, " + deep + " = 1 }"));
+    EXPECT_TRUE(has_deep_key("a . \"b\\\".\" .'c' . " + deep + " = 1"));
+    EXPECT_TRUE(has_deep_key("# \"\n" + deep + " = 1"));
+}
+
+TEST(ADeepKey, CannotHideBehindAString)
+{
+    const std::string deep = key_of(most_key_parts + 1);
+    for (const char* const string : {R"("")", R"("\"")", R"('\')", R"("""""")", R"("""a""""")",
+                                     R"("""a\""" """)", R"('''a'''')"}) {
+        EXPECT_TRUE(has_deep_key("x = { y = " + (string + (", " + deep)) + " = 1 }")) << string;
+    }
+}
+
+TEST(ADeepKey, IsNoListNoTextAndNoComment)
+{
+    const std::string dots(100, '.');
+    std::string list = "values = [0.5";
+    for (int i = 0; i < 100; ++i) {
+        list += ", 0.5";
+    }
+    EXPECT_FALSE(has_deep_key(list + "]"));
+    EXPECT_FALSE(has_deep_key("title = \"Wait \\\" " + dots + "\""));
+    EXPECT_FALSE(has_deep_key("title = '" + dots + "'\ntitle = \"\"\"\n" + dots + "\"\"\"\"\n"));
+    EXPECT_FALSE(has_deep_key("# " + dots));
+}
+
+// Each part makes a table within a table, and a stack ends.
+TEST(ReadingAJob, RefusesKeysOfAMillionParts)
+{
+    const std::string deep = key_of(1000000);
+    for (const std::string& job : {deep + " = 1", "[" + deep + "]", "x = { " + deep + " = 1 }"}) {
+        const JobFile file("\n" + job);
+        try {
+            read_job(file.path());
+            FAIL() << "the job was accepted";
+        } catch (const JobError& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find(":2: a key has more than 16 parts"), message.npos) << message;
+        }
+    }
+}
+
+TEST(AnOverride, RefusesKeysOfAMillionParts)
+{
+    const JobFile file(sound_job);
+    const std::string deep = key_of(1000000);
+    EXPECT_THROW(read_job(file.path(), {deep + "=1"}), JobError);
+    EXPECT_THROW(read_job(file.path(), {"plane.frequency={" + deep + "=1}"}), JobError);
+    EXPECT_EQ(read_job(file.path(), {"title=" + key_of(20)}).title, key_of(20)) << "a bare word";
+}
+
+} // namespace
+
+} // namespace overturn
