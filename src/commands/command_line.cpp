@@ -49,7 +49,7 @@ constexpr const char* overview = R"(Examples:
   overturn boundary jobs/smoke.toml
 
 Exit codes: 0 complete, 2 usage, 65 the job's content is wrong, 70 a fault of overturn,
-74 anything about the output, 85 stopped by a signal and resumable.)";
+74 anything about the output, 85 stopped and resumable.)";
 
 constexpr const char* run_help = R"(Example:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
