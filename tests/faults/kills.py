@@ -121,9 +121,18 @@ class Runs:
         return f"{what} at a random time"
 
     def wait_for_end(self, process):
-        """Of all that belongs to it: ranks outlive an mpirun that was killed by a moment."""
+        """Of all that belongs to it: ranks outlive an mpirun that was killed by a moment. And mpirun
+        sometimes hangs if a rank dies while it starts, with no rank left: that is mpirun's."""
         deadline = time.monotonic() + PATIENCE
-        process.wait(timeout=PATIENCE)
+        while process.poll() is None:
+            half_time = time.monotonic() > deadline - PATIENCE / 2
+            if half_time and not any(map(is_alive, children(process.pid))):
+                self.counts["  an mpirun that hung, without ranks"] += 1
+                process.kill()
+            if time.monotonic() > deadline:
+                os.killpg(process.pid, signal.SIGKILL)
+                raise Loss("ranks hang")
+            time.sleep(0.01)
         while session_is_alive(process.pid):
             if time.monotonic() > deadline:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -198,15 +207,21 @@ def children(pid):
         return []
 
 
+def state_and_session(pid):
+    try:
+        after_name = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return "Z", 0  # it has just ended
+    return after_name[0], int(after_name[3])
+
+
+def is_alive(pid):
+    return state_and_session(pid)[0] != "Z"
+
+
 def session_is_alive(session):
-    for status in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
-            after_name = status.read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if int(after_name[3]) == session and after_name[0] != "Z":
-            return True
-    return False
+    pids = (path.name for path in pathlib.Path("/proc").glob("[0-9]*"))
+    return any(state != "Z" and owner == session for state, owner in map(state_and_session, pids))
 
 
 def main():
