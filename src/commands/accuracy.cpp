@@ -1,4 +1,5 @@
 // What accuracy costs in time, on the plane of a job.
+#include "apart.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 
@@ -81,7 +82,13 @@ int accuracy(const AccuracyOptions& options)
     const Kernel kernel = widest_kernel();
     const Job job = read_job(options.job.path, options.job.overrides);
     const SoleWriter sole_writer(options.output);
-    expect_room_for_accuracy_file(options.output);
+    const int refusal = read_apart(options.output, [&] {
+        expect_room_for_accuracy_file(options.output);
+        return exit_code::complete;
+    });
+    if (refusal != exit_code::complete) {
+        return refusal;
+    }
 
     say(fmt::format("settling verdicts, and computing up to {} points in 50 digits, some {} s",
                     options.digits, std::ceil(0.02 * double(options.digits))));

@@ -97,9 +97,9 @@ constexpr const char* info_help = R"(Example:
 constexpr const char* verify_help = R"(Example:
   overturn verify smoke.h5
 
-Reads the values of all fields, and compares each tile with the checksum that marks it as done. Exit code
-0: the tiles that are done are as they were written; 74: some are not. A run with the same job computes
-damaged tiles again.)";
+Holds the coordinates against the job in the file, and each tile against the checksum that marks it as
+done. Exit code 0: all that is done is as it was written; 74: something is not. A run with the same job
+computes damaged tiles again.)";
 
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
@@ -123,6 +123,8 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
                     "Lanes to compute with; changes the speed, but no byte of the result")
         ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
         ->capture_default_str();
+    command.add_flag("--make-only", options.make_only)
+        ->group(""); // what a run asks of another process
     command.add_flag("--durable", options.durable,
                      "Bring each tile to the disk before it counts as done, so that it outlasts a "
                      "loss of power; slower");
@@ -141,7 +143,7 @@ struct Arguments {
     AccuracyOptions accuracy;
     HistoryOptions history;
     std::string info;
-    std::string verify;
+    VerifyOptions verify;
 };
 
 } // namespace
@@ -218,7 +220,9 @@ Command read_command_line(int argc, const char* const* argv)
     CLI::App* const verify_command =
         app.add_subcommand("verify", "Tell whether a result file is as it was written");
     verify_command->footer(verify_help);
-    verify_command->add_option("FILE", arguments->verify, "The result file")->required();
+    verify_command->add_option("FILE", arguments->verify.file, "The result file")->required();
+    verify_command->add_flag("--numbers", arguments->verify.numbers,
+                             "Print the numbers of the damaged tiles, one per line");
 
     // For the build, which installs what they print; --help does not tell of them.
     const std::string_view only = argc == 2 ? argv[1] : "";

@@ -1,4 +1,5 @@
 // One point in full: the forced stage, then the analytical free stage.
+#include "apart.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "print_row.hpp"
@@ -101,7 +102,13 @@ int history(const HistoryOptions& options)
 {
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
-    expect_room_for_history_file(options.output);
+    const int refusal = read_apart(options.output, [&] {
+        expect_room_for_history_file(options.output);
+        return exit_code::complete;
+    });
+    if (refusal != exit_code::complete) {
+        return refusal;
+    }
     const PlanePoint point{.slenderness = job.plane.slenderness.first(),
                            .restitution = job.plane.restitution_ratio(0, 0),
                            .amplitude = job.plane.amplitude.first(),

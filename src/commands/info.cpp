@@ -1,4 +1,5 @@
 // What a result file holds, and how to go on with it if it is unfinished.
+#include "apart.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "print_row.hpp"
@@ -22,9 +23,7 @@ std::string axis_text(const AxisSummary& axis)
     return fmt::format("{} values from {} to {}{}", axis.size, axis.first, axis.last, unit);
 }
 
-} // namespace
-
-int info(const std::string& path)
+int print_what_it_holds(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
     if (!summary.title.empty()) {
@@ -51,6 +50,13 @@ int info(const std::string& path)
     }
     fmt::print("\nThe job as resolved:\n\n{}", printable(summary.resolved_job));
     return exit_code::complete;
+}
+
+} // namespace
+
+int info(const std::string& path)
+{
+    return read_apart(path, [&] { return print_what_it_holds(path); });
 }
 
 } // namespace overturn

@@ -2,6 +2,8 @@
 // compute each, write each.
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "prepare_output.hpp"
+#include "printable.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/human_units.hpp"
@@ -11,7 +13,6 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
@@ -29,8 +30,6 @@ namespace overturn {
 namespace {
 
 using Clock = std::chrono::system_clock; // the record tells the date
-
-constexpr int go_on = -1; // rank 0's first look found something to compute; no exit code
 
 /// All that a rank needs to know to take part.
 struct Task {
@@ -72,12 +71,6 @@ std::string output_path(const RunOptions& options)
            (options.boundary ? "_boundary.h5" : ".h5");
 }
 
-Job read_job_of(const RunOptions& options)
-{
-    Job job = read_job(options.job.path, options.job.overrides);
-    return options.boundary ? boundary_of(std::move(job)) : job;
-}
-
 Kernel kernel_of(const RunOptions& options)
 {
     if (options.kernel == "auto") {
@@ -91,30 +84,6 @@ Kernel kernel_of(const RunOptions& options)
     throw UsageError(fmt::format("--kernel {} does not run on this processor. The widest that "
                                  "does is {}.",
                                  options.kernel, name_of(widest_kernel())));
-}
-
-/// What stands at the output path once it is prepared.
-struct Prepared {
-    int verdict = go_on;               ///< or the exit code, if there is nothing left to do
-    std::vector<std::int64_t> damaged; ///< tiles to be computed again
-};
-
-/// Makes sure that a file for the job stands at the path, and that what is marked as done in it can
-/// be trusted: a machine that lost its power may have kept the mark and lost the values.
-Prepared prepare_output(const Job& job, const std::string& path)
-{
-    const Tiling tiling = tiling_of(job);
-    const Existing existing = examine(path, job, tiling);
-    if (existing == Existing::nothing) {
-        create_spectrum_file(path, job, tiling);
-        return {};
-    }
-    Prepared prepared{.verdict = go_on, .damaged = damaged_tiles(path)};
-    if (existing == Existing::complete && prepared.damaged.empty()) {
-        say(path + " is complete already.");
-        prepared.verdict = exit_code::complete;
-    }
-    return prepared;
 }
 
 std::string beginning(const Task& task, std::int64_t tiles_before)
@@ -251,6 +220,9 @@ int compute_what_is_missing(const Task& task)
 
 int run(const RunOptions& options)
 {
+    if (options.make_only) {
+        return make_output(options);
+    }
     const auto start = Clock::now();
     const StopSignals signals;
     start_hdf5();
@@ -268,7 +240,7 @@ int run(const RunOptions& options)
             kernel_of(options); // throws if it does not run here
             job = read_job_of(options);
             sole_writer.emplace(path);
-            prepared = prepare_output(job, path);
+            prepared = prepare_output(job, options, path);
         } catch (const std::exception& error) {
             prepared.verdict = complain(error);
         }
@@ -290,7 +262,7 @@ int run(const RunOptions& options)
         if (session.size() == 1) {
             throw;
         }
-        session.abort(exit_code_of(error), error.what());
+        session.abort(exit_code_of(error), printable(error.what()));
     }
 }
 

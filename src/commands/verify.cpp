@@ -1,4 +1,5 @@
 // Whether a result file is as it was written.
+#include "apart.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 
@@ -23,23 +24,44 @@ std::string list_text(const std::vector<std::int64_t>& numbers)
                        numbers.size() > most ? ", ..." : "");
 }
 
-} // namespace
-
-int verify(const std::string& path)
+void expect_coordinates_of_its_job(const std::string& path)
 {
+    if (const auto damaged = damaged_coordinates(path); !damaged.empty()) {
+        throw FileError(fmt::format("\"{}\" is damaged: of its coordinates {} are not its job's. "
+                                    "Remove it, and compute it again.",
+                                    path, fmt::join(damaged, ", ")));
+    }
+}
+
+int print_whether_it_is_whole(const VerifyOptions& options)
+{
+    const std::string& path = options.file;
     const SpectrumSummary summary = summarize(path);
+    expect_coordinates_of_its_job(path);
     const std::vector<std::int64_t> damaged = damaged_tiles(path);
-    const char* const command = summary.product == Product::boundary ? "boundary" : "run";
+    if (options.numbers) {
+        fmt::print("{}{}", fmt::join(damaged, "\n"), damaged.empty() ? "" : "\n");
+    }
     if (!damaged.empty()) {
         throw FileError(fmt::format(
             "\"{}\" is damaged: {} of {} tiles are not as they were written, by number {}. To "
             "compute them again: overturn {} JOB.toml -o {}, with the job file and the --set "
             "arguments of the first run.",
-            path, damaged.size(), summary.tiles_done, list_text(damaged), command, path));
+            path, damaged.size(), summary.tiles_done, list_text(damaged),
+            summary.product == Product::boundary ? "boundary" : "run", path));
     }
-    fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
-               summary.tiles_done, summary.tiles);
+    if (!options.numbers) {
+        fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
+                   summary.tiles_done, summary.tiles);
+    }
     return exit_code::complete;
+}
+
+} // namespace
+
+int verify(const VerifyOptions& options)
+{
+    return read_apart(options.file, [&] { return print_whether_it_is_whole(options); });
 }
 
 } // namespace overturn

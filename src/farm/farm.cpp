@@ -1,24 +1,15 @@
 #include "overturn/farm/farm.hpp"
 
 #include "leader.hpp"
-#include "words.hpp"
+#include "wait_for.hpp"
 #include "worker.hpp"
 
 #include <array>
 #include <string>
-#include <thread>
 
 namespace overturn {
 
 namespace {
-
-void wait_for(MPI_Request& request)
-{
-    int arrived = 0;
-    while (MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), !arrived) {
-        std::this_thread::sleep_for(between_looks);
-    }
-}
 
 /// Workers come here first and wait without taking a core, here and in from_rank_0.
 std::vector<RankShare> gather_on_rank_0(const MpiSession& session, const RankShare& share)

@@ -1,6 +1,7 @@
 #include "leader.hpp"
 
 #include "do_tile.hpp"
+#include "wait_for.hpp"
 #include "words.hpp"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "overturn/farm/mpi_session.hpp"
 
+#include "wait_for.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -114,7 +116,9 @@ void MpiSession::leave()
 
 int MpiSession::from_rank_0(int value) const
 {
-    MPI_Bcast(&value, 1, MPI_INT, 0, communicator_);
+    MPI_Request arriving = MPI_REQUEST_NULL;
+    MPI_Ibcast(&value, 1, MPI_INT, 0, communicator_, &arriving);
+    wait_for(arriving); // rank 0 may have gigabytes to look through first
     return value;
 }
 

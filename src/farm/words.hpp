@@ -8,7 +8,6 @@
 
 #include <mpi.h>
 
-#include <chrono>
 #include <cstdint>
 
 namespace overturn {
@@ -36,9 +35,5 @@ inline bool is_dismissal(const TileRange& range)
 {
     return range.begin < 0;
 }
-
-/// Waiting ranks look for messages this often and sleep in between: MPI's own waiting spins, and
-/// takes a core from ranks that compute when there are more ranks than cores.
-inline constexpr std::chrono::microseconds between_looks{50};
 
 } // namespace overturn

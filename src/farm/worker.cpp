@@ -2,6 +2,7 @@
 
 #include "do_tile.hpp"
 #include "occasionally.hpp"
+#include "wait_for.hpp"
 #include "words.hpp"
 
 #include <thread>

@@ -8,6 +8,7 @@
 #include "overturn/file/spectrum_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -95,6 +96,12 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
         throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles are not those of its "
                                     "job. Remove it, or choose another name with -o.",
                                     path));
+    }
+    if (const auto foreign = foreign_coordinates(stored, job); !foreign.empty()) {
+        throw FileError(
+            fmt::format("\"{}\" is damaged: of its coordinates {} are not its job's. Remove it, or "
+                        "choose another name with -o.",
+                        path, fmt::join(foreign, ", ")));
     }
     const bool unfinished = std::find(stored.checksums.begin(), stored.checksums.end(),
                                       not_computed_checksum) != stored.checksums.end();

@@ -1,6 +1,7 @@
 // The file of which no tile is computed yet.
 
 #include "attributes.hpp"
+#include "coordinates.hpp"
 #include "field_attributes.hpp"
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
@@ -13,8 +14,6 @@
 #include <fmt/format.h>
 #include <hdf5_hl.h>
 
-#include <numbers>
-
 namespace overturn {
 
 namespace {
@@ -24,97 +23,36 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-void add_axes(hid_t file, const Job& job)
+void add_coordinates(hid_t file, const std::vector<Coordinate>& coordinates)
 {
-    const Plane& plane = job.plane;
-    const auto add = [&](const char* name, const Axis& axis, const char* long_name,
-                         const char* units) {
-        add_numbers(file, name, {hsize_t(axis.size())}, axis.values(), long_name, units);
-        make_dimension(file, name);
-    };
-    add("slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad");
-    const bool relative = plane.restitution_of == RestitutionOf::maximum;
-    add("restitution", plane.restitution,
-        relative ? "energy ratio at an impact, over the largest one of the block"
-                 : "energy ratio at an impact",
-        "1");
-    if (job.product == Product::boundary) {
-        add("crossing", plane.amplitude, "flips of the verdict along the amplitude, from 0", "1");
-        add(layout::scan, job.scan, "amplitudes that were looked at to find the flips", "1");
-    } else {
-        add("amplitude", plane.amplitude,
-            job.scene.theory == Theory::linear ? "peak ground acceleration, over g alpha"
-                                               : "peak ground acceleration, over g tan(alpha)",
-            "1");
-    }
-    add("frequency", plane.frequency, "pulse frequency, over the block's frequency parameter p",
-        "1");
-
-    const Handle restitution(H5Dopen2(file, "restitution", H5P_DEFAULT), H5Dclose);
-    write_attribute(restitution, "of", name_of(plane.restitution_of));
-}
-
-void add_restitution_ratio(hid_t file, const Plane& plane)
-{
-    std::vector<double> values;
-    for (std::int64_t i = 0; i < plane.slenderness.size(); ++i) {
-        for (std::int64_t j = 0; j < plane.restitution.size(); ++j) {
-            values.push_back(plane.restitution_ratio(i, j));
+    for (const Coordinate& coordinate : coordinates) {
+        add_numbers(file, coordinate.name, coordinate.shape, coordinate.values,
+                    coordinate.long_name, coordinate.units);
+        if (coordinate.is_dimension()) {
+            make_dimension(file, coordinate.name);
+        } else {
+            const Handle dataset(H5Dopen2(file, coordinate.name, H5P_DEFAULT), H5Dclose);
+            attach_dimensions(file, dataset, coordinate.dimensions);
         }
     }
-    const Shape shape{hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())};
-    add_numbers(file, layout::restitution_ratio, shape, values, "energy ratio at an impact, r",
-                "1");
-    const Handle dataset(H5Dopen2(file, layout::restitution_ratio, H5P_DEFAULT), H5Dclose);
-    attach_dimensions(file, dataset, std::array{"slenderness", "restitution"});
 }
 
-/// Of a job that names its block in metres: coordinates in seconds and in g.
-void add_dimensional_coordinates(hid_t file, const Job& job)
+/// In the words of CF, of the variables that have them beside their dimensions.
+std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
 {
-    const Plane& plane = job.plane;
-    const double p = frequency_parameter(*plane.block);
-    std::vector<double> periods;
-    for (const double frequency : plane.frequency.values()) {
-        periods.push_back(2 * std::numbers::pi / (frequency * p));
-    }
-    const auto add = [&](const char* name, const char* dimension, const std::vector<double>& values,
-                         const char* long_name, const char* units) {
-        add_numbers(file, name, {values.size()}, values, long_name, units);
-        const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-        attach_dimensions(file, dataset, std::array{dimension});
-    };
-    add(layout::pulse_period, "frequency", periods,
-        "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2", "s");
-    if (job.product == Product::boundary) {
-        return; // it has no amplitudes but the flips
-    }
-    const double alpha = plane.slenderness.first();
-    const double threshold = job.scene.theory == Theory::linear
-                                 ? uplift_acceleration<Theory::linear>(alpha)
-                                 : uplift_acceleration<Theory::nonlinear>(alpha);
-    std::vector<double> accelerations;
-    for (const double amplitude : plane.amplitude.values()) {
-        accelerations.push_back(amplitude * threshold);
-    }
-    add(layout::peak_ground_acceleration, "amplitude", accelerations,
-        "peak ground acceleration, over g", "1");
-}
-
-std::string coordinates_of(const Job& job)
-{
-    std::string names = layout::restitution_ratio;
-    if (job.plane.block) {
-        names += std::string(" ") + layout::pulse_period;
-        if (job.product == Product::spectrum) {
-            names += std::string(" ") + layout::peak_ground_acceleration;
+    std::string names;
+    for (const Coordinate& coordinate : coordinates) {
+        if (!coordinate.is_dimension()) {
+            names += names.empty() ? "" : " ";
+            names += coordinate.name;
         }
     }
     return names;
 }
 
 /// Allocates and fills every chunk at once: all that a run does later is to overwrite values.
-void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling)
+void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
+               const std::string& coordinates)
 {
     const Plane& plane = job.plane;
     const layout::StoredAs stored = layout::stored_as(field);
@@ -131,7 +69,7 @@ void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling)
     const Handle dataset =
         create_dataset(file, name_of(field).data(), stored.file, shape, creation);
     attach_dimensions(file, dataset, layout::dimensions_of(job.product));
-    write_field_attributes(dataset, field, coordinates_of(job));
+    write_field_attributes(dataset, field, coordinates);
 }
 
 void add_checksums(hid_t file, const Tiling& tiling)
@@ -163,14 +101,13 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
         write_attribute(file, "tolerance", job.numerics.tolerance);
         write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
     }
-    add_axes(file, job);
+    const std::vector<Coordinate> coordinates = coordinates_of(job);
+    add_coordinates(file, coordinates);
+    const Handle restitution(H5Dopen2(file, "restitution", H5P_DEFAULT), H5Dclose);
+    write_attribute(restitution, "of", name_of(job.plane.restitution_of));
     add_bare_dimension(file, layout::tile, tiling.size());
-    add_restitution_ratio(file, job.plane);
-    if (job.plane.block) {
-        add_dimensional_coordinates(file, job);
-    }
     for (const Field field : job.fields) {
-        add_field(file, field, job, tiling);
+        add_field(file, field, job, tiling, names_of_auxiliary(coordinates));
     }
     add_checksums(file, tiling);
     add_job(file, job);
@@ -178,6 +115,11 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
 }
 
 } // namespace
+
+void remove_half_made_file(const std::string& path)
+{
+    const PartFile removed(path);
+}
 
 void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling)
 {

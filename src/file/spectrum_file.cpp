@@ -11,6 +11,8 @@
 
 #include <cassert>
 #include <cerrno>
+#include <chrono>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -31,9 +33,15 @@ struct SpectrumFile::Open {
     std::vector<Handle> datasets; ///< in the order of `fields`
     Handle checksums;
     Durability durability;
+    struct stat as_opened = {};
+    std::chrono::steady_clock::time_point last_seen;
 
     /// If a loss of power matters.
     void bring_to_disk() const;
+    /// That the name still stands for the file that was opened, with all its bytes: writing into
+    /// one that was removed or cut fails nowhere.
+    void expect_in_place();
+    void expect_in_place_now_and_then();
     FileError cannot_write(const Tile& tile, std::string_view dataset,
                            const hdf5::Hdf5Error& error) const;
 };
@@ -52,6 +60,37 @@ FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view da
         fmt::format("cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
                     tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
                     reason == ENOSPC || reason == EDQUOT ? "Free some and run" : "Run"));
+}
+
+void SpectrumFile::Open::expect_in_place()
+{
+    struct stat found = {};
+    const bool is_found = stat(path.c_str(), &found) == 0;
+    if (!is_found && errno != ENOENT) {
+        return; // no news: writing tells what is wrong
+    }
+    if (!is_found || found.st_dev != as_opened.st_dev || found.st_ino != as_opened.st_ino) {
+        throw FileError(
+            fmt::format("\"{}\" was removed, moved or replaced while it was written. If "
+                        "it was moved, move it back and run the same command again to "
+                        "resume.",
+                        path));
+    }
+    if (found.st_size < as_opened.st_size) {
+        throw FileError(fmt::format("\"{}\" was cut from {} to {} bytes while it was written. "
+                                    "Remove it, and compute it again.",
+                                    path, as_opened.st_size, found.st_size));
+    }
+}
+
+void SpectrumFile::Open::expect_in_place_now_and_then()
+{
+    constexpr std::chrono::seconds interval{1};
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_seen >= interval) {
+        last_seen = now;
+        expect_in_place();
+    }
 }
 
 void SpectrumFile::Open::bring_to_disk() const
@@ -85,6 +124,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
                                          H5Dclose);
         }
         open_->checksums = Handle(H5Dopen2(open_->file, layout::checksum, H5P_DEFAULT), H5Dclose);
+        stat(path.c_str(), &open_->as_opened);
     } catch (const hdf5::Hdf5Error& error) {
         open_->file.release();
         throw FileError(fmt::format("cannot open \"{}\" for writing: {}.", path, error.what()));
@@ -128,6 +168,7 @@ void SpectrumFile::forget(const std::vector<std::int64_t>& tiles)
 void SpectrumFile::write(const Tile& tile, const TileFields& fields)
 {
     assert(fields.values.size() == open_->fields.size());
+    open_->expect_in_place_now_and_then();
     std::string_view dataset;
     try {
         errno = 0;
@@ -145,6 +186,7 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
 
 void SpectrumFile::close()
 {
+    open_->expect_in_place();
     try {
         open_->datasets.clear();
         open_->checksums.close();

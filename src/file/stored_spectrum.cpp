@@ -1,6 +1,7 @@
 #include "stored_spectrum.hpp"
 
 #include "attributes.hpp"
+#include "coordinates.hpp"
 #include "layout.hpp"
 #include "system_reason.hpp"
 #include "tile_access.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <new>
 
@@ -144,6 +146,7 @@ Product read_product(hid_t file, const std::string& path)
 StoredSpectrum read(const std::string& path)
 {
     StoredSpectrum spectrum;
+    spectrum.path = path;
     spectrum.bytes = std::filesystem::file_size(path);
     spectrum.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
     const hid_t file = spectrum.file;
@@ -163,6 +166,44 @@ StoredSpectrum read(const std::string& path)
     return spectrum;
 }
 
+/// In the words of HDF5.
+std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
+{
+    const auto has_shape = [&](const char* name, const std::vector<hsize_t>& shape) {
+        const Handle dataset = open_dataset(stored.file, name);
+        return shape_of(dataset) == shape && has_type(dataset, H5T_IEEE_F64LE);
+    };
+    std::vector<std::string> foreign;
+    // Sizes first: those of a made-up job may be beyond all memory, those in the file are not.
+    const Plane& plane = job.plane;
+    const auto& names = layout::dimensions_of(job.product);
+    const std::array axes{&plane.slenderness, &plane.restitution, &plane.amplitude,
+                          &plane.frequency};
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (!has_shape(names[i], {hsize_t(axes[i]->size())})) {
+            foreign.emplace_back(names[i]);
+        }
+    }
+    if (job.product == Product::boundary && !has_shape(layout::scan, {hsize_t(job.scan.size())})) {
+        foreign.emplace_back(layout::scan);
+    }
+    if (!foreign.empty()) {
+        return foreign;
+    }
+    for (const Coordinate& coordinate : coordinates_of(job)) {
+        std::vector<double> values(coordinate.values.size());
+        if (has_shape(coordinate.name, coordinate.shape)) {
+            const Handle dataset = open_dataset(stored.file, coordinate.name);
+            check(
+                H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+        }
+        if (values != coordinate.values) {
+            foreign.emplace_back(coordinate.name);
+        }
+    }
+    return foreign;
+}
+
 } // namespace
 
 Tiling StoredSpectrum::tiling() const
@@ -175,6 +216,16 @@ Tiling StoredSpectrum::tiling() const
                       .restitution_of = RestitutionOf::absolute,
                       .block = {}};
     return Tiling(plane, amplitude_extent, frequency_extent);
+}
+
+std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)
+{
+    try {
+        return find_foreign_coordinates(stored, job);
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(
+            fmt::format("\"{}\" cannot be read or is damaged: {}.", stored.path, error.what()));
+    }
 }
 
 StoredSpectrum open_stored_spectrum(const std::string& path)

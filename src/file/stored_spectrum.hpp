@@ -21,6 +21,7 @@ struct StoredAxis {
 };
 
 struct StoredSpectrum {
+    std::string path;
     hdf5::Handle file;
     std::uint64_t bytes = 0;
     Product product = Product::spectrum;
@@ -36,6 +37,10 @@ struct StoredSpectrum {
 
     Tiling tiling() const;
 };
+
+/// Names of the coordinates whose size or values are not those that the job gives them. Throws
+/// FileError if they cannot be read.
+std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job);
 
 /// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
 StoredSpectrum open_stored_spectrum(const std::string& path);

@@ -36,6 +36,20 @@ SpectrumSummary summarize(const std::string& path)
     return summary;
 }
 
+std::vector<std::string> damaged_coordinates(const std::string& path)
+{
+    const StoredSpectrum stored = open_stored_spectrum(path);
+    try {
+        Job job = read_job_text(stored.resolved_job, layout::job_resolved);
+        return foreign_coordinates(stored, stored.product == Product::boundary
+                                               ? boundary_of(std::move(job))
+                                               : std::move(job));
+    } catch (const JobError& error) {
+        throw FileError(
+            fmt::format("\"{}\" is damaged: the job in it cannot be read: {}", path, error.what()));
+    }
+}
+
 std::vector<std::int64_t> damaged_tiles(const std::string& path)
 {
     const StoredSpectrum stored = open_stored_spectrum(path);

@@ -62,10 +62,16 @@ std::string read_title(const Entry& job)
 
 Job read_job(const std::string& path, const std::vector<std::string>& overrides)
 {
+    return read_job_text(file_text(path), path, overrides);
+}
+
+Job read_job_text(std::string text, const std::string& name,
+                  const std::vector<std::string>& overrides)
+{
     Job job;
-    job.given = file_text(path);
+    job.given = std::move(text);
     job.overrides = overrides;
-    toml::table table = parse(job.given, path);
+    toml::table table = parse(job.given, name);
     for (const std::string& argument : overrides) {
         lay_override(table, argument);
     }

@@ -51,15 +51,20 @@ def under_mpi(ranks):
     return [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
 
 
+def children_of(pid):
+    """Also those that another thread than the first has started."""
+    return [int(child) for thread in pathlib.Path(f"/proc/{pid}/task").iterdir()
+            for child in (thread / "children").read_text().split()]
+
+
 def ranks_of(pid):
     """The processes of mpirun's ranks, in their order: it does not always start them in that."""
-    numbers = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
     ranks = {}
-    for number in numbers:
+    for number in children_of(pid):
         for variable in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0"):
             name, _, value = variable.partition("=")
             if name == "OMPI_COMM_WORLD_RANK":
-                ranks[int(value)] = int(number)
+                ranks[int(value)] = number
     return [ranks[rank] for rank in sorted(ranks)]
 
 

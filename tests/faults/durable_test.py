@@ -1,4 +1,4 @@
-"""What --durable brings to the disk, and when. Wants OVERTURN and KILL_AT_WRITE (the library) in the
+"""What --durable brings to the disk, and when. Wants OVERTURN and FAULTY_DISK (the library) in the
 environment."""
 
 import os
@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
-OVERTURN, LIBRARY = os.environ["OVERTURN"], os.environ["KILL_AT_WRITE"]
+OVERTURN, LIBRARY = os.environ["OVERTURN"], os.environ["FAULTY_DISK"]
 SMOKE = pathlib.Path(__file__).resolve().parents[2] / "jobs" / "smoke.toml"
 TILES = 4  # of 100 x 100 points
 
@@ -24,7 +24,7 @@ class ADurableRun(unittest.TestCase):
         subprocess.run([OVERTURN, "run", SMOKE, "-o", name, *arguments], cwd=self.folder,
                        check=True, timeout=60, capture_output=True,
                        env=os.environ | {"LD_PRELOAD": LIBRARY, "COUNT_WRITES_IN": str(count),
-                                         "KILL_IN_FILE": str(self.folder / name)})
+                                         "FAULTY_FILE": str(self.folder / name)})
         return int(count.read_text().split()[1])
 
     def test_brings_each_tile_to_the_disk_and_gives_the_same_bytes(self):

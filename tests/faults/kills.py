@@ -7,7 +7,7 @@ Each kill hits a run of 1, 2 or 4 ranks that makes or resumes a file: at a rando
 (also those that make it, those between a tile's values and its checksum, and in half of the cases
 after half of the bytes), or at a random time a rank, mpirun, or all at once. After each, what is
 marked as done must be right, byte for byte, and each file that becomes complete must be the one of
-an undisturbed run. Wants OVERTURN, MPIEXEC and KILL_AT_WRITE (the library) in the environment."""
+an undisturbed run. Wants OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the environment."""
 
 import argparse
 import collections
@@ -24,7 +24,7 @@ import time
 import h5py
 import numpy as np
 
-OVERTURN, MPIEXEC, LIBRARY = (os.environ[name] for name in ("OVERTURN", "MPIEXEC", "KILL_AT_WRITE"))
+OVERTURN, MPIEXEC, LIBRARY = (os.environ[name] for name in ("OVERTURN", "MPIEXEC", "FAULTY_DISK"))
 ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 PATIENCE = 60  # [s]
 SIDE = 64  # of a tile
@@ -82,7 +82,7 @@ class Runs:
     def count_writes(self):
         count = self.folder / "count"
         self.run_undisturbed("counted.h5", 1, LD_PRELOAD=LIBRARY, COUNT_WRITES_IN=str(count),
-                             KILL_IN_FILE=str(self.folder / "counted.h5"))
+                             FAULTY_FILE=str(self.folder / "counted.h5"))
         return int(count.read_text().split()[0])
 
     def start(self, ranks, **more):
@@ -96,8 +96,8 @@ class Runs:
         making = self.writes - self.writes_of_tiles
         most = making if self.chance.random() < 0.3 else making + self.writes_of_tiles // ranks
         torn = self.torn = self.chance.random() < 0.5
-        process = self.start(ranks, LD_PRELOAD=LIBRARY, KILL_IN_FILE=str(self.file),
-                             KILL_AT_RANK=str(rank), KILL_TORN=str(int(torn)),
+        process = self.start(ranks, LD_PRELOAD=LIBRARY, FAULTY_FILE=str(self.file),
+                             FAULTY_RANK=str(rank), KILL_TORN=str(int(torn)),
                              KILL_AT_WRITE=str(self.chance.randint(1, most)))
         self.wait_for_end(process)
         return "in the midst of a write" if torn else "just before a write"

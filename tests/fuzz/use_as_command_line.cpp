@@ -39,7 +39,7 @@ int info(const std::string&)
 {
     refuse_to_run();
 }
-int verify(const std::string&)
+int verify(const VerifyOptions&)
 {
     refuse_to_run();
 }

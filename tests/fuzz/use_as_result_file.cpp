@@ -29,7 +29,10 @@ Verdict use_as_result_file(const std::string& path)
 {
     const Job job = job_to_alter();
     const bool is_summarised = is_answered([&] { summarize(path); });
-    const bool is_verified = is_answered([&] { damaged_tiles(path); });
+    const bool is_verified = is_answered([&] {
+        damaged_coordinates(path);
+        damaged_tiles(path);
+    });
     is_answered([&] { examine(path, job, tiling_of(job)); });
     return is_summarised && is_verified ? Verdict::accepted : Verdict::refused;
 }

@@ -37,6 +37,9 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling);
 /// behind, if the folder is missing or not writable, or if the file does not fit.
 void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling);
 
+/// Removes what a create_spectrum_file() that was killed has left behind.
+void remove_half_made_file(const std::string& path);
+
 /// When a tile counts as done: once its values are in the file, which outlasts the death of any
 /// process; or once they are on the disk, which outlasts a loss of power as well.
 enum class Durability { written, on_disk };

@@ -42,6 +42,10 @@ struct SpectrumSummary {
 /// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
 SpectrumSummary summarize(const std::string& path);
 
+/// Names of the coordinates whose size or values are not those of the job that the file says it is
+/// of. Throws FileError as summarize() does, and if that job cannot be read.
+std::vector<std::string> damaged_coordinates(const std::string& path);
+
 /// Numbers of the tiles whose stored values do not match their checksum, ascending; tiles that are
 /// not computed yet are not among them. Reads all data. Throws FileError as summarize() does.
 std::vector<std::int64_t> damaged_tiles(const std::string& path);

@@ -43,6 +43,10 @@ struct Job {
 /// Throws JobError; nothing is computed or written before it.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});
 
+/// The same of a text; its name stands for the path in messages.
+Job read_job_text(std::string text, const std::string& name,
+                  const std::vector<std::string>& overrides = {});
+
 /// The job that finds the boundaries of a job's spectrum. Its amplitudes become the scan, and the
 /// plane has crossings instead: the flips of a block at one frequency, counted from 0.
 Job boundary_of(Job spectrum);

@@ -1,0 +1,191 @@
+#include "apart.hpp"
+
+#include "exit_code.hpp"
+
+#include "overturn/file/file_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <poll.h>
+#include <spawn.h>
+#include <string_view>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <utility>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU};
+
+/// A crash leaves no core file, an endless loop ends, and nobody stays behind alone.
+void prepare_to_crash(const std::string& path)
+{
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, none);
+    const rlim_t seconds = 60 + rlim_t(none ? 0 : 60 * (bytes >> 30));
+    const rlimit processor_time{seconds, seconds + 1};
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CPU, &processor_time);
+    setrlimit(RLIMIT_CORE, &no_core);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
+int call(const std::function<int()>& read)
+{
+    try {
+        return read();
+    } catch (const std::exception& error) {
+        return complain(error);
+    }
+}
+
+int wait_for(pid_t child)
+{
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+/// Takes what has come through; false at its end.
+bool take(int pipe_end, std::string& text)
+{
+    std::array<char, 4096> block;
+    const ssize_t size = ::read(pipe_end, block.data(), block.size());
+    text.append(block.data(), std::size_t(std::max<ssize_t>(size, 0)));
+    return size > 0 || (size < 0 && errno == EINTR);
+}
+
+struct Pipe {
+    std::array<int, 2> ends{-1, -1};
+
+    Pipe()
+    {
+        if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+            throw FileError(fmt::format("cannot open a pipe: {}.", std::strerror(errno)));
+        }
+    }
+    ~Pipe()
+    {
+        close(ends[0]);
+        close_entrance();
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+
+    int exit() const { return ends[0]; }
+    int entrance() const { return ends[1]; }
+    void close_entrance()
+    {
+        if (ends[1] >= 0) {
+            close(std::exchange(ends[1], -1));
+        }
+    }
+};
+
+pid_t start(const std::vector<std::string>& arguments, const Pipe& output, const Pipe& errors)
+{
+    posix_spawn_file_actions_t redirections;
+    posix_spawn_file_actions_init(&redirections);
+    posix_spawn_file_actions_adddup2(&redirections, output.entrance(), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&redirections, errors.entrance(), STDERR_FILENO);
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    std::vector<char*> words{const_cast<char*>(self.c_str())};
+    for (const std::string& argument : arguments) {
+        words.push_back(const_cast<char*>(argument.c_str()));
+    }
+    words.push_back(nullptr);
+    pid_t child = 0;
+    const int fault =
+        posix_spawn(&child, self.c_str(), &redirections, nullptr, words.data(), environ);
+    posix_spawn_file_actions_destroy(&redirections);
+    if (fault != 0) {
+        throw FileError(fmt::format("cannot start \"{}\": {}.", self, std::strerror(fault)));
+    }
+    return child;
+}
+
+} // namespace
+
+int read_apart(const std::string& path, const std::function<int()>& read)
+{
+    std::fflush(nullptr); // what is in a buffer would be printed twice
+    const pid_t child = fork();
+    if (child < 0) {
+        throw FileError(
+            fmt::format("cannot start a process to read \"{}\": {}.", path, std::strerror(errno)));
+    }
+    if (child == 0) {
+        prepare_to_crash(path);
+        const int code = call(read);
+        std::fflush(nullptr);
+        _exit(code);
+    }
+    const int status = wait_for(child);
+    if (WIFEXITED(status)) {
+        return WEXITSTATUS(status);
+    }
+    const int signal = WTERMSIG(status);
+    if (std::find(crashes.begin(), crashes.end(), signal) == crashes.end()) {
+        std::signal(signal, SIG_DFL); // whoever ended the child meant us
+        raise(signal);
+    }
+    throw FileError(fmt::format(
+        "\"{}\" is damaged: the HDF5 library {}.", path,
+        signal == SIGXCPU ? "does not come to an end with it"
+                          : fmt::format("crashes when it reads it ({})", strsignal(signal))));
+}
+
+Answer ask_overturn(const std::vector<std::string>& arguments,
+                    const std::function<bool()>& is_unwanted)
+{
+    Pipe output;
+    Pipe errors;
+    const pid_t child = start(arguments, output, errors);
+    output.close_entrance();
+    errors.close_entrance();
+    Answer answer;
+    std::array<pollfd, 2> ends{pollfd{output.exit(), POLLIN, 0}, pollfd{errors.exit(), POLLIN, 0}};
+    const std::array<std::string*, 2> texts{&answer.output, &answer.errors};
+    constexpr int look_every = 50; // [ms]
+    bool unwanted = false;
+    while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+        if (!unwanted && is_unwanted()) {
+            unwanted = true;
+            kill(child, SIGKILL);
+        }
+        if (poll(ends.data(), ends.size(), look_every) <= 0) {
+            continue;
+        }
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            if (ends[i].revents != 0 && !take(ends[i].fd, *texts[i])) {
+                ends[i].fd = -1; // poll leaves it out
+            }
+        }
+    }
+    const int status = wait_for(child);
+    if (WIFEXITED(status)) {
+        answer.exit_code = WEXITSTATUS(status);
+    } else { // a signal to all processes of a job is meant for us too
+        answer.exit_code = unwanted || is_unwanted() ? exit_code::stopped : exit_code::internal;
+    }
+    constexpr std::string_view name = "overturn: ";
+    if (answer.errors.starts_with(name)) {
+        answer.errors.erase(0, name.size());
+    }
+    return answer;
+}
+
+} // namespace overturn

@@ -1,0 +1,30 @@
+// Reading a result file in a process of its own. HDF5 1.10 crashes on some files that are damaged,
+// or made for that, and takes along who reads them: here it is a child that dies, and the parent
+// tells.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+/// The exit code of `read`, called in a child process that prints as this one would; where it
+/// throws, the child complains. Throws FileError if the child crashes, or takes a minute of
+/// processor time per GB of the file. Not within an MPI session, whose memory a child must not
+/// touch.
+int read_apart(const std::string& path, const std::function<int()>& read);
+
+/// What overturn answers to other arguments.
+struct Answer {
+    int exit_code = 0;
+    std::string output;
+    std::string errors; ///< without "overturn: "
+};
+
+/// Runs this program once more, and waits for its end or until it is not wanted any more; then the
+/// exit code is exit_code::stopped. Within an MPI session too.
+Answer ask_overturn(const std::vector<std::string>& arguments,
+                    const std::function<bool()>& is_unwanted);
+
+} // namespace overturn

@@ -1,0 +1,147 @@
+#include "prepare_output.hpp"
+
+#include "apart.hpp"
+#include "exit_code.hpp"
+
+#include "overturn/farm/human_units.hpp"
+#include "overturn/farm/stop_signals.hpp"
+#include "overturn/file/spectrum_file.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+namespace overturn {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A file of this size is made in a second or less [bytes].
+constexpr long double quickly_made = 1e8L;
+
+void say(const std::string& line)
+{
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+}
+
+Prepared stopped_before(const char* what)
+{
+    fmt::print(stderr,
+               "overturn: stopped by a signal before {}. Run the same command again to resume.\n",
+               what);
+    return {.verdict = exit_code::stopped, .damaged = {}};
+}
+
+FileError error_of(const Answer& answer)
+{
+    return FileError(answer.errors.substr(0, answer.errors.find('\n')));
+}
+
+/// Of a file that may do harm to whoever reads it, as it may have been damaged, or made for that.
+void expect_readable(const std::string& path)
+{
+    const Answer answer = ask_overturn({"info", "--", path}, [] { return false; });
+    if (answer.exit_code != exit_code::complete) {
+        throw FileError(std::string(error_of(answer).what()) + " Choose another name with -o.");
+    }
+}
+
+/// Reads all that is done: a machine that lost its power may have kept the mark and lost the
+/// values. Nothing if it is asked to stop meanwhile.
+std::optional<std::vector<std::int64_t>> find_damaged_tiles(const std::string& path)
+{
+    const auto start = Clock::now();
+    bool told = false;
+    const Answer answer = ask_overturn({"verify", "--numbers", "--", path}, [&] {
+        if (!told && Clock::now() - start > std::chrono::seconds(2)) {
+            say(path + ": looking whether what is done is as it was written");
+            told = true;
+        }
+        return StopSignals::requested();
+    });
+    if (answer.exit_code == exit_code::stopped) {
+        return std::nullopt;
+    }
+    std::vector<std::int64_t> damaged;
+    std::istringstream lines(answer.output);
+    for (std::int64_t number = 0; lines >> number;) {
+        damaged.push_back(number);
+    }
+    if (answer.exit_code != exit_code::complete && damaged.empty()) {
+        throw error_of(answer);
+    }
+    return damaged;
+}
+
+/// In a process of its own if it takes long: neither HDF5 nor a disk that is to take gigabytes at
+/// once can be interrupted. False if it is asked to stop meanwhile.
+bool make_file(const Job& job, const RunOptions& options, const std::string& path)
+{
+    const Tiling tiling = tiling_of(job);
+    const long double bytes = spectrum_file_bytes(job, tiling);
+    if (bytes <= quickly_made) {
+        create_spectrum_file(path, job, tiling);
+        return true;
+    }
+    say(fmt::format("{}: making a file of {}", path, human_bytes(double(bytes))));
+    std::vector<std::string> arguments{job.product == Product::boundary ? "boundary" : "run",
+                                       "--make-only", "--output=" + path};
+    for (const std::string& setting : options.job.overrides) {
+        arguments.push_back("--set=" + setting);
+    }
+    arguments.insert(arguments.end(), {"--", options.job.path});
+    const Answer answer = ask_overturn(arguments, StopSignals::requested);
+    if (answer.exit_code == exit_code::stopped) {
+        remove_half_made_file(path);
+        return false;
+    }
+    if (answer.exit_code != exit_code::complete) {
+        throw error_of(answer);
+    }
+    return true;
+}
+
+} // namespace
+
+Job read_job_of(const RunOptions& options)
+{
+    Job job = read_job(options.job.path, options.job.overrides);
+    return options.boundary ? boundary_of(std::move(job)) : job;
+}
+
+Prepared prepare_output(const Job& job, const RunOptions& options, const std::string& path)
+{
+    std::error_code said_by_examine;
+    if (std::filesystem::exists(path, said_by_examine)) {
+        expect_readable(path);
+    }
+    const Existing existing = examine(path, job, tiling_of(job));
+    if (existing == Existing::nothing) {
+        return make_file(job, options, path) ? Prepared{} : stopped_before("the file was made");
+    }
+    const auto damaged = find_damaged_tiles(path);
+    if (!damaged) {
+        return stopped_before("anything was computed");
+    }
+    Prepared prepared{.verdict = go_on, .damaged = *damaged};
+    if (existing == Existing::complete && prepared.damaged.empty()) {
+        say(path + " is complete already.");
+        prepared.verdict = exit_code::complete;
+    }
+    return prepared;
+}
+
+int make_output(const RunOptions& options)
+{
+    const Job job = read_job_of(options);
+    create_spectrum_file(options.output, job, tiling_of(job));
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,105 @@
+#include "coordinates.hpp"
+
+#include "layout.hpp"
+
+#include <numbers>
+
+namespace overturn {
+
+namespace {
+
+Coordinate dimension(const char* name, const Axis& axis, const char* long_name, const char* units)
+{
+    return {name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units};
+}
+
+Coordinate restitution_ratio(const Plane& plane)
+{
+    std::vector<double> values;
+    for (std::int64_t i = 0; i < plane.slenderness.size(); ++i) {
+        for (std::int64_t j = 0; j < plane.restitution.size(); ++j) {
+            values.push_back(plane.restitution_ratio(i, j));
+        }
+    }
+    return {layout::restitution_ratio,
+            {"slenderness", "restitution"},
+            {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
+            std::move(values),
+            "energy ratio at an impact, r",
+            "1"};
+}
+
+/// Of a job that names its block in metres.
+Coordinate pulse_period(const Plane& plane)
+{
+    const double p = frequency_parameter(*plane.block);
+    std::vector<double> periods;
+    for (const double frequency : plane.frequency.values()) {
+        periods.push_back(2 * std::numbers::pi / (frequency * p));
+    }
+    return {layout::pulse_period,
+            {"frequency"},
+            {periods.size()},
+            periods,
+            "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2",
+            "s"};
+}
+
+/// Of a job that names its block in metres.
+Coordinate peak_ground_acceleration(const Job& job)
+{
+    const double alpha = job.plane.slenderness.first();
+    const double threshold = job.scene.theory == Theory::linear
+                                 ? uplift_acceleration<Theory::linear>(alpha)
+                                 : uplift_acceleration<Theory::nonlinear>(alpha);
+    std::vector<double> accelerations;
+    for (const double amplitude : job.plane.amplitude.values()) {
+        accelerations.push_back(amplitude * threshold);
+    }
+    return {layout::peak_ground_acceleration,
+            {"amplitude"},
+            {accelerations.size()},
+            accelerations,
+            "peak ground acceleration, over g",
+            "1"};
+}
+
+} // namespace
+
+std::vector<Coordinate> coordinates_of(const Job& job)
+{
+    const Plane& plane = job.plane;
+    const bool is_spectrum = job.product == Product::spectrum;
+    std::vector<Coordinate> all;
+    all.push_back(dimension("slenderness", plane.slenderness,
+                            "slenderness of the block, arctan(b/h)", "rad"));
+    all.push_back(dimension("restitution", plane.restitution,
+                            plane.restitution_of == RestitutionOf::maximum
+                                ? "energy ratio at an impact, over the largest one of the block"
+                                : "energy ratio at an impact",
+                            "1"));
+    if (is_spectrum) {
+        all.push_back(dimension("amplitude", plane.amplitude,
+                                job.scene.theory == Theory::linear
+                                    ? "peak ground acceleration, over g alpha"
+                                    : "peak ground acceleration, over g tan(alpha)",
+                                "1"));
+    } else {
+        all.push_back(dimension("crossing", plane.amplitude,
+                                "flips of the verdict along the amplitude, from 0", "1"));
+        all.push_back(dimension(layout::scan, job.scan,
+                                "amplitudes that were looked at to find the flips", "1"));
+    }
+    all.push_back(dimension("frequency", plane.frequency,
+                            "pulse frequency, over the block's frequency parameter p", "1"));
+    all.push_back(restitution_ratio(plane));
+    if (plane.block) {
+        all.push_back(pulse_period(plane));
+        if (is_spectrum) { // a boundary has no amplitudes but the flips
+            all.push_back(peak_ground_acceleration(job));
+        }
+    }
+    return all;
+}
+
+} // namespace overturn

@@ -1,0 +1,27 @@
+// The coordinate variables of a result file: what the skeleton is given, and what a file is held
+// against when it is read back.
+#pragma once
+
+#include "overturn/job/job.hpp"
+
+#include <hdf5.h>
+
+#include <vector>
+
+namespace overturn {
+
+struct Coordinate {
+    const char* name;
+    std::vector<const char*> dimensions; ///< slowest first; its own name: it is a dimension itself
+    std::vector<hsize_t> shape;
+    std::vector<double> values; ///< in `units`
+    const char* long_name;
+    const char* units;
+
+    bool is_dimension() const { return dimensions.front() == name; }
+};
+
+/// In the order of the file: dimensions first.
+std::vector<Coordinate> coordinates_of(const Job& job);
+
+} // namespace overturn

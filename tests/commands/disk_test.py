@@ -1,0 +1,236 @@
+"""What overturn does about disks that are full or fail, and files that change behind its back. Wants
+FAULTY_DISK, the library of tests/faults, in the environment too."""
+
+import errno
+import os
+import shutil
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from program import ENVIRONMENT, OVERTURN, PATIENCE, SMALL, Scratch, checksum, under_mpi
+
+FAULTY_DISK = os.environ["FAULTY_DISK"]
+AGAIN = "run the same command again to resume"
+
+
+class OnFaultyDisk(Scratch):
+    def overturn_on_faulty_disk(self, *arguments, ranks=None, **faults):
+        """Runs the program with the faults in the file out.h5."""
+        settings = {"LD_PRELOAD": FAULTY_DISK, "FAULTY_FILE": self.folder / "out.h5", **faults}
+        preload = "export " + " ".join(f"{name}={value}" for name, value in settings.items())
+        if ranks is None:
+            return self.overturn(*arguments, shell_setup=preload)
+        return subprocess.run(
+            [*under_mpi(ranks), *(word for name in settings for word in ("-x", name)), OVERTURN,
+             *arguments], cwd=self.folder, timeout=PATIENCE, capture_output=True, text=True,
+            env=ENVIRONMENT | {name: str(value) for name, value in settings.items()})  # fmt: skip
+
+
+class ADiskThatFails(OnFaultyDisk):
+    """From some write on none gets through: as on a disk that is full or at its quota, that went
+    read-only after an error, or that is broken."""
+
+    REASONS = {errno.ENOSPC: "no space left on device", errno.EDQUOT: "disk quota exceeded",
+               errno.EROFS: "read-only file system", errno.EIO: "input/output error"}  # fmt: skip
+
+    def setUp(self):
+        super().setUp()
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
+        self.whole = checksum(self.folder / "whole.h5")
+
+    def writes_of_a_run(self):
+        """Those that make the file, and those of the whole run."""
+        result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5",
+                                              COUNT_WRITES_IN=self.folder / "count")
+        self.assert_exit(result, 0)
+        every = int((self.folder / "count").read_text().split()[0])
+        (self.folder / "count").unlink()
+        tiles = 24
+        return every - tiles * 7, every  # six fields and the checksum, but for a few at the end
+
+    def test_ends_the_run_with_its_reason_and_loses_nothing(self):
+        making, every = self.writes_of_a_run()
+        for number, reason in self.REASONS.items():
+            for ranks in (None, 2):
+                (self.folder / "out.h5").unlink(missing_ok=True)
+                at = ({"FAIL_AT_WRITE": (making + every) // 2} if ranks is None
+                      else {"FAIL_AT_WRITE": 10, "FAULTY_RANK": 1})  # which has no part in making it
+                result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5",
+                                                      ranks=ranks, ERROR=number, **at)
+                self.assert_exit(result, 74, "cannot write tile", reason)
+                self.assertIn(AGAIN, result.stderr.lower())
+                self.assert_exit(self.overturn("verify", "out.h5"), 0)
+                resumed = self.overturn("run", "small.toml", "-o", "out.h5")
+                self.assert_exit(resumed, 0, "going on, ")
+                self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
+
+    def test_leaves_nothing_behind_while_the_file_is_made(self):
+        before = self.files()
+        for write in (1, 10):
+            for number, reason in self.REASONS.items():
+                result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5",
+                                                      ERROR=number, FAIL_AT_WRITE=write)
+                self.assert_exit(result, 74, "cannot create", reason)
+                self.assertEqual(self.files(), before)
+
+    def test_is_heard_of_if_what_was_written_does_not_reach_it(self):
+        for ranks in (None, 2):
+            (self.folder / "out.h5").unlink(missing_ok=True)
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
+            self.damage()
+            result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", "--durable",
+                                                  ranks=ranks, ERROR=errno.EIO, FAIL_AT_SYNC=1)
+            self.assert_exit(result, 74, "cannot write tile", "input/output error")
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
+            self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
+
+    def damage(self):
+        """The marks of all tiles, so that a run has something to do."""
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            file["checksum"][:] = 0
+
+
+class AFullDisk(Scratch):
+    """A file system of its own, as any user may have in a namespace of mounts."""
+
+    @staticmethod
+    def is_possible():
+        return subprocess.run(["unshare", "--map-root-user", "--mount", "true"],
+                              capture_output=True).returncode == 0
+
+    def setUp(self):
+        super().setUp()
+        if not self.is_possible():
+            self.skipTest("no namespaces of mounts here")
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
+        self.whole = self.folder / "whole.h5"
+
+    def on_small_disk(self, commands):
+        """Shell commands with $DISK, of half of the room that the file takes."""
+        disk = self.folder / "disk"
+        disk.mkdir()
+        bytes_of_disk = self.whole.stat().st_size // 2
+        script = f"mount -t tmpfs -o size={bytes_of_disk} tmpfs $DISK; " + commands
+        return subprocess.run(
+            ["unshare", "--map-root-user", "--mount", "bash", "-c", script], cwd=self.folder,
+            env=ENVIRONMENT | {"DISK": str(disk), "OVERTURN": OVERTURN}, timeout=PATIENCE,
+            capture_output=True, text=True)
+
+    def test_is_seen_before_anything_is_computed(self):
+        result = self.on_small_disk("$OVERTURN run small.toml -o $DISK/out.h5; code=$?;"
+                                    "[[ -z $(ls $DISK) ]] || exit 1; exit $code")
+        size = self.whole.stat().st_size
+        self.assert_exit(result, 74, "it takes 2", "bytes, and", "are available. Free some")
+        needed = int(result.stderr.split("it takes ")[1].split()[0])
+        self.assertLess(abs(needed - size), 0.03 * size + 32768)
+
+    def test_is_forgiven_once_there_is_room(self):
+        result = self.on_small_disk(
+            "$OVERTURN run small.toml -o $DISK/out.h5; [[ $? == 74 ]] || exit 1;"
+            "mount -o remount,size=64m $DISK; $OVERTURN run small.toml -o $DISK/out.h5 &&"
+            "cmp $DISK/out.h5 whole.h5")
+        self.assert_exit(result, 0)
+
+    def test_says_what_is_missing_if_only_the_sidecar_does_not_fit(self):
+        self.forget_a_tile("unfinished.h5")
+        result = self.on_small_disk(
+            "mount -o remount,size=64m $DISK; cp unfinished.h5 $DISK/out.h5;"
+            "(cat /dev/zero >$DISK/filler) 2>/dev/null;"
+            "$OVERTURN run small.toml -o $DISK/out.h5; code=$?; $OVERTURN verify $DISK/out.h5;"
+            "[[ ! -e $DISK/out.h5.json ]] || exit 1; exit $code")
+        self.assert_exit(result, 74, "out.h5.json", "no space left on device",
+                         "24 of 24 tiles are done, and all of them are as they were written")
+
+    def forget_a_tile(self, name):
+        shutil.copy(self.whole, self.folder / name)
+        with h5py.File(self.folder / name, "r+") as file:
+            file["checksum"][3] = 0
+
+    def test_may_be_read_only_when_a_run_is_to_go_on(self):
+        self.forget_a_tile("unfinished.h5")
+        result = self.on_small_disk(
+            "mount -o remount,size=64m $DISK; cp unfinished.h5 $DISK/out.h5;"
+            "mount -o remount,ro $DISK; $OVERTURN run small.toml -o $DISK/out.h5")
+        self.assert_exit(result, 74, "cannot open", "for writing: read-only file system")
+
+
+class AFileThatChanges(Scratch):
+    def end_of_run_after(self, change, ranks):
+        """What a run says after the change, made when it has begun."""
+        (self.folder / "long.h5").unlink(missing_ok=True)
+        command = [OVERTURN, "run", "long.toml"] if ranks is None else [
+            *under_mpi(ranks), OVERTURN, "run", "long.toml"]  # fmt: skip
+        with subprocess.Popen(command, cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True) as process:
+            self.addCleanup(process.kill)
+            self.assertIn("tiles", process.stdout.readline())
+            time.sleep(1)  # some tiles are done
+            change(self.folder / "long.h5")
+            output, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 74, output)
+        return " ".join(output.split())
+
+    def test_is_missed_if_it_is_gone(self):
+        for ranks in (None, 2):
+            output = self.end_of_run_after(lambda path: path.unlink(), ranks)
+            self.assertIn("was removed, moved or replaced while it was written", output)
+
+    def test_is_missed_if_it_was_moved_and_goes_on_once_it_is_back(self):
+        elsewhere = self.folder / "elsewhere.h5"
+        output = self.end_of_run_after(lambda path: path.rename(elsewhere), 2)
+        self.assertIn("move it back and run the same command again to resume", output)
+        elsewhere.rename(self.folder / "long.h5")
+        self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "going on, ")
+        self.assert_exit(self.overturn("verify", "long.h5"), 0, "147 of 147 tiles are done")
+
+    def test_is_noticed_if_another_takes_its_place(self):
+        def replace(path):
+            path.unlink()
+            path.write_text("somebody else's")
+
+        self.end_of_run_after(replace, None)
+        self.assertEqual((self.folder / "long.h5").read_text(), "somebody else's")
+
+    def test_is_noticed_if_it_is_cut(self):
+        for ranks in (None, 2):
+            output = self.end_of_run_after(lambda path: os.truncate(path, 100_000), ranks)
+            self.assertIn("was cut from", output)
+            self.assert_exit(self.overturn("run", "long.toml"), 74, "long.h5")
+
+    def test_is_refused_if_an_axis_is_not_its_jobs(self):
+        (self.folder / "small.toml").write_text(SMALL)
+        self.assert_exit(self.overturn("run", "small.toml"), 0)
+        for name in ("frequency", "slenderness", "restitution_ratio"):
+            with h5py.File(self.folder / "small.h5", "r+") as file:
+                kept = file[name][...]
+                file[name][...] = kept * (1 + 1e-15)
+            self.assert_exit(self.overturn("verify", "small.h5"), 74,
+                             f"damaged: of its coordinates {name} are not its job's")
+            self.assert_exit(self.overturn("run", "small.toml"), 74, name)
+            with h5py.File(self.folder / "small.h5", "r+") as file:
+                file[name][...] = kept
+        self.assert_exit(self.overturn("verify", "small.h5"), 0)
+
+
+class AnUnreadableFile(OnFaultyDisk):
+    """One at which the HDF5 library crashes."""
+
+    def test_is_damaged_in_the_words_of_whoever_reads_it(self):
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
+        before = checksum(self.folder / "out.h5")
+        for command in (["info", "out.h5"], ["verify", "out.h5"], ["run", "small.toml", "-o", "out.h5"],
+                        ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7",
+                         "-o", "out.h5"]):  # fmt: skip
+            result = self.overturn_on_faulty_disk(*command, CRASH_AT_READ=1)
+            self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')
+        result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=2,
+                                              CRASH_AT_READ=1)
+        self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')
+        self.assertEqual(checksum(self.folder / "out.h5"), before)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

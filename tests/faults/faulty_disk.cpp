@@ -1,0 +1,163 @@
+// Preloaded into overturn, a disk with faults, in the result file that FAULTY_FILE names:
+//
+//   KILL_AT_WRITE=17       SIGKILL in the midst of the 17th write of this process
+//   KILL_TORN=1            half of its bytes get through
+//   FAIL_AT_WRITE=17       from the 17th write on all of them fail, with the error number ERROR
+//   FAIL_AT_SYNC=1         and so does bringing it to the disk
+//   CRASH_AT_READ=1        a crash at the first read
+//   COUNT_WRITES_IN=PATH   no fault; says at exit how many writes there were, and how often the
+//   file
+//                          was brought to the disk
+//   FAULTY_RANK=1          all this in this rank alone; without a launcher the rank is 0
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <string>
+#include <sys/uio.h>
+#include <unistd.h>
+
+namespace {
+
+long number_from(const char* name, long otherwise)
+{
+    const char* text = std::getenv(name);
+    return text == nullptr ? otherwise : std::atol(text);
+}
+
+/// Whether the descriptor is of the file, under its name or as the part that it begins as.
+bool is_the_file(int descriptor)
+{
+    const char* wanted = std::getenv("FAULTY_FILE");
+    char path[4096] = {};
+    const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+    return wanted != nullptr && readlink(link.c_str(), path, sizeof path - 1) > 0 &&
+           (std::string(path) == wanted || std::string(path) == std::string(wanted) + ".part");
+}
+
+bool is_faulty_rank()
+{
+    return number_from("OMPI_COMM_WORLD_RANK", 0) == number_from("FAULTY_RANK", 0);
+}
+
+struct Count {
+    long writes = 0;
+    long syncs = 0;
+    ~Count()
+    {
+        if (const char* path = std::getenv("COUNT_WRITES_IN")) {
+            std::FILE* file = std::fopen(path, "a");
+            std::fprintf(file, "%ld %ld\n", writes, syncs);
+            std::fclose(file);
+        }
+    }
+};
+
+Count count;
+
+template <class Function>
+Function original(const char* name)
+{
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+/// A write of so many bytes, done by write_some(bytes).
+template <class WriteSome>
+ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
+{
+    if (is_the_file(descriptor)) {
+        ++count.writes;
+        if (is_faulty_rank() && count.writes == number_from("KILL_AT_WRITE", -1)) {
+            write_some(number_from("KILL_TORN", 0) ? bytes / 2 : 0);
+            raise(SIGKILL);
+        }
+        const long failing = number_from("FAIL_AT_WRITE", -1);
+        if (is_faulty_rank() && failing >= 0 && count.writes >= failing) {
+            errno = int(number_from("ERROR", EIO));
+            return -1;
+        }
+    }
+    return write_some(bytes);
+}
+
+void crash_if_asked(int descriptor)
+{
+    if (number_from("CRASH_AT_READ", 0) && is_faulty_rank() && is_the_file(descriptor)) {
+        raise(SIGSEGV);
+    }
+}
+
+ssize_t write_at(int descriptor, const void* buffer, size_t bytes, off64_t offset)
+{
+    static const auto real = original<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64");
+    return faulty_write(descriptor, bytes,
+                        [&](size_t some) { return real(descriptor, buffer, some, offset); });
+}
+
+ssize_t read_at(int descriptor, void* buffer, size_t bytes, off64_t offset)
+{
+    static const auto real = original<ssize_t (*)(int, void*, size_t, off64_t)>("pread64");
+    crash_if_asked(descriptor);
+    return real(descriptor, buffer, bytes, offset);
+}
+
+} // namespace
+
+extern "C" ssize_t pwrite64(int descriptor, const void* buffer, size_t bytes, off64_t offset)
+{
+    return write_at(descriptor, buffer, bytes, offset);
+}
+
+extern "C" ssize_t pwrite(int descriptor, const void* buffer, size_t bytes, off_t offset)
+{
+    return write_at(descriptor, buffer, bytes, offset);
+}
+
+extern "C" ssize_t write(int descriptor, const void* buffer, size_t bytes)
+{
+    static const auto real = original<ssize_t (*)(int, const void*, size_t)>("write");
+    return faulty_write(descriptor, bytes,
+                        [&](size_t some) { return real(descriptor, buffer, some); });
+}
+
+extern "C" ssize_t writev(int descriptor, const iovec* parts, int number)
+{
+    static const auto real = original<ssize_t (*)(int, const iovec*, int)>("writev");
+    const size_t first = number > 0 ? parts[0].iov_len : 0;
+    return faulty_write(descriptor, first, [&](size_t some) {
+        const iovec part{number > 0 ? parts[0].iov_base : nullptr, some};
+        return some == first ? real(descriptor, parts, number) : real(descriptor, &part, 1);
+    });
+}
+
+extern "C" ssize_t pread64(int descriptor, void* buffer, size_t bytes, off64_t offset)
+{
+    return read_at(descriptor, buffer, bytes, offset);
+}
+
+extern "C" ssize_t pread(int descriptor, void* buffer, size_t bytes, off_t offset)
+{
+    return read_at(descriptor, buffer, bytes, offset);
+}
+
+extern "C" ssize_t read(int descriptor, void* buffer, size_t bytes)
+{
+    static const auto real = original<ssize_t (*)(int, void*, size_t)>("read");
+    crash_if_asked(descriptor);
+    return real(descriptor, buffer, bytes);
+}
+
+extern "C" int fsync(int descriptor)
+{
+    static const auto real = original<int (*)(int)>("fsync");
+    if (is_the_file(descriptor)) {
+        ++count.syncs;
+        if (is_faulty_rank() && number_from("FAIL_AT_SYNC", 0)) {
+            errno = int(number_from("ERROR", EIO));
+            return -1;
+        }
+    }
+    return real(descriptor);
+}
