@@ -250,6 +250,24 @@ class AnInterruptedRun(Scratch):
             self.assertEqual(process.returncode, 85, output)
         self.assert_resumes(ranks=None)
 
+    def test_stops_at_once_while_its_file_is_made(self):
+        command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
+                   "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=16000",
+                   "--set=plane.amplitude.count=16000"]
+        for ranks in (None, 2):
+            before = self.files()
+            with subprocess.Popen(
+                    command if ranks is None else under_mpi(ranks) + command, cwd=self.folder,
+                    env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                    text=True) as process:
+                self.addCleanup(process.kill)
+                self.assertIn("making a file of 2", process.stdout.readline())
+                process.send_signal(signal.SIGUSR1)
+                output, _ = process.communicate(timeout=PATIENCE / 2)
+            self.assertEqual(process.returncode, 85, output)
+            self.assertIn("before the file was made", output)
+            self.assertEqual(self.files(), before)
+
     def test_drops_a_tile_that_would_take_minutes(self):
         # Without loss, these blocks bounce until they have taken all steps there are. One point of
         # a boundary's scan takes a second or two: it is resolved.

@@ -171,6 +171,13 @@ class TestAJoinRefused(Spectra):
         self.refuses(74, ("\"part.h5\" is unfinished: 2 of 12 tiles",),
                      "part.h5", "-o", "joined.h5")
 
+    def test_of_values_that_were_not_computed(self):
+        def damage(file):
+            file["angle"][0, 0, 5, 5] += 1e-9
+        self.change("altered.h5", damage)
+        self.refuses(74, ("\"altered.h5\" is damaged: 1 of 12 tiles",),
+                     "altered.h5", "-o", "joined.h5")
+
     def test_of_another_build(self):
         def age(file):
             file.attrs["program_commit"] = np.bytes_("0123456789")
