@@ -17,6 +17,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <string_view>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -39,7 +40,7 @@ void prepare_to_crash(const std::string& path)
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CPU, &processor_time);
     setrlimit(RLIMIT_CORE, &no_core);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    end_with_parent();
 }
 
 int call(const std::function<int()>& read)
@@ -51,12 +52,41 @@ int call(const std::function<int()>& read)
     }
 }
 
+/// Who starts us may have asked for children that leave nothing to wait for.
+void expect_children()
+{
+    std::signal(SIGCHLD, SIG_DFL);
+}
+
 int wait_for(pid_t child)
 {
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (waitpid(child, &status, 0) < 0) {
+        if (errno != EINTR) {
+            throw FileError(
+                fmt::format("cannot learn how a process has ended: {}.", std::strerror(errno)));
+        }
     }
     return status;
+}
+
+/// The last complaint of a process among what else it, or its loader, has to say; how it ended
+/// otherwise.
+std::string complaint_in(const std::string& errors, int status)
+{
+    constexpr std::string_view name = "\noverturn: ";
+    const std::string lines = fmt::format("\n{}", errors);
+    const std::size_t begin = lines.rfind(name);
+    if (begin != lines.npos) {
+        std::string complaint = lines.substr(begin + name.size());
+        complaint.erase(complaint.find_last_not_of('\n') + 1);
+        return complaint;
+    }
+    return WIFEXITED(status)
+               ? fmt::format("a process of overturn ended with exit code {} and no word.",
+                             WEXITSTATUS(status))
+               : fmt::format("a process of overturn was ended by a signal ({}).",
+                             strsignal(WTERMSIG(status)));
 }
 
 /// Takes what has come through; false at its end.
@@ -95,33 +125,64 @@ struct Pipe {
     }
 };
 
-pid_t start(const std::vector<std::string>& arguments, const Pipe& output, const Pipe& errors)
+/// A file in memory.
+class Input {
+public:
+    explicit Input(const std::string& text) : descriptor_(memfd_create("input", MFD_CLOEXEC))
+    {
+        if (descriptor_ < 0 ||
+            write(descriptor_, text.data(), text.size()) != ssize_t(text.size())) {
+            throw FileError(fmt::format("cannot hand over a job: {}.", std::strerror(errno)));
+        }
+        lseek(descriptor_, 0, SEEK_SET);
+    }
+    ~Input() { close(descriptor_); }
+    Input(const Input&) = delete;
+    Input& operator=(const Input&) = delete;
+
+    int descriptor() const { return descriptor_; }
+
+private:
+    int descriptor_;
+};
+
+pid_t start(const std::vector<std::string>& arguments, const Input& input, const Pipe& output,
+            const Pipe& errors)
 {
     posix_spawn_file_actions_t redirections;
     posix_spawn_file_actions_init(&redirections);
+    posix_spawn_file_actions_adddup2(&redirections, input.descriptor(), STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&redirections, output.entrance(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&redirections, errors.entrance(), STDERR_FILENO);
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    std::vector<char*> words{const_cast<char*>(self.c_str())};
+    std::string name = "overturn";
+    std::vector<char*> words{name.data()};
     for (const std::string& argument : arguments) {
         words.push_back(const_cast<char*>(argument.c_str()));
     }
     words.push_back(nullptr);
+    constexpr const char* self = "/proc/self/exe"; // also if it was replaced meanwhile
     pid_t child = 0;
-    const int fault =
-        posix_spawn(&child, self.c_str(), &redirections, nullptr, words.data(), environ);
+    const int fault = posix_spawn(&child, self, &redirections, nullptr, words.data(), environ);
     posix_spawn_file_actions_destroy(&redirections);
     if (fault != 0) {
-        throw FileError(fmt::format("cannot start \"{}\": {}.", self, std::strerror(fault)));
+        throw FileError(fmt::format("cannot start another process of overturn by {}: {}.", self,
+                                    std::strerror(fault)));
     }
     return child;
 }
 
 } // namespace
 
+void end_with_parent()
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+}
+
 int read_apart(const std::string& path, const std::function<int()>& read)
 {
+    expect_children();
     std::fflush(nullptr); // what is in a buffer would be printed twice
+    const pid_t parent = getpid();
     const pid_t child = fork();
     if (child < 0) {
         throw FileError(
@@ -129,15 +190,23 @@ int read_apart(const std::string& path, const std::function<int()>& read)
     }
     if (child == 0) {
         prepare_to_crash(path);
+        if (getppid() != parent) {
+            _exit(exit_code::internal); // nobody is waiting any more
+        }
         const int code = call(read);
-        std::fflush(nullptr);
-        _exit(code);
+        _exit(std::fflush(stdout) == 0 ? code
+                                       : complain(FileError("cannot write what was found.")));
     }
     const int status = wait_for(child);
     if (WIFEXITED(status)) {
         return WEXITSTATUS(status);
     }
     const int signal = WTERMSIG(status);
+    if (signal == SIGKILL) {
+        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps for want of "
+                                    "memory.",
+                                    path));
+    }
     if (std::find(crashes.begin(), crashes.end(), signal) == crashes.end()) {
         std::signal(signal, SIG_DFL); // whoever ended the child meant us
         raise(signal);
@@ -149,16 +218,18 @@ int read_apart(const std::string& path, const std::function<int()>& read)
 }
 
 Answer ask_overturn(const std::vector<std::string>& arguments,
-                    const std::function<bool()>& is_unwanted)
+                    const std::function<bool()>& is_unwanted, const std::string& input)
 {
+    expect_children();
     Pipe output;
     Pipe errors;
-    const pid_t child = start(arguments, output, errors);
+    const pid_t child = start(arguments, Input(input), output, errors);
     output.close_entrance();
     errors.close_entrance();
-    Answer answer;
+    std::string printed;
+    std::string complained;
     std::array<pollfd, 2> ends{pollfd{output.exit(), POLLIN, 0}, pollfd{errors.exit(), POLLIN, 0}};
-    const std::array<std::string*, 2> texts{&answer.output, &answer.errors};
+    const std::array<std::string*, 2> texts{&printed, &complained};
     constexpr int look_every = 50; // [ms]
     bool unwanted = false;
     while (ends[0].fd >= 0 || ends[1].fd >= 0) {
@@ -176,14 +247,11 @@ Answer ask_overturn(const std::vector<std::string>& arguments,
         }
     }
     const int status = wait_for(child);
-    if (WIFEXITED(status)) {
-        answer.exit_code = WEXITSTATUS(status);
-    } else { // a signal to all processes of a job is meant for us too
-        answer.exit_code = unwanted || is_unwanted() ? exit_code::stopped : exit_code::internal;
-    }
-    constexpr std::string_view name = "overturn: ";
-    if (answer.errors.starts_with(name)) {
-        answer.errors.erase(0, name.size());
+    Answer answer{.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : exit_code::internal,
+                  .output = std::move(printed),
+                  .complaint = complaint_in(complained, status)};
+    if (!WIFEXITED(status) && (unwanted || is_unwanted())) {
+        answer.exit_code = exit_code::stopped; // a signal to all of a job was meant for us, too
     }
     return answer;
 }

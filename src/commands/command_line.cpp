@@ -250,10 +250,12 @@ Command read_command_line(int argc, const char* const* argv)
         throw UsageError(fmt::format("{}\nRun with --help for more information.", error.what()));
     }
     if (run_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->run); }, .on_every_rank = true};
+        return {.execute = [arguments] { return run(arguments->run); },
+                .on_every_rank = !arguments->run.make_only};
     }
     if (boundary_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->boundary); }, .on_every_rank = true};
+        return {.execute = [arguments] { return run(arguments->boundary); },
+                .on_every_rank = !arguments->boundary.make_only};
     }
     if (check_command->parsed()) {
         return {.execute = [arguments] { return check(arguments->check); }};

@@ -9,6 +9,7 @@
 #include "overturn/file/spectrum_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace overturn {
 
@@ -26,6 +27,7 @@ std::string axis_text(const AxisSummary& axis)
 int print_what_it_holds(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
+    const std::vector<std::string> damaged = damaged_coordinates(path);
     if (!summary.title.empty()) {
         fmt::print("{}\n\n", printable(summary.title));
     }
@@ -36,6 +38,9 @@ int print_what_it_holds(const std::string& path)
                                                summary.program_commit)));
     for (const AxisSummary& axis : summary.axes) {
         print_row(axis.name, axis_text(axis));
+    }
+    if (!damaged.empty()) {
+        print_row("damaged", fmt::format("{}: not what the job gives", fmt::join(damaged, ", ")));
     }
     for (const FieldSummary& field : summary.fields) {
         print_row("field", fmt::format("{}, {}", field.name, field.type));

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -38,18 +39,15 @@ Prepared stopped_before(const char* what)
     return {.verdict = exit_code::stopped, .damaged = {}};
 }
 
-FileError error_of(const Answer& answer)
+/// False if it is asked to stop meanwhile. Throws FileError if the file, which may have been
+/// damaged or made for that, does harm to whoever reads it.
+bool is_readable(const std::string& path)
 {
-    return FileError(answer.errors.substr(0, answer.errors.find('\n')));
-}
-
-/// Of a file that may do harm to whoever reads it, as it may have been damaged, or made for that.
-void expect_readable(const std::string& path)
-{
-    const Answer answer = ask_overturn({"info", "--", path}, [] { return false; });
-    if (answer.exit_code != exit_code::complete) {
-        throw FileError(std::string(error_of(answer).what()) + " Choose another name with -o.");
+    const Answer answer = ask_overturn({"info", "--", path}, StopSignals::requested);
+    if (answer.exit_code != exit_code::complete && answer.exit_code != exit_code::stopped) {
+        throw FileError(answer.complaint + " Choose another name with -o.");
     }
+    return answer.exit_code == exit_code::complete;
 }
 
 /// Reads all that is done: a machine that lost its power may have kept the mark and lost the
@@ -74,7 +72,7 @@ std::optional<std::vector<std::int64_t>> find_damaged_tiles(const std::string& p
         damaged.push_back(number);
     }
     if (answer.exit_code != exit_code::complete && damaged.empty()) {
-        throw error_of(answer);
+        throw FileError(answer.complaint);
     }
     return damaged;
 }
@@ -95,16 +93,16 @@ bool make_file(const Job& job, const RunOptions& options, const std::string& pat
     for (const std::string& setting : options.job.overrides) {
         arguments.push_back("--set=" + setting);
     }
-    arguments.insert(arguments.end(), {"--", options.job.path});
-    const Answer answer = ask_overturn(arguments, StopSignals::requested);
-    if (answer.exit_code == exit_code::stopped) {
-        remove_half_made_file(path);
-        return false;
+    arguments.insert(arguments.end(), {"--", "/dev/stdin"}); // a job may come from a pipe
+    const Answer answer = ask_overturn(arguments, StopSignals::requested, job.given);
+    if (answer.exit_code == exit_code::complete) {
+        return true;
     }
-    if (answer.exit_code != exit_code::complete) {
-        throw error_of(answer);
+    remove_half_made_file(path);
+    if (answer.exit_code != exit_code::stopped) {
+        throw FileError(answer.complaint);
     }
-    return true;
+    return false;
 }
 
 } // namespace
@@ -118,8 +116,8 @@ Job read_job_of(const RunOptions& options)
 Prepared prepare_output(const Job& job, const RunOptions& options, const std::string& path)
 {
     std::error_code said_by_examine;
-    if (std::filesystem::exists(path, said_by_examine)) {
-        expect_readable(path);
+    if (std::filesystem::exists(path, said_by_examine) && !is_readable(path)) {
+        return stopped_before("anything was computed");
     }
     const Existing existing = examine(path, job, tiling_of(job));
     if (existing == Existing::nothing) {
@@ -139,7 +137,13 @@ Prepared prepare_output(const Job& job, const RunOptions& options, const std::st
 
 int make_output(const RunOptions& options)
 {
+    end_with_parent();
+    std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
     const Job job = read_job_of(options);
+    std::error_code said_when_it_is_made;
+    if (std::filesystem::exists(options.output, said_when_it_is_made)) {
+        throw FileError(fmt::format("\"{}\" exists.", options.output));
+    }
     create_spectrum_file(options.output, job, tiling_of(job));
     return exit_code::complete;
 }

@@ -26,8 +26,8 @@ Job read_job_of(const RunOptions& options);
 /// be trusted. Throws FileError.
 Prepared prepare_output(const Job& job, const RunOptions& options, const std::string& path);
 
-/// Makes the file, and computes nothing; returns the exit code. For a process that is told to by
-/// prepare_output() of another.
+/// Makes the file, and computes nothing; returns the exit code. For a process of its own, that of a
+/// run which holds the lock on the file, or of tools/join_spectra.
 int make_output(const RunOptions& options);
 
 } // namespace overturn

@@ -30,7 +30,8 @@ SoleWriter::SoleWriter(const std::string& path) : lock_(path + ".lock")
         if (descriptor_ >= 0) {
             ::close(descriptor_);
         }
-        descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, for_all_to_lock);
+        // Children get it as well: one that makes the file, and outlives us, still holds the lock.
+        descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT, for_all_to_lock);
         if (descriptor_ < 0) {
             return; // a folder that cannot be written: whoever needs to write there says so
         }

@@ -124,7 +124,9 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
                                          H5Dclose);
         }
         open_->checksums = Handle(H5Dopen2(open_->file, layout::checksum, H5P_DEFAULT), H5Dclose);
-        stat(path.c_str(), &open_->as_opened);
+        if (stat(path.c_str(), &open_->as_opened) != 0) {
+            throw hdf5::Hdf5Error(system_reason(errno));
+        }
     } catch (const hdf5::Hdf5Error& error) {
         open_->file.release();
         throw FileError(fmt::format("cannot open \"{}\" for writing: {}.", path, error.what()));

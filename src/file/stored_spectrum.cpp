@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <new>
 
 namespace overturn {
@@ -57,13 +59,20 @@ bool has_type(hid_t dataset, hid_t expected)
     return check(H5Tequal(type, expected)) > 0;
 }
 
-// Sizes are held against the file's, so that a damaged one cannot make us allocate without bound.
+// Sizes are held against what is stored, so that a damaged one cannot make us allocate without
+// bound.
+
+bool is_stored(hid_t dataset, hsize_t bytes)
+{
+    return H5Dget_storage_size(dataset) >= bytes;
+}
 
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
     const Handle dataset = open_dataset(file, name);
     const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == 1 && shape[0] <= bytes && has_type(dataset, H5T_C_S1),
+    demand(shape.size() == 1 && shape[0] <= bytes && is_stored(dataset, shape[0]) &&
+               has_type(dataset, H5T_C_S1),
            "a text is malformed");
     std::string text(shape[0], '\0');
     check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
@@ -75,7 +84,7 @@ StoredAxis read_axis(hid_t file, const char* name, std::uint64_t bytes)
     const Handle dataset = open_dataset(file, name);
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == 1 && shape[0] >= 1 && shape[0] <= bytes / sizeof(double) &&
-               has_type(dataset, H5T_IEEE_F64LE),
+               is_stored(dataset, shape[0] * sizeof(double)) && has_type(dataset, H5T_IEEE_F64LE),
            "an axis is malformed");
     StoredAxis axis{name, hdf5::read_text_attribute(dataset, "units"), {}};
     axis.values.resize(shape[0]);
@@ -126,6 +135,8 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
            "the tiles are malformed");
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == 1 && shape[0] == hsize_t(spectrum.tiling().size()) &&
+               shape[0] <= spectrum.bytes / sizeof(std::uint64_t) &&
+               is_stored(dataset, shape[0] * sizeof(std::uint64_t)) &&
                has_type(dataset, H5T_STD_U64LE),
            "the checksums do not fit the tiles");
     spectrum.checksums = read_checksums(dataset);
@@ -166,6 +177,13 @@ StoredSpectrum read(const std::string& path)
     return spectrum;
 }
 
+/// But for what the C library of another machine makes of a logarithm or an exponential of it.
+bool is_as_good_as(double stored, double computed)
+{
+    constexpr double roundings = 100 * std::numeric_limits<double>::epsilon();
+    return std::abs(stored - computed) <= roundings * std::abs(computed);
+}
+
 /// In the words of HDF5.
 std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
 {
@@ -197,7 +215,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
             check(
                 H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
         }
-        if (values != coordinate.values) {
+        if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {
             foreign.emplace_back(coordinate.name);
         }
     }

@@ -252,8 +252,8 @@ class AnInterruptedRun(Scratch):
 
     def test_stops_at_once_while_its_file_is_made(self):
         command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
-                   "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=16000",
-                   "--set=plane.amplitude.count=16000"]
+                   "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
+                   "--set=plane.amplitude.count=32000"]
         for ranks in (None, 2):
             before = self.files()
             with subprocess.Popen(
@@ -261,7 +261,7 @@ class AnInterruptedRun(Scratch):
                     env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                     text=True) as process:
                 self.addCleanup(process.kill)
-                self.assertIn("making a file of 2", process.stdout.readline())
+                self.assertIn("making a file of 1", process.stdout.readline())
                 process.send_signal(signal.SIGUSR1)
                 output, _ = process.communicate(timeout=PATIENCE / 2)
             self.assertEqual(process.returncode, 85, output)

@@ -4,10 +4,8 @@
 //   KILL_TORN=1            half of its bytes get through
 //   FAIL_AT_WRITE=17       from the 17th write on all of them fail, with the error number ERROR
 //   FAIL_AT_SYNC=1         and so does bringing it to the disk
-//   CRASH_AT_READ=1        a crash at the first read
-//   COUNT_WRITES_IN=PATH   no fault; says at exit how many writes there were, and how often the
-//   file
-//                          was brought to the disk
+//   CRASH_AT_READ=17       a crash at the 17th read of this process
+//   COUNT_WRITES_IN=PATH   at exit, the writes and how often the file was brought to the disk
 //   FAULTY_RANK=1          all this in this rank alone; without a launcher the rank is 0
 #include <cerrno>
 #include <csignal>
@@ -44,6 +42,7 @@ bool is_faulty_rank()
 
 struct Count {
     long writes = 0;
+    long reads = 0;
     long syncs = 0;
     ~Count()
     {
@@ -84,7 +83,8 @@ ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
 
 void crash_if_asked(int descriptor)
 {
-    if (number_from("CRASH_AT_READ", 0) && is_faulty_rank() && is_the_file(descriptor)) {
+    if (is_the_file(descriptor) && ++count.reads == number_from("CRASH_AT_READ", 0) &&
+        is_faulty_rank()) {
         raise(SIGSEGV);
     }
 }

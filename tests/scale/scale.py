@@ -304,7 +304,8 @@ def digest(path, left_out=()):
 
 def many_ranks(folder, options, chance):
     """The bytes must be those of one rank: with 64 ranks, and with 64 that are stopped and resumed."""
-    plane = Plane(folder, "ranks", 1250, 1270, COSTLY)
+    # The more cores, the more to do: a signal has to come in its midst.
+    plane = Plane(folder, "ranks", 1250 * max(1, CORES // 4), 1270, COSTLY)
     alone = folder / "alone.h5"
     say(f"{plane} in {plane.tiles} tiles on one rank")
     plane.run(None, alone).must_end_with(0)

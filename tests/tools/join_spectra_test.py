@@ -193,7 +193,7 @@ class TestAJoinRefused(Spectra):
         def damage(file):
             del file["job_resolved"]
         self.change("damaged.h5", damage)
-        self.refuses(74, ("\"damaged.h5\" is damaged",), "damaged.h5", "-o", "joined.h5")
+        self.refuses(74, ("\"damaged.h5\"", "is damaged"), "damaged.h5", "-o", "joined.h5")
         self.refuses(74, ("\"job.toml\" is not an HDF5 file",), "job.toml", "-o", "joined.h5")
         run = self.run_here(OVERTURN, "boundary", "job.toml", "-o", "boundary.h5",
                             "--set=plane.frequency.count=2", "--set=plane.amplitude.count=20")
