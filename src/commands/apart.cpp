@@ -30,16 +30,26 @@ namespace {
 
 constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU};
 
-/// A crash leaves no core file, an endless loop ends, and nobody stays behind alone.
+void limit(int resource, rlim_t most)
+{
+    const rlimit limits{most, most};
+    setrlimit(resource, &limits);
+}
+
+/// A crash leaves no core file, an endless loop ends, no size in a file takes all memory, and
+/// nobody stays behind alone.
 void prepare_to_crash(const std::string& path)
 {
     std::error_code none;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, none);
-    const rlim_t seconds = 60 + rlim_t(none ? 0 : 60 * (bytes >> 30));
-    const rlimit processor_time{seconds, seconds + 1};
-    const rlimit no_core{0, 0};
+    const std::uintmax_t found = std::filesystem::file_size(path, none);
+    const rlim_t bytes = none ? 0 : rlim_t(found);
+    const rlim_t seconds = 60 + 60 * (bytes >> 30);
+    const rlimit processor_time{seconds, seconds + 1}; // first a signal that tells what it was
     setrlimit(RLIMIT_CPU, &processor_time);
-    setrlimit(RLIMIT_CORE, &no_core);
+    limit(RLIMIT_CORE, 0);
+#ifndef __SANITIZE_ADDRESS__ // which takes all there is, to begin with
+    limit(RLIMIT_DATA, (rlim_t(1) << 29) + 2 * bytes);
+#endif
     end_with_parent();
 }
 

@@ -11,7 +11,8 @@ namespace overturn {
 
 /// The exit code of `read`, called in a child process that prints as this one would; where it
 /// throws, the child complains. Throws FileError if the child crashes, or takes a minute of
-/// processor time and another one per GB of the file. Not within an MPI session, whose memory a
+/// processor time and another one per GB of the file; its memory ends at 512 MiB and twice the size
+/// of the file. Not within an MPI session, whose memory a
 /// child must not touch.
 int read_apart(const std::string& path, const std::function<int()>& read);
 
