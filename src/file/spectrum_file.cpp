@@ -182,7 +182,9 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
         dataset = layout::checksum;
         write_checksum(open_->checksums, tile.number, tile_checksum(fields.values));
     } catch (const hdf5::Hdf5Error& error) {
-        throw open_->cannot_write(tile, dataset, error);
+        const FileError failure = open_->cannot_write(tile, dataset, error);
+        open_->expect_in_place(); // which would be the reason
+        throw failure;
     }
 }
 
