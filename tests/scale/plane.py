@@ -1,0 +1,287 @@
+"""A plane to compute, the program at work on it, and what must hold. For scale.py."""
+
+import contextlib
+import hashlib
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "commands"))
+from program import ENVIRONMENT, OVERTURN, children_of, ranks_of, under_mpi  # noqa: E402
+
+BEGAN = time.monotonic()
+CORES = len(os.sched_getaffinity(0))
+SIDE = 64  # of a tile
+BETWEEN_LOOKS = 0.05  # [s]
+SILENCE = 1800  # [s] without a word after which a command is taken to hang; a run tells its progress
+STOPPED = 85
+MIB = 2**20
+
+# What grows with the points is what is kept of each tile. Rank 0 keeps two lists of the missing ones,
+# one of them with up to twice the room, and for a while the checksums: 32 bytes. With a million tiles
+# 35 were measured, and twice as many are allowed. The rest is libraries, most of it MPI's: 33 MiB
+# with 64 ranks, and three times as many are allowed, for other MPIs.
+MOST_MEMORY_PER_TILE = 64  # [bytes]
+MOST_MEMORY = 96 * MIB
+
+JOB = """
+[scene]
+pulse = "one_sine"
+theory = "nonlinear"
+[plane]
+frequency = {frequency}
+amplitude = {amplitude}
+restitution = {{ values = [1.0], of = "maximum" }}
+slenderness = {{ values = [0.1745716] }}
+[numerics]
+method = "{method}"
+tolerance = {tolerance}
+[output]
+fields = [{fields}]
+"""
+# The least work that is sensible: at 1e-4 taylor takes a tenth less time than rk45 for these points,
+# and one verdict in ten thousand is wrong. Which does not matter here, as long as it is the same one.
+CHEAP = {"method": "taylor", "tolerance": "1e-4", "fields": '"region"'}
+# Tiles that take long enough for a signal to come in their midst.
+COSTLY = {"method": "rk45", "tolerance": "1e-12",
+          "fields": '"region", "angle", "velocity", "margin", "impacts", "status"'}
+
+
+class Failure(Exception):
+    """What must not happen."""
+
+
+def demand(condition, what_is_wrong):
+    if not condition:
+        raise Failure(what_is_wrong)
+
+
+def say(text):
+    print(f"[{time.monotonic() - BEGAN:4.0f} s] {text}", flush=True)
+
+
+class Plane:
+    """A plane of the paper's block under a one-sine pulse: its job, its file, and its tiles."""
+
+    def __init__(self, folder, name, rows, columns, numerics):
+        self.folder, self.rows, self.columns, self.numerics = folder, rows, columns, numerics
+        self.job, self.file = folder / f"{name}.toml", folder / f"{name}.h5"
+        self.job.write_text(JOB.format(frequency=f"{{ first = 0.1, last = 12.0, count = {columns} }}",
+                                       amplitude=f"{{ first = 0.1, last = 16.0, count = {rows} }}",
+                                       **numerics))
+        self.tile_rows, self.tile_columns = -(-rows // SIDE), -(-columns // SIDE)
+        self.tiles = self.tile_rows * self.tile_columns
+        self.points = rows * columns
+        self.most_memory = MOST_MEMORY + MOST_MEMORY_PER_TILE * self.tiles
+        self.place_of_marks = None
+
+    def __str__(self):
+        return f"{self.rows} x {self.columns} points"
+
+    def slices(self, tile):
+        """The rows and columns of a tile, which is smaller at the far edges."""
+        row, column = (SIDE * index for index in divmod(int(tile), self.tile_columns))
+        return (slice(row, min(row + SIDE, self.rows)),
+                slice(column, min(column + SIDE, self.columns)))
+
+    def tile_of(self, point):
+        row, column = divmod(point, self.columns)
+        return row // SIDE * self.tile_columns + column // SIDE
+
+    def marks(self):
+        """The checksums, 0 for tiles that are not done; also while ranks write them, past HDF5."""
+        if not self.file.exists():
+            return np.zeros(self.tiles, np.uint64)
+        if self.place_of_marks is None:
+            with h5py.File(self.file) as file:
+                self.place_of_marks = file["checksum"].id.get_offset()
+        return np.fromfile(self.file, "<u8", self.tiles, offset=self.place_of_marks)
+
+    def done(self):
+        return np.count_nonzero(self.marks())
+
+    def run(self, ranks, output=None):
+        """Starts to compute it, without mpirun if ranks is None."""
+        return Command(self.folder, ["run", self.job, "-o", output or self.file], ranks)
+
+    def values(self, name, rows, columns):
+        with h5py.File(self.file) as file:
+            return file[name][0, 0, rows, columns]
+
+    def computed_apart(self, rows, columns):
+        """The regions at some rows and columns (indices), by a job that lists the axes' values."""
+        with h5py.File(self.file) as file:
+            axes = {name: "{ values = %s }" % file[name][:][indices].tolist()
+                    for name, indices in (("amplitude", rows), ("frequency", columns))}
+        job, output = self.folder / "apart.toml", self.folder / "apart.h5"
+        job.write_text(JOB.format(**axes, **self.numerics))
+        Command(self.folder, ["run", job, "-o", output]).must_end_with(0)
+        with h5py.File(output) as file:
+            regions = file["region"][0, 0]
+        output.unlink()
+        return regions
+
+    def demand_right_tiles(self, tiles):
+        for tile in tiles:
+            rows, columns = self.slices(tile)
+            demand(np.array_equal(self.values("region", rows, columns), self.computed_apart(rows, columns)),
+                   f"{self}: tile {tile} is not what a small job computes")
+
+    def demand_right_lines(self, chance, count):
+        """Whole rows and columns, picked at random, and the last ones."""
+        rows = sorted({*chance.sample(range(self.rows), count), self.rows - 1})
+        columns = sorted({*chance.sample(range(self.columns), count), self.columns - 1})
+        everything = slice(None)
+        stored = np.array([self.values("region", row, everything) for row in rows])
+        demand(np.array_equal(stored, self.computed_apart(rows, everything)),
+               f"{self}: rows are not what a small job computes")
+        stored = np.array([self.values("region", everything, column) for column in columns]).T
+        demand(np.array_equal(stored, self.computed_apart(everything, columns)),
+               f"{self}: columns are not what a small job computes")
+        return len(rows) * self.columns + len(columns) * self.rows
+
+
+class Command:
+    """The program at work, with or without mpirun; its words, and the most memory of its ranks.
+
+    That is VmHWM of each, looked at again and again. (What wait4 tells of a child is at least what
+    this script took when it started it.)"""
+
+    running = []
+
+    def __init__(self, folder, arguments, ranks=None):
+        self.ranks, self.memory, self.pids = ranks or 1, {}, []
+        command = [*(under_mpi(ranks) if ranks else []), OVERTURN, *map(str, arguments)]
+        self.output = tempfile.TemporaryFile(dir=folder)
+        self.began = self.last_word = time.monotonic()
+        self.length = 0
+        self.process = subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdout=self.output,
+                                        stderr=subprocess.STDOUT, start_new_session=True)
+        self.under_mpi = ranks is not None
+        Command.running.append(self)
+
+    def words(self):
+        return os.pread(self.output.fileno(), MIB, 0).decode()
+
+    def is_running(self):
+        self.look_at_memory()
+        length = os.fstat(self.output.fileno()).st_size
+        if length > self.length:
+            self.length, self.last_word = length, time.monotonic()
+        demand(time.monotonic() - self.last_word < SILENCE, f"silent for {SILENCE} s:\n{self.words()}")
+        return self.process.poll() is None
+
+    def look_at_memory(self):
+        with contextlib.suppress(OSError):  # it has just ended
+            if not self.under_mpi:  # a process that has another one read
+                self.pids = [self.process.pid, *children_of(self.process.pid)]
+            elif len(self.pids) < self.ranks:
+                self.pids = ranks_of(self.process.pid)
+        for pid in self.pids:
+            with contextlib.suppress(OSError):
+                status = pathlib.Path(f"/proc/{pid}/status").read_text()
+                peak = re.search(r"VmHWM:\s*(\d+) kB", status)
+                self.memory[pid] = max(int(peak[1]) * 1024 if peak else 0, self.memory.get(pid, 0))
+
+    def most_memory(self):
+        demand(len(self.memory) >= self.ranks and all(self.memory.values()),
+               f"only {len(self.memory)} of {self.ranks} ranks were seen")
+        return max(self.memory.values())
+
+    def wait_for_tiles(self, plane, share):
+        """Until it has done so many tiles of the plane, a share of all of them."""
+        while plane.done() < share * plane.tiles:
+            demand(self.is_running(), f"it ended before it could be disturbed:\n{self.words()}")
+            time.sleep(BETWEEN_LOOKS)
+
+    def wait_for_words(self, phrase):
+        while phrase not in self.words():
+            demand(self.is_running(), f"it ended early:\n{self.words()}")
+            time.sleep(BETWEEN_LOOKS)
+
+    def wait_for_end(self):
+        while self.is_running():
+            time.sleep(BETWEEN_LOOKS / 10)
+        self.seconds = time.monotonic() - self.began
+        Command.running.remove(self)
+        return self.process.returncode
+
+    def must_end_with(self, code):
+        found = self.wait_for_end()
+        demand(found == code, f"exit code {found} instead of {code}:\n{self.words()}")
+        return self
+
+    def must_say(self, *phrases):
+        for phrase in phrases:
+            demand(phrase in self.words(), f'"{phrase}" is not in\n{self.words()}')
+        return self
+
+    def stop(self):
+        """As README.md says: SIGUSR1 to mpirun."""
+        self.process.send_signal(signal.SIGUSR1)
+        return self.must_end_with(STOPPED).must_say("stopped by a signal")
+
+    def kill_a_rank(self, chance):
+        os.kill(chance.choice(self.pids), signal.SIGKILL)
+        demand(self.wait_for_end() != 0, "a killed rank went unnoticed")
+        return self
+
+    @classmethod
+    def end_all(cls):
+        """What a failure has left running. mpirun ends its ranks if it gets the time for it."""
+        for command in cls.running:
+            command.process.terminate()
+            try:
+                command.process.wait(timeout=30)
+            except subprocess.TimeoutExpired:
+                for pid in [*command.pids, command.process.pid]:
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(pid, signal.SIGKILL)
+
+
+def verify(plane):
+    return Command(plane.folder, ["verify", plane.file]).must_end_with(0).must_say(
+        f"{plane.tiles} of {plane.tiles} tiles are done, and all of them are as they were written")
+
+
+def resume(plane, ranks):
+    """Goes on with what is there, which the run must find, all of it and undamaged."""
+    there = plane.done()
+    command = plane.run(ranks)
+    command.wait_for_words("kernel")
+    return command.must_say(f"going on, {there} of {plane.tiles} tiles are there; ")
+
+
+def demand_little_memory(plane, *commands):
+    most = max(command.most_memory() for command in commands)
+    demand(most <= plane.most_memory, f"{plane}: a process took {most / MIB:.0f} MiB; at most "
+           f"{plane.most_memory / MIB:.0f} MiB are right")
+    return f"{most / MIB:.0f} MiB (bound {plane.most_memory / MIB:.0f})"
+
+
+def human(count):
+    """A number as the program writes it, from 1000 on."""
+    for prefix in "kMGT":
+        count /= 1000
+        if count < 999.5:
+            break
+    return f"{count:.{2 if count < 9.995 else 1 if count < 99.95 else 0}f} {prefix}"
+
+
+def digest(path, left_out=()):
+    """sha256 of a file but for some (offset, size)."""
+    result = hashlib.sha256()
+    with open(path, "rb") as file:
+        for offset, size in [*sorted(left_out), (path.stat().st_size, 0)]:
+            while (left := offset - file.tell()) > 0:
+                result.update(file.read(min(left, 16 * MIB)))
+            file.seek(offset + size)
+    return result.hexdigest()
