@@ -38,8 +38,10 @@ void prepare_for_one_rank()
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
-    // Ranks alone of several runs share a session folder. The default way to share file pointers,
-    // which nobody here does, leaves a file there, and runs that end take each other's away.
+    // Ranks alone of several runs would share a session folder, make it while another run takes it
+    // away at its end, and fail. Only the default way to share file pointers would put anything
+    // there, which nobody here does.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
     setenv("OMPI_MCA_sharedfp", "individual", keep);
 }
 

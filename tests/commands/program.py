@@ -7,11 +7,20 @@ import hashlib
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
-OVERTURN = os.environ["OVERTURN"]
-MPIEXEC = os.environ["MPIEXEC"]
+
+def from_environment(name):
+    """What ctest and tools/check set."""
+    return os.environ.get(name) or sys.exit(
+        f"{name} is not in the environment: run this by ctest or tools/check, or set what the text "
+        "at the head of this script names.")
+
+
+OVERTURN = from_environment("OVERTURN")
+MPIEXEC = from_environment("MPIEXEC")
 PATIENCE = 60  # [s] for one run of the program; the longest takes some seconds
 
 ENVIRONMENT = {

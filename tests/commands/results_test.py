@@ -170,6 +170,11 @@ class SideBySide(Scratch):
             self.assertNotIn("Error", complaints)
             self.assertEqual(checksum(self.folder / f"{i}.h5"), checksum(self.folder / "0.h5"))
 
+    def test_runs_alone_share_no_folder_of_mpi(self):
+        # A folder made by each and taken away by each is a race; where none can be made, none is.
+        self.assert_exit(
+            self.overturn("run", "small.toml", shell_setup="export TMPDIR=/dev/null"), 0)
+
 
 class AnInterruptedRun(Scratch):
     whole = None  # checksum of the uninterrupted file

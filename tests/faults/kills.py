@@ -24,9 +24,11 @@ import time
 import h5py
 import numpy as np
 
-OVERTURN, MPIEXEC, LIBRARY = (os.environ[name] for name in ("OVERTURN", "MPIEXEC", "FAULTY_DISK"))
-ENVIRONMENT = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-PATIENCE = 60  # [s]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "commands"))
+from program import (ENVIRONMENT, OVERTURN, PATIENCE, from_environment,  # noqa: E402
+                     under_mpi)
+
+LIBRARY = from_environment("FAULTY_DISK")
 SIDE = 64  # of a tile
 FIELDS = ("region", "velocity", "margin")
 JOB = f"""
@@ -70,8 +72,7 @@ class Runs:
         self.writes = self.count_writes()
 
     def command(self, ranks, output):
-        launcher = [] if ranks == 1 else [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
-        return [*launcher, OVERTURN, "run", "job.toml", "-o", output]
+        return [*([] if ranks == 1 else under_mpi(ranks)), OVERTURN, "run", "job.toml", "-o", output]
 
     def run_undisturbed(self, output, ranks, **more):
         done = subprocess.run(self.command(ranks, output), cwd=self.folder, timeout=PATIENCE,
