@@ -54,8 +54,8 @@ Exit codes: 0 complete, 2 usage, 65 the job's content is wrong, 70 a fault of ov
 constexpr const char* run_help = R"(Example:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
 
-The same command resumes an unfinished run, with any number of ranks. SIGUSR1, SIGTERM and SIGINT
-stop it after the tiles in hand, with exit code 85.)";
+The same command resumes an unfinished run, with any number of ranks. SIGUSR1, SIGTERM, SIGINT and
+SIGHUP stop it after the tiles in hand, with exit code 85.)";
 
 constexpr const char* boundary_help = R"(Example:
   mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200

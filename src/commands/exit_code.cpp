@@ -8,6 +8,7 @@
 #include "overturn/sweep/kernel.hpp"
 
 #include <cstdio>
+#include <new>
 
 namespace overturn {
 
@@ -35,10 +36,20 @@ int exit_code_of(const std::exception& error)
     return exit_code::internal;
 }
 
+std::string message_of(const std::exception& error)
+{
+    if (is<std::bad_alloc>(error)) {
+        return "there is not enough memory. Each rank keeps the values of the axes, and rank 0 "
+               "some words for each tile: give the axes fewer points, or take a machine with "
+               "more.";
+    }
+    return printable(error.what());
+}
+
 int complain(const std::exception& error)
 {
     std::fflush(stdout);
-    std::fprintf(stderr, "overturn: %s\n", printable(error.what()).c_str());
+    std::fprintf(stderr, "overturn: %s\n", message_of(error).c_str());
     return exit_code_of(error);
 }
 

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 namespace overturn {
 
@@ -22,6 +23,9 @@ public:
 };
 
 int exit_code_of(const std::exception& error);
+
+/// What to print of it: on one line, and safe on a terminal.
+std::string message_of(const std::exception& error);
 
 /// Prints `overturn: message` and returns the exit code.
 int complain(const std::exception& error);

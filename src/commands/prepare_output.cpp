@@ -5,6 +5,7 @@
 
 #include "overturn/farm/human_units.hpp"
 #include "overturn/farm/stop_signals.hpp"
+#include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 
 #include <fmt/format.h>
@@ -27,15 +28,15 @@ constexpr long double quickly_made = 1e8L;
 
 void say(const std::string& line)
 {
-    fmt::print("{}\n", line);
+    std::puts(line.c_str());
     std::fflush(stdout);
 }
 
 Prepared stopped_before(const char* what)
 {
-    fmt::print(stderr,
-               "overturn: stopped by a signal before {}. Run the same command again to resume.\n",
-               what);
+    const std::string stopped = fmt::format(
+        "overturn: stopped by a signal before {}. Run the same command again to resume.\n", what);
+    std::fputs(stopped.c_str(), stderr);
     return {.verdict = exit_code::stopped, .damaged = {}};
 }
 
@@ -121,6 +122,7 @@ Prepared prepare_output(const Job& job, const RunOptions& options, const std::st
     }
     const Existing existing = examine(path, job, tiling_of(job));
     if (existing == Existing::nothing) {
+        demand_place_for_sidecar(path);
         return make_file(job, options, path) ? Prepared{} : stopped_before("the file was made");
     }
     const auto damaged = find_damaged_tiles(path);
@@ -131,6 +133,8 @@ Prepared prepare_output(const Job& job, const RunOptions& options, const std::st
     if (existing == Existing::complete && prepared.damaged.empty()) {
         say(path + " is complete already.");
         prepared.verdict = exit_code::complete;
+    } else {
+        demand_place_for_sidecar(path);
     }
     return prepared;
 }

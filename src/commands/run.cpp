@@ -3,7 +3,6 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "prepare_output.hpp"
-#include "printable.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/human_units.hpp"
@@ -58,7 +57,7 @@ struct Task {
 
 void say(const std::string& line)
 {
-    fmt::print("{}\n", line);
+    std::puts(line.c_str());
     std::fflush(stdout); // a log should have it before the progress that follows
 }
 
@@ -207,10 +206,11 @@ int compute_what_is_missing(const Task& task)
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (report.stopped) {
-            fmt::print(stderr,
-                       "overturn: stopped by a signal; {} of {} tiles are missing. Run the same "
-                       "command again to resume.\n",
-                       std::int64_t(missing.size()) - report.tiles, task.tiling.size());
+            const std::string stopped = fmt::format(
+                "overturn: stopped by a signal; {} of {} tiles are missing. Run the same command "
+                "again to resume.\n",
+                std::int64_t(missing.size()) - report.tiles, task.tiling.size());
+            std::fputs(stopped.c_str(), stderr);
         }
     }
     return report.stopped ? exit_code::stopped : exit_code::complete;
@@ -228,6 +228,7 @@ int run(const RunOptions& options)
     start_hdf5();
     const MpiSession session;
     std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
+    std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more ends no run
     const std::string path = output_path(options);
     Job job;
 
@@ -262,7 +263,7 @@ int run(const RunOptions& options)
         if (session.size() == 1) {
             throw;
         }
-        session.abort(exit_code_of(error), printable(error.what()));
+        session.abort(exit_code_of(error), message_of(error));
     }
 }
 

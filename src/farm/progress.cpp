@@ -78,12 +78,12 @@ void Progress::show(const Moment& moment)
     const std::string text = progress_text(moment);
     if (terminal_) {
         // Back to the first column; what is left of a longer line is erased.
-        fmt::print(stream_, "\r{}\x1b[K", text);
+        std::fputs(fmt::format("\r{}\x1b[K", text).c_str(), stream_);
         line_is_open_ = true;
     } else {
-        fmt::print(stream_, "{}\n", text);
+        std::fputs(fmt::format("{}\n", text).c_str(), stream_);
     }
-    std::fflush(stream_);
+    std::fflush(stream_); // if nobody reads it any more, the run goes on
 }
 
 } // namespace overturn

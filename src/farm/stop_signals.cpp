@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <initializer_list>
 #include <optional>
 
 namespace overturn {
@@ -11,11 +10,19 @@ namespace {
 
 volatile std::sig_atomic_t stop_flag = 0; // the only thing that a signal handler may write
 std::optional<std::chrono::steady_clock::time_point> noticed;
-constexpr std::chrono::seconds patience{1};
+constexpr std::chrono::milliseconds patience{500};
 
 extern "C" void raise_stop_flag(int)
 {
     stop_flag = 1;
+}
+
+constexpr int listened_to[] = {SIGUSR1, SIGTERM, SIGINT, SIGHUP};
+
+bool is_ignored(int signal)
+{
+    struct sigaction action = {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 void listen(int signal, void (*handler)(int), int flags)
@@ -33,15 +40,18 @@ StopSignals::StopSignals()
 {
     stop_flag = 0;
     noticed.reset();
-    // Restart: a write of a tile must not fail because a signal came.
-    listen(SIGUSR1, raise_stop_flag, SA_RESTART);
-    listen(SIGTERM, raise_stop_flag, SA_RESTART);
-    listen(SIGINT, raise_stop_flag, SA_RESTART | int(SA_RESETHAND));
+    for (const int signal : listened_to) {
+        if (signal == SIGHUP && is_ignored(signal)) {
+            continue; // by nohup
+        }
+        // Restart: a write of a tile must not fail because a signal came.
+        listen(signal, raise_stop_flag, SA_RESTART | (signal == SIGINT ? int(SA_RESETHAND) : 0));
+    }
 }
 
 StopSignals::~StopSignals()
 {
-    for (const int signal : {SIGUSR1, SIGTERM, SIGINT}) {
+    for (const int signal : listened_to) {
         listen(signal, SIG_DFL, 0);
     }
 }

@@ -8,9 +8,16 @@ namespace overturn {
 
 namespace {
 
+constexpr double exact = 0;
+constexpr double of_one_function = 4; // each library is within two of the true value
+constexpr double of_several = 100;    // largest_restitution multiplies those of its sine
+
 Coordinate dimension(const char* name, const Axis& axis, const char* long_name, const char* units)
 {
-    return {name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units};
+    const auto* range = std::get_if<AxisRange>(&axis.definition());
+    const bool is_log = range != nullptr && range->spacing == Spacing::log;
+    const double roundings = is_log ? of_one_function : exact;
+    return {name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units, roundings};
 }
 
 Coordinate restitution_ratio(const Plane& plane)
@@ -26,7 +33,8 @@ Coordinate restitution_ratio(const Plane& plane)
             {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
             std::move(values),
             "energy ratio at an impact, r",
-            "1"};
+            "1",
+            plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
 }
 
 /// Of a job that names its block in metres.
@@ -42,7 +50,8 @@ Coordinate pulse_period(const Plane& plane)
             {periods.size()},
             periods,
             "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2",
-            "s"};
+            "s",
+            of_several};
 }
 
 /// Of a job that names its block in metres.
@@ -61,7 +70,8 @@ Coordinate peak_ground_acceleration(const Job& job)
             {accelerations.size()},
             accelerations,
             "peak ground acceleration, over g",
-            "1"};
+            "1",
+            of_several};
 }
 
 } // namespace
@@ -73,6 +83,9 @@ std::vector<Coordinate> coordinates_of(const Job& job)
     std::vector<Coordinate> all;
     all.push_back(dimension("slenderness", plane.slenderness,
                             "slenderness of the block, arctan(b/h)", "rad"));
+    if (plane.block) { // the arctangent of its size
+        all.back().roundings = of_one_function;
+    }
     all.push_back(dimension("restitution", plane.restitution,
                             plane.restitution_of == RestitutionOf::maximum
                                 ? "energy ratio at an impact, over the largest one of the block"

@@ -17,6 +17,9 @@ struct Coordinate {
     std::vector<double> values; ///< in `units`
     const char* long_name;
     const char* units;
+    /// What the C libraries of two machines may make of it, in units of its last place: where no
+    /// function of theirs takes part, nothing.
+    double roundings;
 
     bool is_dimension() const { return dimensions.front() == name; }
 };

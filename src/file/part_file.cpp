@@ -25,7 +25,7 @@ std::string folder_of(const std::string& path)
 } // namespace
 
 PartFile::PartFile(std::string path)
-    : target_(std::move(path)), folder_(folder_of(target_)), part_(target_ + ".part")
+    : target_(std::move(path)), folder_(folder_of(target_)), part_(part_of(target_))
 {
     if (!std::filesystem::is_directory(folder_)) {
         throw FileError(

@@ -16,6 +16,8 @@ public:
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
 
+    static std::string part_of(const std::string& path) { return path + ".part"; }
+
     /// Where to write.
     const std::string& path() const { return part_; }
 

@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <sys/stat.h>
 
 namespace overturn {
 
@@ -52,11 +53,19 @@ std::string compiler_version()
 #endif
 }
 
+/// By which a sidecar is told from what else may be called OUT.h5.json.
+constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
+
+std::string sidecar_of(const std::string& spectrum_path)
+{
+    return spectrum_path + ".json";
+}
+
 std::string as_json(const RunRecord& record)
 {
     const auto start = std::chrono::time_point_cast<std::chrono::seconds>(record.start);
-    std::string text = "{\n";
-    text += fmt::format("  \"program_version\": {},\n", quoted(program_version()));
+    std::string text(sidecar_beginning);
+    text += fmt::format("{},\n", quoted(program_version()));
     text += fmt::format("  \"program_commit\": {},\n", quoted(program_commit()));
     text += fmt::format("  \"start\": \"{:%Y-%m-%dT%H:%M:%SZ}\",\n", fmt::gmtime(start));
     text += fmt::format("  \"wall_seconds\": {},\n", record.wall_seconds);
@@ -99,9 +108,32 @@ std::string_view program_commit()
     return identity::commit;
 }
 
+void demand_place_for_sidecar(const std::string& spectrum_path)
+{
+    const std::string path = sidecar_of(spectrum_path);
+    struct stat file = {};
+    if (stat(PartFile::part_of(path).c_str(), &file) != 0 && errno == ENAMETOOLONG) {
+        throw FileError(fmt::format("cannot write \"{}\", the record of this run: {}. Choose a "
+                                    "shorter name with -o.",
+                                    path, system_reason(errno)));
+    }
+    if (stat(path.c_str(), &file) != 0) {
+        return; // it is not there, or whoever writes the spectrum will say why it cannot be seen
+    }
+    std::string beginning(sidecar_beginning.size(), '\0');
+    if (S_ISREG(file.st_mode)) { // to open a pipe would wait for its other end
+        std::ifstream(path, std::ios::binary).read(beginning.data(), int(beginning.size()));
+    }
+    if (beginning != sidecar_beginning) {
+        throw FileError(fmt::format("\"{}\" stands where the record of this run would be written, "
+                                    "and is none. Move it away, or choose another name with -o.",
+                                    path));
+    }
+}
+
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
 {
-    PartFile part(spectrum_path + ".json");
+    PartFile part(sidecar_of(spectrum_path));
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
     stream << as_json(record);

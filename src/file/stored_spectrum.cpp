@@ -31,8 +31,21 @@ void demand(bool condition, const char* what_is_wrong)
     }
 }
 
-/// A dataset that lies in the file itself. HDF5 also follows links and storage into other files, to
-/// read them, and to write to them when a run goes on.
+/// How many names the object has.
+unsigned count_names(hid_t object)
+{
+#if H5_VERSION_GE(1, 12, 0)
+    H5O_info2_t info = {};
+    check(H5Oget_info3(object, &info, H5O_INFO_BASIC));
+#else
+    H5O_info_t info = {};
+    check(H5Oget_info(object, &info));
+#endif
+    return info.rc;
+}
+
+/// A dataset that lies in the file itself, under one name. HDF5 also follows links and storage into
+/// other files, to read them, and to write to them when a run goes on.
 Handle open_dataset(hid_t file, const char* name)
 {
     H5L_info_t link = {};
@@ -42,6 +55,7 @@ Handle open_dataset(hid_t file, const char* name)
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
            "the values of a dataset lie in another file");
+    demand(count_names(dataset) == 1, "a dataset has two names");
     return dataset;
 }
 
@@ -177,13 +191,6 @@ StoredSpectrum read(const std::string& path)
     return spectrum;
 }
 
-/// But for what the C library of another machine makes of a logarithm or an exponential of it.
-bool is_as_good_as(double stored, double computed)
-{
-    constexpr double roundings = 100 * std::numeric_limits<double>::epsilon();
-    return std::abs(stored - computed) <= roundings * std::abs(computed);
-}
-
 /// In the words of HDF5.
 std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
 {
@@ -215,6 +222,10 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
             check(
                 H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
         }
+        const double tolerance = coordinate.roundings * std::numeric_limits<double>::epsilon();
+        const auto is_as_good_as = [=](double value, double computed) {
+            return std::abs(value - computed) <= tolerance * std::abs(computed);
+        };
         if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {
             foreign.emplace_back(coordinate.name);
         }

@@ -104,6 +104,14 @@ class AHostileResultFile(Scratch):
         self.replace_region(add)
         self.assert_refused_by_all("a link to elsewhere")
 
+    def test_does_not_make_a_run_write_two_fields_into_one(self):
+        (self.folder / "tiny.h5").unlink()
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "tiny.h5"), 0)
+        with h5py.File(self.folder / "tiny.h5", "r+") as file:
+            del file["status"]
+            file["status"] = file["region"]
+        self.assert_refused_by_all("has two names")
+
     def test_is_damaged_and_no_more_if_hdf5_crashes_at_it_or_asks_for_gigabytes(self):
         # Found by tools/check fuzz; HDF5 1.10.8 crashes at two of these, and takes 6 GB for the third.
         for found in sorted(FOUND.iterdir()):

@@ -77,6 +77,28 @@ class ABadOutput(Scratch):
         self.assert_refused(74, ["notes.txt"], "run", "small.toml", "-o", "notes.txt")
         self.assertEqual((self.folder / "notes.txt").read_text(), "not to be lost")
 
+    def test_what_stands_where_its_record_or_its_lock_would_be_stays(self):
+        for name in ("out.h5.json", "out.h5.lock"):
+            (self.folder / name).write_text("not to be lost")
+            self.assert_refused(74, [name, "Move it away"], "run", "small.toml", "-o", "out.h5")
+            self.assertEqual((self.folder / name).read_text(), "not to be lost")
+            (self.folder / name).unlink()
+            (self.folder / name).mkdir()
+            self.assert_refused(74, [name, "Move it away"], "run", "small.toml", "-o", "out.h5")
+            (self.folder / name).rmdir()
+        (self.folder / "small.toml").rename(self.folder / "job.json")
+        self.assert_refused(74, ["job.json", "Move it away"], "run", "job.json", "-o", "job")
+
+    def test_a_name_too_long_for_the_files_beside_it_is_refused_at_once(self):
+        refused = 0
+        for length in range(243, 257):
+            result = self.overturn("run", "small.toml", "-o", "x" * length)
+            if result.returncode != 0:
+                self.assert_exit(result, 74, "file name too long")
+                self.assertNotIn("computed", result.stdout)
+                refused += 1
+        self.assertGreater(refused, 10)
+
     def test_the_file_of_another_job_stays_as_it_is(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0)
         before = checksum(self.folder / "small.h5")

@@ -224,8 +224,10 @@ class AnInterruptedRun(Scratch):
 
     def test_is_not_disturbed_by_a_second_run_of_the_same_job(self):
         process = self.start()
-        result = self.overturn("run", "long.toml")
-        self.assert_exit(result, 74, "being written by another run")
+        (self.folder / "link.h5").symlink_to("long.h5")
+        for name in ("long.h5", "link.h5"):
+            result = self.overturn("run", "long.toml", "-o", name)
+            self.assert_exit(result, 74, "being written by another run")
         process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0)
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
@@ -248,12 +250,29 @@ class AnInterruptedRun(Scratch):
         self.assert_resumes(ranks=5)
 
     def test_stops_alone_on_each_polite_signal(self):
-        for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT):
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may have been started by nohup
+        for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             process = self.start()
             process.send_signal(polite)
             output, _ = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 85, output)
         self.assert_resumes(ranks=None)
+
+    def test_goes_on_without_a_terminal_if_it_was_started_so(self):
+        ignored = "trap '' HUP; (sleep 1; kill -HUP $$) & true"
+        self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
+
+    def test_goes_on_when_nobody_reads_what_it_says(self):
+        for ranks in (None, 2):
+            with subprocess.Popen(
+                    [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "small.toml"],
+                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT) as process:
+                process.stdout.close()
+                self.assertEqual(process.wait(timeout=PATIENCE), 0)
+            (self.folder / "small.h5.json").unlink()
+            self.assert_exit(self.overturn("verify", "small.h5"), 0)
+            (self.folder / "small.h5").unlink()
 
     def test_stops_at_once_while_its_file_is_made(self):
         command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",

@@ -1,11 +1,12 @@
-// The polite ways to stop a run: SIGUSR1 (a batch system's warning), SIGTERM and SIGINT raise a
-// flag; the ranks finish the tile in hand, if it takes no longer than a second. A second SIGINT
-// ends the process at once.
+// The polite ways to stop a run: SIGUSR1 (a batch system's warning), SIGTERM, SIGINT and SIGHUP
+// (the terminal is gone) raise a flag; the ranks finish the tile in hand, if it takes no longer
+// than half a second. A second SIGINT ends the process at once.
 #pragma once
 
 namespace overturn {
 
-/// Listens for the signals from construction to destruction. One at a time.
+/// Listens for the signals from construction to destruction; not for SIGHUP where the process was
+/// started to ignore it, as by nohup. One at a time.
 class StopSignals {
 public:
     StopSignals();
@@ -16,8 +17,8 @@ public:
     /// Whether a signal came since construction.
     static bool requested();
 
-    /// Whether a signal came, and a second has passed since this was asked first after it: what is
-    /// in hand had better be dropped.
+    /// Whether a signal came, and half a second has passed since this was asked first after it:
+    /// what is in hand had better be dropped.
     static bool overdue();
 };
 

@@ -40,6 +40,10 @@ struct RunRecord {
     std::vector<RankRecord> ranks; ///< by rank number
 };
 
+/// Throws FileError if something else than a sidecar stands in the place of this spectrum's, or if
+/// its name is too long. To be called before anything is computed.
+void demand_place_for_sidecar(const std::string& spectrum_path);
+
 /// Writes the record to spectrum_path + ".json", together with the compiler and the versions of
 /// HDF5 and MPI. Replaces an older sidecar in one step. Throws FileError.
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record);
