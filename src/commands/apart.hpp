@@ -12,8 +12,7 @@ namespace overturn {
 /// The exit code of `read`, called in a child process that prints as this one would; where it
 /// throws, the child complains. Throws FileError if the child crashes, or takes a minute of
 /// processor time and another one per GB of the file; its memory ends at 512 MiB and twice the size
-/// of the file. Not within an MPI session, whose memory a
-/// child must not touch.
+/// of the file. Not within an MPI session, whose memory a child must not touch.
 int read_apart(const std::string& path, const std::function<int()>& read);
 
 /// For a process that is of use to its parent alone.

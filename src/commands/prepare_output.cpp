@@ -2,6 +2,7 @@
 
 #include "apart.hpp"
 #include "exit_code.hpp"
+#include "say.hpp"
 
 #include "overturn/farm/human_units.hpp"
 #include "overturn/farm/stop_signals.hpp"
@@ -12,7 +13,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -26,17 +26,9 @@ using Clock = std::chrono::steady_clock;
 /// A file of this size is made in a second or less [bytes].
 constexpr long double quickly_made = 1e8L;
 
-void say(const std::string& line)
-{
-    std::puts(line.c_str());
-    std::fflush(stdout);
-}
-
 Prepared stopped_before(const char* what)
 {
-    const std::string stopped = fmt::format(
-        "overturn: stopped by a signal before {}. Run the same command again to resume.\n", what);
-    std::fputs(stopped.c_str(), stderr);
+    say_stopped(fmt::format(" before {}", what));
     return {.verdict = exit_code::stopped, .damaged = {}};
 }
 

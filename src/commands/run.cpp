@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "prepare_output.hpp"
+#include "say.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/human_units.hpp"
@@ -20,7 +21,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -54,12 +54,6 @@ struct Task {
     }
     const char* item_name() const { return job.product == Product::boundary ? "lines" : "points"; }
 };
-
-void say(const std::string& line)
-{
-    std::puts(line.c_str());
-    std::fflush(stdout); // a log should have it before the progress that follows
-}
 
 std::string output_path(const RunOptions& options)
 {
@@ -206,11 +200,9 @@ int compute_what_is_missing(const Task& task)
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (report.stopped) {
-            const std::string stopped = fmt::format(
-                "overturn: stopped by a signal; {} of {} tiles are missing. Run the same command "
-                "again to resume.\n",
-                std::int64_t(missing.size()) - report.tiles, task.tiling.size());
-            std::fputs(stopped.c_str(), stderr);
+            say_stopped(fmt::format("; {} of {} tiles are missing",
+                                    std::int64_t(missing.size()) - report.tiles,
+                                    task.tiling.size()));
         }
     }
     return report.stopped ? exit_code::stopped : exit_code::complete;

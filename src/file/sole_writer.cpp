@@ -30,7 +30,7 @@ std::string lock_of(const std::string& path)
     return (said_when_it_is_opened ? path : file.string()) + ".lock";
 }
 
-/// A lock of ours is an empty file.
+/// A lock of ours is an empty file. What has been opened instead is closed.
 void demand_lock(int descriptor, const std::string& lock)
 {
     struct stat file = {};
@@ -39,6 +39,9 @@ void demand_lock(int descriptor, const std::string& lock)
     const bool has_content =
         opened && fstat(descriptor, &file) == 0 && (!S_ISREG(file.st_mode) || file.st_size > 0);
     if (is_another_thing || has_content) {
+        if (opened) {
+            ::close(descriptor);
+        }
         throw FileError(fmt::format("\"{}\" stands where the lock of this run would be, and is "
                                     "none. Move it away, or choose another name with -o.",
                                     lock));
