@@ -62,7 +62,7 @@ void print_event(const HistoryEvent& event)
     // A rounding below the last digit shown would print as -0.
     const auto shown = [](double angle) { return std::abs(angle) < 5e-6 ? 0 : angle; };
     fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>11.5f}{:>11.5f}{:>12.3e}\n", event.after.time,
-               event_names[std::size_t(event.event)], shown(event.after.angle),
+               event_names[std::size_t(event.kind)], shown(event.after.angle),
                shown(event.before.velocity), shown(event.after.velocity), event.after.q);
 }
 

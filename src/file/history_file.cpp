@@ -88,7 +88,7 @@ void add_event_kinds(hid_t file, const std::vector<HistoryEvent>& events)
 {
     std::vector<std::uint8_t> codes;
     for (const HistoryEvent& event : events) {
-        codes.push_back(std::uint8_t(event.event));
+        codes.push_back(std::uint8_t(event.kind));
     }
     const Handle kinds =
         create_dataset(file, "event_kind", H5T_STD_U8LE, {codes.size()}, dataset_creation());

@@ -1,14 +1,12 @@
-// Compiled once per pulse: OVERTURN_PULSE comes from CMake.
 #include "overturn/integrate/more_digits.hpp"
 
 namespace overturn {
 
-template <class T, class Pulse, Theory theory>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+template <class T, Theory theory>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& excitation,
                                 double tolerance, int step_limit)
 {
-    ForcedStage<typename MoreDigits<T>::Method, Pulse, theory,
-                Records{.impacts = true, .error = true}, T>
+    ForcedStage<typename MoreDigits<T>::Method, theory, Records{.impacts = true, .error = true}, T>
         stage(block, excitation, T(tolerance));
     for (int steps = 0; stage.is_active() && steps < step_limit; ++steps) {
         stage.advance();
@@ -22,12 +20,17 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<Pulse, T
     return end;
 }
 
-#define OVERTURN_INSTANTIATE(number, pulse, theory)                                                \
-    template ForcedEnd<number> run_in_more_digits<number, pulse, theory>(                          \
-        const Block<number>&, const Excitation<pulse, number>&, double, int);
-OVERTURN_INSTANTIATE(long double, OVERTURN_PULSE, Theory::nonlinear)
-OVERTURN_INSTANTIATE(long double, OVERTURN_PULSE, Theory::linear)
-OVERTURN_INSTANTIATE(Digits50, OVERTURN_PULSE, Theory::nonlinear)
-OVERTURN_INSTANTIATE(Digits50, OVERTURN_PULSE, Theory::linear)
+template ForcedEnd<long double>
+run_in_more_digits<long double, Theory::nonlinear>(const Block<long double>&,
+                                                   const Excitation<long double>&, double, int);
+template ForcedEnd<long double>
+run_in_more_digits<long double, Theory::linear>(const Block<long double>&,
+                                                const Excitation<long double>&, double, int);
+template ForcedEnd<Digits50>
+run_in_more_digits<Digits50, Theory::nonlinear>(const Block<Digits50>&, const Excitation<Digits50>&,
+                                                double, int);
+template ForcedEnd<Digits50>
+run_in_more_digits<Digits50, Theory::linear>(const Block<Digits50>&, const Excitation<Digits50>&,
+                                             double, int);
 
 } // namespace overturn

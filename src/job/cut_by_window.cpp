@@ -1,5 +1,5 @@
 #include "overturn/job/job.hpp"
-#include "overturn/mechanics/pulse.hpp"
+#include "overturn/mechanics/ground_motion.hpp"
 
 #include <cmath>
 
@@ -7,13 +7,8 @@ namespace overturn {
 
 double cut_by_window(const Scene& scene)
 {
-    switch (scene.pulse) {
-    case PulseKind::symmetric_ricker:
-        return std::abs(SymmetricRicker::value(SymmetricRicker::end(scene.window)));
-    case PulseKind::antisymmetric_ricker:
-        return std::abs(AntisymmetricRicker::value(AntisymmetricRicker::end(scene.window)));
-    default: return 0;
-    }
+    const GroundMotion<double> motion = ground_motion(scene.pulse, scene.window);
+    return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
 }
 
 } // namespace overturn

@@ -2,8 +2,8 @@
 
 #include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
+#include "point_run.hpp"
 #include "sample.hpp"
-#include "tile_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,15 +107,14 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
     const Tiling tiling(sample_.plane);
     const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const TileRun run(scene_, sample_.plane, tiling[i], kernel_);
-        Ends ends(std::size_t(run.points()), {.error = true});
+        const PointRun run(scene_, points_of(sample_.plane, tiling[i]), kernel_);
+        Ends ends(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
             run.run_exactly<Digits50>(point, ends);
             if (!(ends.flags[point] & end_flag::undecided)) {
                 in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
                                       ends.side[point] * ends.tilt[point],
-                                      ends.side[point] * ends.rate[point],
-                                      ends.settled.back().margin});
+                                      ends.side[point] * ends.rate[point], ends.margin[point]});
             }
         }
     }

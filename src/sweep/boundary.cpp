@@ -39,26 +39,21 @@ struct Probe {
 class Line {
 public:
     Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested)
-        : scene_(scene), kernel_(kernel), drop_requested_(drop_requested)
-    {
-        plane_.slenderness = Axis(AxisList{line.slenderness});
-        plane_.restitution = Axis(AxisList{line.restitution});
-        plane_.frequency = Axis(AxisList{line.frequency});
-    }
+        : scene_(scene), line_(line), kernel_(kernel), drop_requested_(std::move(drop_requested))
+    {}
 
     std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
     {
-        plane_.amplitude = Axis(AxisList(amplitudes));
-        Tile tile;
-        tile.amplitude_count = std::int64_t(amplitudes.size());
-        tile.frequency_count = 1;
-        const TileRun run(scene_, plane_, tile, kernel_, drop_requested_);
-        Ends ends = ends_of(run, numerics, {.impacts = true});
-        const std::vector<std::uint8_t> regions = run.regions(ends);
-        const std::vector<double> margins = run.margins(ends);
+        std::vector<PlanePoint> points;
+        for (const double amplitude : amplitudes) {
+            points.push_back({line_.slenderness, line_.restitution, amplitude, line_.frequency});
+        }
+        const PointRun run(scene_, std::move(points), kernel_, drop_requested_);
+        const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true});
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back({amplitudes[i], Region(regions[i]), margins[i], ends.impacts[i]});
+            probes.push_back(
+                {amplitudes[i], Region(ends.region[i]), ends.margin[i], ends.impacts[i]});
             doubts_ += !probes.back().is_settled();
         }
         return probes;
@@ -72,9 +67,9 @@ public:
 
 private:
     Scene scene_;
+    BoundaryLine line_;
     Kernel kernel_;
     DropRequested drop_requested_;
-    Plane plane_;
     int doubts_ = 0;
 };
 

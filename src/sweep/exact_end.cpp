@@ -1,30 +1,22 @@
 #include "exact_end.hpp"
 
-#include "for_scene.hpp"
-
 #include "overturn/integrate/more_digits.hpp"
 
 namespace overturn {
 
 namespace {
 
-template <class T, class Pulse, Theory theory>
-ExactEnd end_of(const PlanePoint& point, const T& window)
+template <class T, Theory theory>
+ExactEnd end_of(const GroundMotion<T>& motion, const PlanePoint& point)
 {
-    const T slenderness(point.slenderness);
-    const Block<T> block{slenderness, T(point.restitution)};
-    const Excitation<Pulse, T> excitation{
-        .acceleration = T(point.amplitude) * uplift_acceleration<theory>(slenderness),
-        .frequency = T(point.frequency),
-        .uplifts = uplift_phases<Pulse>(T(point.amplitude), window),
-        .begin = Pulse::begin(window),
-        .end = Pulse::end(window)};
-    const ForcedEnd<T> end = run_in_more_digits<T, Pulse, theory>(block, excitation);
-    const T margin = end.fell ? margin_of_fall<theory>(end.state.rate, block)
-                              : margin_after_pulse<theory>(end.state, block);
-    const double error = double(end.error) + std::abs(double(margin)) * 0x1p-53; // it is rounded
-    const bool in_doubt = !(error < std::abs(double(margin)));
-    const Region fallen = end.state.side > 0 ? Region::F_plus : Region::F_minus;
+    const Block<T> block{T(point.slenderness), T(point.restitution)};
+    const ForcedEnd<T> end = run_in_more_digits<T, theory>(
+        block,
+        excitation_of<theory>(motion, block.slenderness, T(point.amplitude), T(point.frequency)));
+    const double margin = double(margin_of<theory>(end, block));
+    const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
+    const double error = double(end.error) + rounding;
+    const bool in_doubt = !(error < std::abs(margin));
     return {.tilt = double(end.state.tilt),
             .rate = double(end.state.rate),
             .side = double(end.state.side),
@@ -35,8 +27,8 @@ ExactEnd end_of(const PlanePoint& point, const T& window)
             .impacts = double(end.impacts),
             .steps = double(end.steps),
             .phase = double(end.phase),
-            .region = end.fell ? fallen : region_after_pulse<theory>(end.state, block),
-            .margin = double(margin),
+            .region = region_of<theory>(end, block),
+            .margin = margin,
             .error = error};
 }
 
@@ -45,9 +37,9 @@ ExactEnd end_of(const PlanePoint& point, const T& window)
 template <class T>
 ExactEnd exact_end(const Scene& scene, const PlanePoint& point)
 {
-    return for_scene(scene.pulse, scene.theory, [&]<class Pulse, Theory theory>() {
-        return end_of<T, Pulse, theory>(point, T(scene.window));
-    });
+    const GroundMotion<T> motion = ground_motion(scene.pulse, T(scene.window));
+    return with_theory(scene.theory,
+                       [&]<Theory theory>() { return end_of<T, theory>(motion, point); });
 }
 
 template ExactEnd exact_end<long double>(const Scene&, const PlanePoint&);

@@ -1,7 +1,5 @@
 #include "overturn/sweep/history.hpp"
 
-#include "for_scene.hpp"
-
 #include "overturn/integrate/forced_path.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 
@@ -40,7 +38,7 @@ public:
     }
 
     /// Something happens where it was followed to.
-    void happens(Event event, const HistorySample& after)
+    void happens(EventKind event, const HistorySample& after)
     {
         if (!is_over(last_.time)) {
             history_.samples.push_back(last_);
@@ -48,7 +46,7 @@ public:
             history_.events.push_back({event, last_, after});
         }
     }
-    void ends_with(Event event) { happens(event, last_); }
+    void ends_with(EventKind event) { happens(event, last_); }
 
     History& history() { return history_; }
 
@@ -60,36 +58,32 @@ private:
     History history_{};
 };
 
-template <class Pulse, Theory theory>
-class Narrator {
+template <Theory theory>
+class HistoryBuilder {
 public:
-    Narrator(const Scene& scene, const PlanePoint& point)
+    HistoryBuilder(const Scene& scene, const PlanePoint& point)
         : block_{point.slenderness, point.restitution},
-          excitation_{.acceleration =
-                          point.amplitude * uplift_acceleration<theory>(point.slenderness),
-                      .frequency = point.frequency,
-                      .uplifts = uplift_phases<Pulse>(point.amplitude, scene.window),
-                      .begin = Pulse::begin(scene.window),
-                      .end = Pulse::end(scene.window)},
-          path_(forced_path<Pulse, theory>(block_, excitation_)), end_of_path_(end_of_path()),
+          excitation_(excitation_of<theory>(ground_motion(scene.pulse, scene.window),
+                                            point.slenderness, point.amplitude, point.frequency)),
+          path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
     {}
 
-    History tell(const HistoryView& view) const
+    History build(const HistoryView& view) const
     {
         const double until = std::isnan(view.until) ? time_worth_showing() : view.until;
         Recorder recorder(until, view.samples);
-        tell_forced_stage(recorder);
-        bool shortened = path_.end.capped || path_.end.not_finite;
+        record_forced_stage(recorder);
+        bool shortened = path_.end.is_stopped();
         if (is_free() && !recorder.is_over(end_of_path_)) {
-            shortened = !tell_free_stage(recorder, until / view.samples);
+            shortened = !record_free_stage(recorder, until / view.samples);
         }
         History& history = recorder.history();
-        history.end_of_pulse = time_at(excitation_.end);
+        history.end_of_pulse = time_at(excitation_.motion.end);
         history.time_of_rest = time_of_rest_;
         history.time_of_fall = time_of_fall_;
-        history.region = region();
-        history.margin = margin();
+        history.region = region_of<theory>(path_.end, block_);
+        history.margin = margin_of<theory>(path_.end, block_);
         history.error = path_.end.error;
         history.shortened = shortened;
         return std::move(history);
@@ -98,17 +92,16 @@ public:
 private:
     double time_at(double phase) const
     {
-        return (phase - excitation_.begin) / excitation_.frequency;
+        return (phase - excitation_.motion.begin) / excitation_.frequency;
     }
 
     /// Whether there is a free stage.
-    bool is_free() const { return !(path_.end.fell || path_.end.capped || path_.end.not_finite); }
+    bool is_free() const { return !(path_.end.fell || path_.end.is_stopped()); }
 
     double end_of_path() const
     {
-        return time_at(is_free() || path_.milestones.empty()
-                           ? excitation_.end
-                           : path_.milestones.back().rocking.phase);
+        return time_at(is_free() || path_.events.empty() ? excitation_.motion.end
+                                                         : path_.events.back().rocking.phase);
     }
 
     double time_of_rest() const
@@ -116,8 +109,8 @@ private:
         if (!is_free()) {
             return path_.end.fell ? infinity : unknown;
         }
-        if (path_.milestones.empty() || path_.milestones.back().what == Happening::rest) {
-            return path_.milestones.empty() ? 0 : time_at(path_.milestones.back().rocking.phase);
+        if (path_.events.empty() || path_.events.back().kind == EventKind::rest) {
+            return path_.events.empty() ? 0 : time_at(path_.events.back().rocking.phase);
         }
         return end_of_path_ + overturn::time_of_rest<theory>(path_.end.state, block_);
     }
@@ -148,25 +141,6 @@ private:
         return {path_.end.state, block_.slenderness, {block_.restitution}};
     }
 
-    Region region() const
-    {
-        const State<double>& end = path_.end.state;
-        if (path_.end.capped || path_.end.not_finite) {
-            return Region::undecided;
-        }
-        return path_.end.fell ? (end.side > 0 ? Region::F_plus : Region::F_minus)
-                              : region_after_pulse<theory>(end, block_);
-    }
-
-    double margin() const
-    {
-        if (path_.end.capped || path_.end.not_finite) {
-            return std::numeric_limits<double>::quiet_NaN();
-        }
-        return path_.end.fell ? margin_of_fall<theory>(path_.end.state.rate, block_)
-                              : margin_after_pulse<theory>(path_.end.state, block_);
-    }
-
     HistorySample sample(double time, const State<double>& state, double ground) const
     {
         const double pull =
@@ -186,43 +160,40 @@ private:
         return result;
     }
 
-    void tell_forced_stage(Recorder& recorder) const
+    void record_forced_stage(Recorder& recorder) const
     {
-        const Milestone<double>* latest = nullptr; // at rest
+        const Event<double>* latest = nullptr; // at rest
         const auto at = [&](double time) {
-            const double phase =
-                std::min(excitation_.begin + time * excitation_.frequency, excitation_.end);
+            const double phase = std::min(excitation_.motion.begin + time * excitation_.frequency,
+                                          excitation_.motion.end);
             const double ground = excitation_.ground(phase);
             if (latest == nullptr) {
                 return resting(time, ground);
             }
             const double later = std::max(phase, latest->rocking.phase);
-            return sample(time, state_after<Pulse, theory>(*latest, block_, excitation_, later),
-                          ground);
+            return sample(time, state_after<theory>(*latest, block_, excitation_, later), ground);
         };
-        for (const Milestone<double>& milestone : path_.milestones) {
-            const double time = time_at(milestone.rocking.phase);
+        for (const Event<double>& event : path_.events) {
+            const double time = time_at(event.rocking.phase);
             recorder.follow(time, at);
-            latest = milestone.what == Happening::rest ? nullptr : &milestone;
-            switch (milestone.what) {
-            case Happening::uplift: recorder.happens(Event::uplift, at(time)); break;
-            case Happening::impact: recorder.happens(Event::impact, at(time)); break;
-            case Happening::rest: recorder.happens(Event::rest, at(time)); break;
-            case Happening::step: break;
+            latest = event.kind == EventKind::rest ? nullptr : &event;
+            if (event.kind != EventKind::step) {
+                recorder.happens(event.kind, at(time));
             }
         }
         recorder.follow(end_of_path_, at);
         if (path_.end.fell) {
-            recorder.ends_with(Event::fall);
+            recorder.ends_with(EventKind::fall);
         } else if (is_free()) {
             const bool rests = latest == nullptr;
-            recorder.happens(Event::end_of_pulse, rests ? resting(end_of_path_, 0)
-                                                        : sample(end_of_path_, path_.end.state, 0));
+            recorder.happens(EventKind::end_of_pulse,
+                             rests ? resting(end_of_path_, 0)
+                                   : sample(end_of_path_, path_.end.state, 0));
         }
     }
 
     /// Returns whether all impacts could be followed.
-    bool tell_free_stage(Recorder& recorder, double spacing) const
+    bool record_free_stage(Recorder& recorder, double spacing) const
     {
         FreeRocking<theory, double> rocking = free_rocking();
         // What is left of a series that is shorter than this cannot be seen.
@@ -244,23 +215,23 @@ private:
                 return true;
             }
             if (fall < impact) {
-                recorder.ends_with(Event::fall);
+                recorder.ends_with(EventKind::fall);
                 return true;
             }
             rocking.strike();
-            recorder.happens(Event::impact, sample(impact, arc.at(0), 0));
+            recorder.happens(EventKind::impact, sample(impact, arc.at(0), 0));
         }
         const auto at_rest = [&](double time) { return resting(time, 0); };
         if (time_of_rest_ > end_of_path_) {
             recorder.follow(time_of_rest_, at_rest);
-            recorder.ends_with(Event::rest);
+            recorder.ends_with(EventKind::rest);
         }
         recorder.follow(infinity, at_rest);
         return true;
     }
 
     Block<double> block_;
-    Excitation<Pulse, double> excitation_;
+    Excitation<double> excitation_;
     ForcedPath path_;
     double end_of_path_; // of what is integrated [1/p]
     double time_of_rest_;
@@ -271,8 +242,8 @@ private:
 
 History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view)
 {
-    return for_scene(scene.pulse, scene.theory, [&]<class Pulse, Theory theory>() {
-        return Narrator<Pulse, theory>(scene, point).tell(view);
+    return with_theory(scene.theory, [&]<Theory theory>() {
+        return HistoryBuilder<theory>(scene, point).build(view);
     });
 }
 

@@ -2,8 +2,32 @@
 
 namespace overturn {
 
+namespace {
+
+/// What CMake had compiled.
+bool is_compiled(Kernel kernel)
+{
+    switch (kernel) {
+#ifdef OVERTURN_KERNEL_double
+    case Kernel::one_lane: return true;
+#endif
+#ifdef OVERTURN_KERNEL_avx2
+    case Kernel::avx2: return true;
+#endif
+#ifdef OVERTURN_KERNEL_avx512
+    case Kernel::avx512: return true;
+#endif
+    default: return false;
+    }
+}
+
+} // namespace
+
 bool runs_here(Kernel kernel)
 {
+    if (!is_compiled(kernel)) {
+        return false;
+    }
 #ifdef __x86_64__
     // The kernels are compiled for x86-64-v3 and v4, of which these are the telling parts.
     const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&

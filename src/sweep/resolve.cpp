@@ -15,70 +15,78 @@ constexpr Numerics finest_in_doubles{.method = Method::taylor, .tolerance = 1e-1
 
 void give_up(int point, Ends& ends)
 {
-    ends.flags[point] |= end_flag::unresolved;
-    ends.unresolved.push_back(point);
+    ends.flags[std::size_t(point)] |= end_flag::unresolved;
+    if (ends.records.region) {
+        ends.region[std::size_t(point)] = std::uint8_t(Region::undecided);
+    }
 }
 
-/// Which of these points have a verdict that their error could turn. More digits do not help where
-/// there are too many steps.
-std::vector<int> in_doubt(const TileRun& tile, const std::vector<int>& points, Ends& ends)
+/// Settles those of these points that took too many steps, as more digits do not help there, and
+/// returns those whose verdict their error could turn.
+std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points, Ends& ends)
 {
-    std::vector<int> doubtful;
+    std::vector<int> in_doubt;
     for (const int point : points) {
-        if (ends.flags[point] & end_flag::capped) {
-            if (!tile.settle_low_bounces(point, ends)) {
+        const std::uint8_t flags = ends.flags[std::size_t(point)];
+        if (flags & end_flag::capped) {
+            if (!run.settle_low_bounces(point, ends)) {
                 give_up(point, ends);
             }
-        } else if (ends.flags[point] & end_flag::in_doubt) {
-            doubtful.push_back(point);
+        } else if (flags & end_flag::in_doubt) {
+            in_doubt.push_back(point);
         }
     }
-    return doubtful;
+    return in_doubt;
 }
 
 template <class T>
-bool settle_in(const TileRun& tile, int point, Ends& ends)
+bool settle_in(const PointRun& run, int point, Ends& ends)
 {
     // More digits need as many steps for a series of bounces as doubles do.
     const bool hopeless = std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
-                          ends.steps[point] > MoreDigits<T>::most_steps;
+                          ends.steps[std::size_t(point)] > MoreDigits<T>::most_steps;
     if (hopeless) {
         return false;
     }
-    tile.run_exactly<T>(point, ends);
-    return !(ends.flags[point] & (end_flag::in_doubt | end_flag::undecided));
+    run.run_exactly<T>(point, ends);
+    return !(ends.flags[std::size_t(point)] & (end_flag::in_doubt | end_flag::undecided));
+}
+
+void resolve(const PointRun& run, Ends& ends)
+{
+    std::vector<int> all(ends.tilt.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<int> in_doubt = settle_capped(run, all, ends);
+    if (!in_doubt.empty()) {
+        ends.record_steps(); // they tell whether more digits are worth a try
+    }
+    run.run(finest_in_doubles, in_doubt, ends);
+    in_doubt = settle_capped(run, in_doubt, ends);
+    for (const int point : in_doubt) {
+        const bool settled = run.settle_low_bounces(point, ends) ||
+                             settle_in<long double>(run, point, ends) ||
+                             settle_in<Digits50>(run, point, ends);
+        if (!settled) {
+            give_up(point, ends);
+        }
+    }
 }
 
 } // namespace
 
-Ends ends_of(const TileRun& tile, const Numerics& numerics, const Asked& asked)
+Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records)
 {
-    Asked recorded = asked;
-    recorded.error = asked.error || numerics.resolve;
-    recorded.peak = asked.peak && !recorded.error;
-    Ends ends(std::size_t(tile.points()), recorded);
-    tile.run(numerics, ends, numerics.resolve ? InDoubt::ends : InDoubt::goes_on);
+    Records recorded = records;
+    recorded.error = records.error || numerics.resolve;
+    recorded.peak = records.peak && !recorded.error;
+    Ends ends(std::size_t(points.size()), recorded);
+    points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);
     if (numerics.resolve) {
-        std::vector<int> all(ends.tilt.size());
-        std::iota(all.begin(), all.end(), 0);
-        std::vector<int> doubtful = in_doubt(tile, all, ends);
-        if (!doubtful.empty()) {
-            ends.steps.resize(ends.tilt.size()); // tell whether more digits are worth a try
-        }
-        tile.run(finest_in_doubles, doubtful, ends);
-        doubtful = in_doubt(tile, doubtful, ends);
-        for (const int point : doubtful) {
-            const bool settled = tile.settle_low_bounces(point, ends) ||
-                                 settle_in<long double>(tile, point, ends) ||
-                                 settle_in<Digits50>(tile, point, ends);
-            if (!settled) {
-                give_up(point, ends);
-            }
-        }
+        resolve(points, ends);
     }
-    if (asked.peak && !recorded.peak) {
+    if (records.peak && !recorded.peak) {
         Ends with_peaks(ends.tilt.size(), {.peak = true});
-        tile.run(numerics, with_peaks);
+        points.run(numerics, with_peaks);
         ends.peak = std::move(with_peaks.peak);
     }
     return ends;

@@ -1,8 +1,7 @@
-// Compiled once per pulse and instruction set: OVERTURN_PULSE, OVERTURN_NUMBER and
-// OVERTURN_KERNEL (the name of the one function seen from outside) come from CMake.
-// Beside it, only templates over OVERTURN_NUMBER may be instantiated here: a function in double
-// would be shared with the rest of the program, which runs on machines that lack these
-// instructions.
+// Compiled once per method and instruction set: OVERTURN_METHOD, OVERTURN_NUMBER and
+// OVERTURN_KERNEL (the name of the one function seen from outside) come from CMake. Beside it, only
+// templates over OVERTURN_NUMBER may be instantiated here: a function in double would be shared
+// with the rest of the program, which runs on machines that lack these instructions.
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
@@ -15,7 +14,6 @@ namespace overturn {
 namespace {
 
 using T = OVERTURN_NUMBER;
-using Pulse = OVERTURN_PULSE;
 
 constexpr int lanes = lanes_v<T>;
 
@@ -25,20 +23,21 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-int point_at(const TilePoints& points, int i)
+int point_at(const KernelTask& task, int i)
 {
-    return points.chosen == nullptr ? i : points.chosen[i];
+    return task.chosen == nullptr ? i : task.chosen[i];
 }
 
 /// Stores the lanes of one pack, as many as there are points left.
-template <Records records>
-void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const PointEnds& to)
+template <Theory theory, Records records>
+[[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
+                             int first, const PointEnds& to)
 {
-    const int count = points.chosen_count - first < lanes ? points.chosen_count - first : lanes;
+    const int count = task.chosen_count - first < lanes ? task.chosen_count - first : lanes;
     const auto put = [&](const T& number, auto* array) {
         const auto values = lanes_of(number);
         for (int i = 0; i < count; ++i) {
-            array[point_at(points, first + i)] = std::remove_pointer_t<decltype(array)>(values[i]);
+            array[point_at(task, first + i)] = std::remove_pointer_t<decltype(array)>(values[i]);
         }
     };
     put(end.state.tilt, to.tilt);
@@ -51,18 +50,22 @@ void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const P
         put(end.error, to.error);
     }
     put(flags, to.flags);
-    if constexpr (records.impacts) {
-        if (to.impacts != nullptr) {
-            put(end.impacts, to.impacts);
-        }
-    }
     if constexpr (records.peak) {
         put(end.peak, to.peak);
     }
-    if (to.steps != nullptr) {
+    if (task.records.impacts) {
+        put(end.impacts, to.impacts);
+    }
+    if (task.records.region) {
+        put(region_code_of<theory>(end, block), to.region);
+    }
+    if (task.records.margin) {
+        put(margin_of<theory>(end, block), to.margin);
+    }
+    if (task.records.steps) {
         put(end.steps, to.steps);
     }
-    if (to.phase != nullptr) {
+    if (task.records.phase) {
         put(end.phase, to.phase);
     }
 }
@@ -72,91 +75,94 @@ void store(const ForcedEnd<T>& end, const TilePoints& points, int first, const P
 /// four gain no more.
 constexpr int packs_in_turns = 2;
 
-/// The excitation of the points from `first` on. Lanes beyond the last point repeat it, except that
-/// the ground never lifts their blocks; so a pack without points of its own is done at once.
-Excitation<Pulse, T> excitation_from(const TilePoints& points, int first)
+/// value(i) of each point i from `first` on. Lanes beyond the last point repeat it.
+template <class Value>
+T gathered(const KernelTask& task, int first, const Value& value)
 {
-    double acceleration[lanes];
-    double frequency[lanes];
-    double uplifts[Pulse::lobes][lanes];
-    const int last = points.chosen_count - 1;
+    double values[lanes];
     for (int i = 0; i < lanes; ++i) {
-        const bool spare = first + i > last;
-        const int point = point_at(points, spare ? last : first + i);
-        const int row = point / points.columns;
-        acceleration[i] = points.acceleration[row];
-        frequency[i] = points.frequency[point - row * points.columns];
-        for (int lobe = 0; lobe < Pulse::lobes; ++lobe) {
-            uplifts[lobe][i] = spare ? std::numeric_limits<double>::infinity()
-                                     : points.uplifts[row * Pulse::lobes + lobe];
-        }
+        const int last = task.chosen_count - 1;
+        values[i] = value(point_at(task, first + i < last ? first + i : last));
     }
-    Excitation<Pulse, T> excitation{.acceleration = load<T>(acceleration),
-                                    .frequency = load<T>(frequency),
-                                    .uplifts = {},
-                                    .begin = points.begin,
-                                    .end = points.end};
-    for (int lobe = 0; lobe < Pulse::lobes; ++lobe) {
-        excitation.uplifts[lobe] = load<T>(uplifts[lobe]);
+    return load<T>(values);
+}
+
+Block<T> blocks_from(const KernelTask& task, int first)
+{
+    return {gathered(task, first, [&](int i) { return task.points[i].slenderness; }),
+            gathered(task, first, [&](int i) { return task.points[i].restitution; })};
+}
+
+/// The ground never lifts the blocks in the lanes beyond the last point; so a pack without points
+/// of its own is done at once.
+Excitation<T> excitation_from(const KernelTask& task, int first)
+{
+    const auto push = [&](int i) -> const Push& { return task.pushes[task.push_of_point[i]]; };
+    Excitation<T> excitation{
+        .motion = task.motion,
+        .acceleration = gathered(task, first, [&](int i) { return push(i).acceleration; }),
+        .frequency = gathered(task, first, [&](int i) { return task.points[i].frequency; }),
+        .uplifts = {}};
+    double number[lanes];
+    for (int i = 0; i < lanes; ++i) {
+        number[i] = first + i;
+    }
+    const mask_t<T> spare = load<T>(number) >= T(double(task.chosen_count));
+    for (int lobe = 0; lobe < most_lobes; ++lobe) {
+        const T uplift = gathered(task, first, [&](int i) { return push(i).uplifts[lobe]; });
+        excitation.uplifts[lobe] =
+            select<T>(spare, T(std::numeric_limits<double>::infinity()), uplift);
     }
     return excitation;
 }
 
-/// Steps of a pack between two looks at whether the tile is to be dropped: some milliseconds. A
+/// Steps of a pack between two looks at whether the points are to be dropped: some milliseconds. A
 /// pack may take a million.
 constexpr int turns_between_looks = 4096;
 
-template <class Method, Theory theory, Records records>
-void sweep(const TilePoints& points, const PointEnds& ends)
+template <Theory theory, Records records>
+void sweep(const KernelTask& task, const PointEnds& ends)
 {
-    const Block<T> block{T(points.slenderness), T(points.restitution)};
+    using Stage = ForcedStage<OVERTURN_METHOD, theory, records, T>;
     const auto stage_from = [&](int first) {
-        return ForcedStage<Method, Pulse, theory, records, T>(block, excitation_from(points, first),
-                                                              points.tolerance, points.in_doubt);
+        return Stage(blocks_from(task, first), excitation_from(task, first), task.tolerance,
+                     task.on_unknown_error);
     };
     int turns = turns_between_looks;
-    for (int first = 0; first < points.chosen_count; first += packs_in_turns * lanes) {
+    for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {
         std::array stages{stage_from(first), stage_from(first + lanes)};
         static_assert(stages.size() == packs_in_turns);
         while (run_in_turns(stages, turns)) {
-            if (points.drop_requested(points.context)) {
+            if (task.drop_requested(task.context)) {
                 return;
             }
             turns = turns_between_looks;
         }
         for (int i = 0; i < packs_in_turns; ++i) {
-            store<records>(stages[i].end(), points, first + i * lanes, ends);
+            store<theory, records>(stages[i].end(), stages[i].block(), task, first + i * lanes,
+                                   ends);
         }
     }
 }
 
-template <class Method, Theory theory>
-SweepKernel kernel_for(Recorded recorded)
+template <Theory theory>
+SweepKernel kernel_for(const Records& records)
 {
-    switch (recorded) {
-    case Recorded::impacts: return sweep<Method, theory, Records{.impacts = true}>;
-    case Recorded::error: return sweep<Method, theory, Records{.impacts = true, .error = true}>;
-    case Recorded::peak: return sweep<Method, theory, Records{.impacts = true, .peak = true}>;
-    default: return sweep<Method, theory, Records{}>;
+    if (records.error) {
+        return sweep<theory, Records{.impacts = true, .error = true}>;
     }
-}
-
-template <class Method>
-SweepKernel kernel_for(Theory theory, Recorded recorded)
-{
-    return theory == Theory::linear ? kernel_for<Method, Theory::linear>(recorded)
-                                    : kernel_for<Method, Theory::nonlinear>(recorded);
+    if (records.peak) {
+        return sweep<theory, Records{.impacts = true, .peak = true}>;
+    }
+    return records.impacts ? sweep<theory, Records{.impacts = true}> : sweep<theory, Records{}>;
 }
 
 } // namespace
 
-SweepKernel OVERTURN_KERNEL(Integrator integrator, Theory theory, Recorded recorded)
+SweepKernel OVERTURN_KERNEL(Theory theory, const Records& records)
 {
-    switch (integrator) {
-    case Integrator::taylor_14: return kernel_for<Taylor<14>>(theory, recorded);
-    case Integrator::taylor_20: return kernel_for<Taylor<20>>(theory, recorded);
-    default: return kernel_for<RungeKutta>(theory, recorded);
-    }
+    return theory == Theory::linear ? kernel_for<Theory::linear>(records)
+                                    : kernel_for<Theory::nonlinear>(records);
 }
 
 } // namespace overturn

@@ -1,30 +1,34 @@
-// The kernels: a whole tile through the forced stage, with plain arrays in and out. Each is
-// compiled for one pulse and one instruction set, see sweep_kernel.cpp.
+// The kernels: points through the forced stage, with plain arrays in and out. Each source is
+// compiled for one method and one instruction set, see sweep_kernel.cpp.
 #pragma once
 
-#include "overturn/integrate/in_doubt.hpp"
+#include "overturn/integrate/records.hpp"
+#include "overturn/integrate/unknown_error.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/sweep/integrator.hpp"
+#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/sweep/plane.hpp"
 
 #include <cstdint>
 
 namespace overturn {
 
-/// The points of a tile: every row, at one acceleration of the ground, has every frequency.
-struct TilePoints {
-    double slenderness; ///< alpha [rad]
-    double restitution; ///< r [1]
-    int rows;
-    int columns;
-    const double* acceleration; ///< a_p / g, one per row [1]
-    const double* uplifts;      ///< uplift phases, rows x lobes of the pulse [rad]
-    const double* frequency;    ///< Omega, one per column [1]
-    double begin;               ///< phases at which the pulse begins and ends [rad]
-    double end;
-    double tolerance; ///< see Numerics
-    InDoubt in_doubt;
+/// What the ground does to the blocks of one slenderness at one amplitude.
+struct Push {
+    double acceleration;          ///< a_p / g [1]
+    UpliftPhases<double> uplifts; ///< [rad]
+};
 
-    const int* chosen; ///< which points to compute, counted row by row; nullptr: all
+/// What a kernel is asked to do.
+struct KernelTask {
+    const GroundMotion<double>& motion;
+    const PlanePoint* points;
+    const int* push_of_point; ///< its number in `pushes`
+    const Push* pushes;
+    double tolerance; ///< see Numerics
+    Records records;
+    OnUnknownError on_unknown_error;
+
+    const int* chosen; ///< which points to compute; nullptr: the first chosen_count
     int chosen_count;
 
     bool (*drop_requested)(const void* context); ///< asked now and then: leave the rest alone?
@@ -38,37 +42,30 @@ inline constexpr std::uint8_t rested = 2;
 inline constexpr std::uint8_t capped = 4;
 inline constexpr std::uint8_t not_finite = 8;
 inline constexpr std::uint8_t unresolved = 16; ///< set by ends_of() alone, see resolve.hpp
-inline constexpr std::uint8_t in_doubt = 32;   ///< told with the error, see ForcedEnd
+inline constexpr std::uint8_t in_doubt = 32;   ///< with the error, see ForcedEnd
 inline constexpr std::uint8_t undecided = capped | not_finite;
 } // namespace end_flag
 
-/// Where the points of a tile left the forced stage: rows x columns values each, frequency fastest;
-/// a kernel touches those of the points that it computes.
+/// Where points left the forced stage: one value each. A kernel writes those of the points that it
+/// computes, and of the last ones those that the records ask for.
 struct PointEnds {
     double* tilt;        ///< |theta| [rad]
     double* rate;        ///< d|theta| / d tau [rad]
     double* side;        ///< +1 or -1: the sign of theta
     std::uint8_t* flags; ///< see end_flag
-    double* impacts;     ///< as counted; nullptr if nobody asks
-    double* error;       ///< of the margin; nullptr if nobody asks
-    double* steps;       ///< tried; nullptr if nobody asks
-    double* phase;       ///< of the pulse, at a fall its own [rad]; nullptr if nobody asks
-    double* peak;        ///< the largest |theta| [rad]; nullptr if nobody asks
+
+    std::uint8_t* region; ///< its code
+    double* margin;       ///< [1]
+    double* impacts;      ///< as counted
+    double* error;        ///< of the margin
+    double* steps;        ///< tried
+    double* phase;        ///< of the pulse, at a fall its own [rad]
+    double* peak;         ///< the largest |theta| [rad]
 };
 
-/// What a kernel keeps a record of beside the end; errors and peaks with the impacts.
-enum class Recorded { nothing, impacts, error, peak };
+using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);
 
-using SweepKernel = void (*)(const TilePoints& points, const PointEnds& ends);
-
-/// What each kernel source defines: the kernel for a method, a theory and what it records.
-using SweepKernelChoice = SweepKernel (*)(Integrator integrator, Theory theory, Recorded recorded);
-
-/// The fields that take some computing, from the ends of the forced stage. Compiled for each
-/// instruction set, see field_kernel.cpp.
-struct FieldKernels {
-    void (*regions)(Theory, const Block<double>&, const PointEnds&, int points, std::uint8_t* to);
-    void (*margins)(Theory, const Block<double>&, const PointEnds&, int points, double* to);
-};
+/// What each kernel source defines: the kernel for a theory and what it records on the way.
+using SweepKernelChoice = SweepKernel (*)(Theory theory, const Records& records);
 
 } // namespace overturn

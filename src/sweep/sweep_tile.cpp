@@ -47,24 +47,19 @@ std::vector<std::uint8_t> stored_status(const Ends& ends)
     return result;
 }
 
-FieldValues field_values(Field field, const TileRun& tile, Ends& ends)
+/// Works out a field from the ends; nothing for those that the ends hold themselves.
+FieldValues derived_values(Field field, const PointRun& points, const Ends& ends)
 {
     switch (field) {
-    case Field::region: return tile.regions(ends);
     case Field::angle: return with_sign(ends.tilt, ends);
     case Field::velocity: return with_sign(ends.rate, ends);
-    case Field::margin: return tile.margins(ends);
-    case Field::error: return ends.error;
-    case Field::peak: return tile.peaks(ends);
-    case Field::fall_time: return tile.fall_times(ends);
+    case Field::peak: return points.peaks(ends);
+    case Field::fall_time: return points.fall_times(ends);
     case Field::impacts: return stored_impacts(ends);
     case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
-    case Field::status:
-    case Field::flip_amplitude:
-    case Field::region_below:
-    case Field::region_above: break; // of a boundary, see boundary.hpp
+    case Field::status: return stored_status(ends);
+    default: return {};
     }
-    return stored_status(ends);
 }
 
 } // namespace
@@ -76,16 +71,28 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
     const auto wanted = [&](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const TileRun run(scene, plane, tile, kernel, drop_requested);
-    Ends ends = ends_of(run, numerics,
-                        {.impacts = wanted(Field::impacts),
-                         .error = wanted(Field::error),
-                         .steps = wanted(Field::steps),
-                         .phase = wanted(Field::fall_time),
-                         .peak = wanted(Field::peak)});
+    const PointRun points(scene, points_of(plane, tile), kernel, std::move(drop_requested));
+    Ends ends =
+        ends_of(points, numerics,
+                {.impacts = wanted(Field::impacts),
+                 .error = wanted(Field::error),
+                 .peak = wanted(Field::peak),
+                 .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
+                 .margin = wanted(Field::margin),
+                 .steps = wanted(Field::steps),
+                 .phase = wanted(Field::fall_time)});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(field_values(field, run, ends));
+        result.values.push_back(derived_values(field, points, ends));
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) { // once nothing is derived from them any more
+        if (fields[i] == Field::region) {
+            result.values[i] = std::move(ends.region);
+        } else if (fields[i] == Field::margin) {
+            result.values[i] = std::move(ends.margin);
+        } else if (fields[i] == Field::error) {
+            result.values[i] = std::move(ends.error);
+        }
     }
     return result;
 }

@@ -1,7 +1,5 @@
 #include "reference.hpp"
 
-#include "for_scene.hpp"
-
 #include "support/one_point.hpp"
 
 namespace overturn {
@@ -18,20 +16,19 @@ Point<T> in_digits(const HardCase& point)
     return {T(point.slenderness), T(point.restitution), T(point.frequency), T(point.amplitude)};
 }
 
-template <class Pulse, Theory theory>
-Truth end_of(const HardCase& point, const Excitation<Pulse, T>& excitation, int step_limit)
+template <Theory theory>
+Truth end_of(const HardCase& point, const Excitation<T>& excitation, int step_limit)
 {
     const Block<T> block{T(point.slenderness), T(point.restitution)};
     const ForcedEnd<T> end =
-        run_in_more_digits<T, Pulse, theory>(block, excitation, tolerance, step_limit);
-    if (end.capped || end.not_finite) {
+        run_in_more_digits<T, theory>(block, excitation, tolerance, step_limit);
+    if (end.is_stopped()) {
         return {.steps = double(end.steps)};
     }
     const State<T>& state = end.state;
-    const T margin = margin_of<theory>(end, in_digits(point));
+    const T margin = margin_of<theory>(end, block);
     const T arc = separatrix_rate<theory>(state.tilt, block.slenderness);
-    const Region fallen = state.side > 0 ? Region::F_plus : Region::F_minus;
-    return {.region = end.fell ? fallen : region_after_pulse<theory>(state, block),
+    return {.region = region_of<theory>(end, block),
             .settled = end.error < abs(margin),
             .fell = end.fell,
             .rested = end.rested,
@@ -44,27 +41,22 @@ Truth end_of(const HardCase& point, const Excitation<Pulse, T>& excitation, int 
             .within_arc = double(arc - abs(state.rate))};
 }
 
-template <class Pulse, Theory theory>
-Truth end_of(const HardCase& point, int step_limit)
-{
-    const auto excitation = excitation_of<Pulse, theory>(in_digits(point), point.window);
-    return end_of<Pulse, theory>(point, excitation, step_limit);
-}
-
 } // namespace
 
 Truth truth_of(const HardCase& point, int step_limit)
 {
-    return for_scene(point.pulse, point.theory, [&]<class Pulse, Theory theory>() {
-        return end_of<Pulse, theory>(point, step_limit);
+    return with_theory(point.theory, [&]<Theory theory>() {
+        return end_of<theory>(
+            point, excitation_of<theory>(point.pulse, in_digits(point), point.window), step_limit);
     });
 }
 
 double angle_at_second_uplift_value(const HardCase& point)
 {
-    Excitation<OneSine, T> excitation = excitation_of<OneSine, Theory::nonlinear>(in_digits(point));
-    excitation.end = pi<T>() + asin(1 / T(point.amplitude));
-    return end_of<OneSine, Theory::nonlinear>(point, excitation, steps_of_a_second).angle;
+    Excitation<T> excitation =
+        excitation_of<Theory::nonlinear>(PulseKind::one_sine, in_digits(point));
+    excitation.motion.end = pi<T>() + asin(1 / T(point.amplitude));
+    return end_of<Theory::nonlinear>(point, excitation, steps_of_a_second).angle;
 }
 
 } // namespace overturn

@@ -36,8 +36,8 @@ TYPED_TEST(ClosedForm, HalfSineLinearOverturnsFromTheAmplitudeOfMakrisAndRoussos
             return frequency * std::sin(psi) - std::cos(psi) -
                    std::exp(-(pi<double>() - psi) / frequency);
         });
-        const double ours = flip<HalfSine, Theory::linear, TypeParam>({0.2, 0.9, frequency, 0},
-                                                                      1 + 1e-9, 2 * exact, digits);
+        const double ours = flip<Theory::linear, TypeParam>(
+            PulseKind::half_sine, {0.2, 0.9, frequency, 0}, 1 + 1e-9, 2 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
@@ -50,8 +50,8 @@ TYPED_TEST(ClosedForm, OneSineLinearOverturnsWithoutImpactFromTheAmplitudeOfZhan
             return frequency * std::sin(psi) - std::cos(psi) +
                    std::exp(-(2 * pi<double>() - psi) / frequency);
         });
-        const double ours = flip<OneSine, Theory::linear, TypeParam>(
-            {0.25, 0.81, frequency, 0}, 0.98 * exact, 1.02 * exact, digits);
+        const double ours = flip<Theory::linear, TypeParam>(
+            PulseKind::one_sine, {0.25, 0.81, frequency, 0}, 0.98 * exact, 1.02 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
@@ -61,8 +61,8 @@ TYPED_TEST(ClosedForm, RectangularLinearOverturnsFromTheAmplitudeOfHousnersProbl
     for (const double frequency : {0.7, 2.0, 5.0}) {
         // p t1 = ln(A / (A - 1)), and the pulse lasts t1 = pi / (Omega p).
         const double exact = 1 / (1 - std::exp(-pi<double>() / frequency));
-        const double ours = flip<Rectangular, Theory::linear, TypeParam>(
-            {0.2, 0.9, frequency, 0}, 1 + 1e-9, 3 * exact, digits);
+        const double ours = flip<Theory::linear, TypeParam>(
+            PulseKind::rectangular, {0.2, 0.9, frequency, 0}, 1 + 1e-9, 3 * exact, digits);
         EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
     }
 }
@@ -71,7 +71,7 @@ TYPED_TEST(ClosedForm, RectangularLinearEndsInTheStateOfItsClosedForm)
 {
     // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).
     const Point<double> point{0.2, 0.9, 2.5, 1.4};
-    const auto end = forced_end<Rectangular, Theory::linear, TypeParam>(point, digits);
+    const auto end = forced_end<Theory::linear, TypeParam>(PulseKind::rectangular, point, digits);
     const double tau = pi<double>() / point.frequency;
     EXPECT_NEAR(end.state.tilt, 0.2 * 0.4 * (std::cosh(tau) - 1), 1e-11 * 0.2);
     EXPECT_NEAR(end.state.rate, 0.2 * 0.4 * std::sinh(tau), 1e-11 * 0.2);
@@ -86,48 +86,51 @@ TYPED_TEST(ClosedForm, OneSineLinearHasTheSafeStripOfZhangAndMakris)
 {
     // p = 2.14, alpha = 0.25, velocity ratio 0.9, Omega = 5; printed there: 3.01, 6.32, 7.18.
     const Point<double> point{0.25, 0.81, 5, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 2.9, 3.1, digits)), 3.018600,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 6.2, 6.5, digits)), 6.318071,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::linear, TypeParam>(point, 7.0, 7.3, digits)), 7.168129,
-                printed);
+    EXPECT_NEAR((flip<Theory::linear, TypeParam>(PulseKind::one_sine, point, 2.9, 3.1, digits)),
+                3.018600, printed);
+    EXPECT_NEAR((flip<Theory::linear, TypeParam>(PulseKind::one_sine, point, 6.2, 6.5, digits)),
+                6.318071, printed);
+    EXPECT_NEAR((flip<Theory::linear, TypeParam>(PulseKind::one_sine, point, 7.0, 7.3, digits)),
+                7.168129, printed);
 }
 
 TYPED_TEST(ClosedForm, OneSineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 1.3, 1.5, digits)), 1.382896,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.5, 3.62, digits)), 3.590936,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.62, 3.8, digits)), 3.647522,
-                printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 1.3, 1.5, digits)),
+                1.382896, printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.5, 3.62, digits)),
+                3.590936, printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.62, 3.8, digits)),
+                3.647522, printed);
 }
 
 TYPED_TEST(ClosedForm, OneSineNonlinearHasAWiderSafeStripWithLessRestitution)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 1.4, 1.5, digits)), 1.458920,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.2, 3.4, digits)), 3.276686,
-                printed);
-    EXPECT_NEAR((flip<OneSine, Theory::nonlinear, TypeParam>(point, 3.5, 3.8, digits)), 3.647522,
-                printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 1.4, 1.5, digits)),
+                1.458920, printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.2, 3.4, digits)),
+                3.276686, printed);
+    EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.5, 3.8, digits)),
+                3.647522, printed);
 }
 
 TYPED_TEST(ClosedForm, OneCosineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
     const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 1.7, 1.9, digits)), 1.801257,
-                printed);
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 6.7, 7.0, digits)), 6.848654,
-                printed);
-    EXPECT_NEAR((flip<OneCosine, Theory::nonlinear, TypeParam>(point, 11, 11.3, digits)), 11.139644,
-                printed);
+    EXPECT_NEAR(
+        (flip<Theory::nonlinear, TypeParam>(PulseKind::one_cosine, point, 1.7, 1.9, digits)),
+        1.801257, printed);
+    EXPECT_NEAR(
+        (flip<Theory::nonlinear, TypeParam>(PulseKind::one_cosine, point, 6.7, 7.0, digits)),
+        6.848654, printed);
+    EXPECT_NEAR(
+        (flip<Theory::nonlinear, TypeParam>(PulseKind::one_cosine, point, 11, 11.3, digits)),
+        11.139644, printed);
 }
 
 } // namespace

@@ -140,13 +140,13 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
 {
     // A bound of first order may be missed once in 10^5 points; here are 300, four times each.
     std::mt19937_64 generator(9);
-    for_every_scene([&]<class Pulse, Theory theory>() {
+    for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 25; ++i) {
             const Point<double> point = random_point(generator);
-            const auto exact = forced_end<Pulse, theory>(in_digits(point), 1e-25);
+            const auto exact = forced_end<theory>(pulse, in_digits(point), 1e-25);
             const auto margin = double(margin_of<theory>(exact, in_digits(point)));
             const auto check = [&]<class Method>(double tolerance) {
-                const auto end = forced_end<Pulse, theory, Method, true>(point, tolerance);
+                const auto end = forced_end<theory, Method, true>(pulse, point, tolerance);
                 EXPECT_LE(std::abs(margin_of<theory>(end, point) - margin), end.error)
                     << "tolerance " << tolerance << ", alpha " << point.slenderness << ", r "
                     << point.restitution << ", Omega " << point.frequency << ", a "
@@ -163,11 +163,11 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
 TEST(ForcedStage, EndsAlikeWhetherItsErrorIsWatchedOrNot)
 {
     std::mt19937_64 generator(10);
-    for_every_scene([&]<class Pulse, Theory theory>() {
+    for_every_scene([&]<Theory theory>(PulseKind pulse) {
         const Point<double> point = random_point(generator);
         const auto check = [&]<class Method>() {
-            const auto plain = forced_end<Pulse, theory, Method>(point, 1e-6);
-            const auto watched = forced_end<Pulse, theory, Method, true>(point, 1e-6);
+            const auto plain = forced_end<theory, Method>(pulse, point, 1e-6);
+            const auto watched = forced_end<theory, Method, true>(pulse, point, 1e-6);
             EXPECT_EQ(plain.state.tilt, watched.state.tilt);
             EXPECT_EQ(plain.state.rate, watched.state.rate);
             EXPECT_EQ(plain.steps, watched.steps);

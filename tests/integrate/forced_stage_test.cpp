@@ -24,8 +24,10 @@ TEST(ForcedStage, ErrorFallsWithTheTolerance)
     for (int i = 0; i < points; ++i) {
         const Point<double> point = random_point(generator);
         const auto error = [&](double tolerance) {
-            const auto best = forced_end<OneSine, Theory::nonlinear>(point, 1e-13).state;
-            const auto state = forced_end<OneSine, Theory::nonlinear>(point, tolerance).state;
+            const auto best =
+                forced_end<Theory::nonlinear>(PulseKind::one_sine, point, 1e-13).state;
+            const auto state =
+                forced_end<Theory::nonlinear>(PulseKind::one_sine, point, tolerance).state;
             return std::abs(state.tilt - best.tilt) + std::abs(state.rate - best.rate) + 1e-16;
         };
         log_ratio += std::log10(error(1e-5) / error(1e-8)) / points;
@@ -38,16 +40,14 @@ TEST(ForcedStage, ErrorFallsWithTheTolerance)
 TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
 {
     std::mt19937_64 generator(8);
-    for_every_scene([&]<class Pulse, Theory theory>() {
+    for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 50; ++i) {
             const Point<double> point = random_point(generator);
-            const Block<double> block{point.slenderness, point.restitution};
-            Excitation<Pulse, double> excitation{
-                point.amplitude * uplift_acceleration<theory>(point.slenderness), point.frequency,
-                uplift_phases<Pulse>(point.amplitude, 1.0), Pulse::begin(1.0), Pulse::end(1.0)};
-            const auto plain = run_in_doubles<TypeParam, Pulse, theory>(block, excitation, 1e-9);
+            Excitation<double> excitation = excitation_of<theory>(pulse, point);
+            const auto plain = run_in_doubles<TypeParam, theory>(point.block(), excitation, 1e-9);
             excitation.acceleration = -excitation.acceleration;
-            const auto mirrored = run_in_doubles<TypeParam, Pulse, theory>(block, excitation, 1e-9);
+            const auto mirrored =
+                run_in_doubles<TypeParam, theory>(point.block(), excitation, 1e-9);
             EXPECT_EQ(plain.fell, mirrored.fell);
             EXPECT_EQ(plain.state.tilt, mirrored.state.tilt);
             EXPECT_EQ(plain.state.rate, mirrored.state.rate);
@@ -92,7 +92,8 @@ TYPED_TEST(ForcedStageByMethod, FrequencyParameterDropsOut)
 {
     for (const Point<double>& point :
          {Point<double>{0.17, 0.9, 5, 1.6}, Point<double>{0.3, 0.8, 6, 2.5}}) {
-        const auto ours = forced_end<HalfSine, Theory::nonlinear, TypeParam>(point, 1e-12);
+        const auto ours =
+            forced_end<Theory::nonlinear, TypeParam>(PulseKind::half_sine, point, 1e-12);
         ASSERT_EQ(ours.impacts, 0);
         for (const double p : {0.4, 1.130441, 4.9}) {
             const State<double> theirs = dimensional_end(point, p);
@@ -106,10 +107,10 @@ TYPED_TEST(ForcedStageByMethod, FrequencyParameterDropsOut)
 
 TYPED_TEST(ForcedStageByMethod, ABlockThatIsNotLiftedStaysAtRest)
 {
-    for_every_scene([]<class Pulse, Theory theory>() {
+    for_every_scene([]<Theory theory>(PulseKind pulse) {
         for (const double amplitude : {0.0, 0.4, 0.999}) {
             const auto end =
-                forced_end<Pulse, theory, TypeParam>(Point<double>{0.2, 0.8, 3, amplitude}, 1e-9);
+                forced_end<theory, TypeParam>(pulse, Point<double>{0.2, 0.8, 3, amplitude}, 1e-9);
             EXPECT_EQ(end.state.tilt, 0);
             EXPECT_EQ(end.state.rate, 0);
             EXPECT_FALSE(end.fell);
@@ -125,8 +126,8 @@ TYPED_TEST(ForcedStageByMethod, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
     // sin alpha) from y = alpha to y = alpha - pi/2, up to sign.
     const double alpha = 0.2;
     const double amplitude = 5;
-    const auto end = forced_end<Rectangular, Theory::nonlinear, TypeParam>(
-        Point<double>{alpha, 0.9, 0.4, amplitude}, 1e-12);
+    const auto end = forced_end<Theory::nonlinear, TypeParam>(
+        PulseKind::rectangular, Point<double>{alpha, 0.9, 0.4, amplitude}, 1e-12);
     ASSERT_TRUE(end.fell);
     const double push = -amplitude * std::tan(alpha);
     const double y = alpha - pi<double>() / 2;
@@ -142,8 +143,8 @@ TYPED_TEST(ForcedStageByMethod, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
 template <class Method>
 ForcedEnd<double> near_graze(double amplitude, double tolerance)
 {
-    return forced_end<AntisymmetricRicker, Theory::nonlinear, Method>(
-        Point<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
+    return forced_end<Theory::nonlinear, Method>(
+        PulseKind::antisymmetric_ricker, Point<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
 }
 
 /// The amplitude at which it just touches.
@@ -183,8 +184,8 @@ TYPED_TEST(ForcedStageByMethod, AGrazeChangesTheEndByTheRootOfItsDepth)
 TYPED_TEST(ForcedStageByMethod, ANumberThatIsNotFiniteEndsTheLaneWithAStatus)
 {
     const UntrappedFloatingPoint overflow_at_the_first_step;
-    const auto end =
-        forced_end<OneSine, Theory::nonlinear, TypeParam>(Point<double>{0.2, 0.8, 3, 1e200}, 1e-9);
+    const auto end = forced_end<Theory::nonlinear, TypeParam>(
+        PulseKind::one_sine, Point<double>{0.2, 0.8, 3, 1e200}, 1e-9);
     EXPECT_TRUE(end.not_finite);
     EXPECT_FALSE(end.fell);
 }

@@ -26,8 +26,8 @@ Motion50 start()
 
 Step<Digits50> step_from(const Motion50& motion, const Digits50& t, const Digits50& h)
 {
-    return runge_kutta_step(motion, h, [&](const Digits50& node, const Digits50& x) {
-        return acceleration(t + node * h, x);
+    return runge_kutta_step(motion, h, [&](std::size_t stage, const Digits50& x) {
+        return acceleration(t + DormandPrince::node_value<Digits50>(stage) * h, x);
     });
 }
 

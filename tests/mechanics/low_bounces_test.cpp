@@ -1,6 +1,5 @@
 #include "overturn/mechanics/low_bounces.hpp"
 
-#include "overturn/mechanics/pulse.hpp"
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -10,10 +9,10 @@
 namespace overturn {
 namespace {
 
-template <class Pulse, Theory theory>
-std::optional<LowBounces> bounds_of(const Point<double>& point)
+template <Theory theory>
+std::optional<LowBounces> bounds_of(PulseKind pulse, const Point<double>& point)
 {
-    return bound_of_low_bounces<theory>(point.slenderness, excitation_of<Pulse, theory>(point));
+    return bound_of_low_bounces<theory>(point.slenderness, excitation_of<theory>(pulse, point));
 }
 
 TEST(LowBounces, HoldTheMotionAtAnyMoment)
@@ -21,16 +20,16 @@ TEST(LowBounces, HoldTheMotionAtAnyMoment)
     std::mt19937_64 generator(21);
     std::uniform_real_distribution<double> uniform(0, 1);
     int bounded = 0;
-    for_every_scene([&]<class Pulse, Theory theory>() {
+    for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 60; ++i) {
             const double slenderness = 0.05 + 0.8 * uniform(generator);
             const double restitution = i % 2 ? 1 : uniform(generator);
             const Point<double> point{slenderness, restitution,
                                       std::pow(10, -1 + 2 * uniform(generator)),
                                       1 + std::pow(10, -0.5 - 2.5 * uniform(generator))};
-            Excitation<Pulse, double> excitation = excitation_of<Pulse, theory>(point);
-            excitation.end =
-                excitation.begin + uniform(generator) * (excitation.end - excitation.begin);
+            Excitation<double> excitation = excitation_of<theory>(pulse, point);
+            GroundMotion<double>& motion = excitation.motion;
+            motion.end = motion.begin + uniform(generator) * (motion.end - motion.begin);
             const auto bounds = bound_of_low_bounces<theory>(slenderness, excitation);
             if (!bounds) {
                 continue;
@@ -38,8 +37,8 @@ TEST(LowBounces, HoldTheMotionAtAnyMoment)
             ++bounded;
             // What bounces for long keeps 1e-12 of its energy for 1e3 impacts, and of its phase
             // less.
-            const auto end = run_in_doubles<Taylor<20>, Pulse, theory>({slenderness, restitution},
-                                                                       excitation, 1e-12);
+            const auto end =
+                run_in_doubles<Taylor<20>, theory>({slenderness, restitution}, excitation, 1e-12);
             EXPECT_LE(end.state.tilt, bounds->tilt * (1 + 1e-9)) << i;
             EXPECT_LE(std::abs(end.state.rate), bounds->rate * (1 + 1e-9)) << i;
         }
@@ -51,7 +50,7 @@ TEST(LowBounces, UnderAConstantPushAreTheClosedFormAndLittleMore)
 {
     // Linear theory: |theta| = (a - 1) alpha (cosh tau - 1) from rest.
     const Point<double> point{0.2, 1, 3, 1.02};
-    const auto bounds = bounds_of<Rectangular, Theory::linear>(point);
+    const auto bounds = bounds_of<Theory::linear>(PulseKind::rectangular, point);
     ASSERT_TRUE(bounds);
     const double duration = pi<double>() / point.frequency;
     const double tilt = 0.02 * 0.2 * (std::cosh(duration) - 1);
@@ -66,7 +65,7 @@ TEST(LowBounces, UnderAConstantPushAreTheClosedFormAndLittleMore)
 
 TEST(LowBounces, AreNoneOfABlockThatIsNotLifted)
 {
-    const auto bounds = bounds_of<OneSine, Theory::nonlinear>({0.2, 1, 3, 1});
+    const auto bounds = bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 3, 1});
     ASSERT_TRUE(bounds);
     EXPECT_EQ(bounds->tilt, 0);
     EXPECT_EQ(bounds->rate, 0);
@@ -74,9 +73,9 @@ TEST(LowBounces, AreNoneOfABlockThatIsNotLifted)
 
 TEST(LowBounces, AreNotClaimedOfABlockThatRisesOrOverturns)
 {
-    EXPECT_FALSE((bounds_of<OneSine, Theory::nonlinear>({0.2, 1, 3, 1.5})));
-    EXPECT_FALSE((bounds_of<Rectangular, Theory::linear>({0.2, 1, 0.1, 1.02})));
-    EXPECT_FALSE((bounds_of<OneSine, Theory::nonlinear>({0.2, 1, 1e-40, 1.02})));
+    EXPECT_FALSE((bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 3, 1.5})));
+    EXPECT_FALSE((bounds_of<Theory::linear>(PulseKind::rectangular, {0.2, 1, 0.1, 1.02})));
+    EXPECT_FALSE((bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 1e-40, 1.02})));
 }
 
 } // namespace

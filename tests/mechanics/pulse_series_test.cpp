@@ -1,5 +1,6 @@
-#include "overturn/mechanics/pulse_series.hpp"
+#include "overturn/mechanics/wavelet.hpp"
 #include "overturn/number/digits50.hpp"
+#include "support/every_pulse.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +11,24 @@
 namespace overturn {
 namespace {
 
-template <class Pulse>
-class SeriesOfEveryPulse : public testing::Test {};
-using Pulses =
-    testing::Types<OneSine, OneCosine, SymmetricRicker, AntisymmetricRicker, HalfSine, Rectangular>;
-TYPED_TEST_SUITE(SeriesOfEveryPulse, Pulses);
+class SeriesOfEveryPulse : public EveryPulse {
+protected:
+    template <int count, class S>
+    static Coefficients<count, S> series(const S& scale, const S& phase, const S& rate)
+    {
+        return motion(S(1)).template series<count>(scale, phase, rate);
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Pulse, SeriesOfEveryPulse, every_pulse(), pulse_test_name);
 
 /// Phases spread over the pulse, its two ends included [rad].
-template <class Pulse>
-std::vector<double> phases(double window = 1)
+std::vector<double> phases(PulseKind pulse, double window = 1)
 {
     constexpr int count = 60;
-    const double begin = Pulse::begin(window);
+    const GroundMotion<double> motion = ground_motion(pulse, window);
     std::vector<double> result;
     for (int i = 0; i <= count; ++i) {
-        result.push_back(begin + (Pulse::end(window) - begin) * i / count);
+        result.push_back(motion.begin + (motion.end - motion.begin) * i / count);
     }
     return result;
 }
@@ -42,35 +46,35 @@ Digits50 sum(const std::array<Digits50, count>& c, const Digits50& t)
     return result;
 }
 
-TYPED_TEST(SeriesOfEveryPulse, SumsToThePulseItself)
+TEST_P(SeriesOfEveryPulse, SumsToThePulseItself)
 {
     const Digits50 scale = -Digits50(7) / 5;
     const Digits50 rate = Digits50(9) / 5;
     for (const double window : {1.0, 2.0}) {
-        for (const double phase : phases<TypeParam>(window)) {
-            const auto series = pulse_series<TypeParam, 40>(scale, Digits50(phase), rate);
+        for (const double phase : phases(GetParam(), window)) {
+            const auto terms = series<40>(scale, Digits50(phase), rate);
             for (const double t : {-0.125, 0.0625, 0.125}) {
-                const Digits50 exact = scale * TypeParam::value(Digits50(phase + rate * t));
+                const Digits50 exact =
+                    scale * value_of_pulse(motion(Digits50(1)), Digits50(phase + rate * t));
                 // The steps advance the phase by 0.225. What a sine leaves out is 0.225^40 / 40!,
                 // 1e-74; a Gaussian of width 1.4 leaves 1e-53 at most. A wrong term shows in full.
-                EXPECT_LT(abs(sum(series, Digits50(t)) - exact), 1e-46)
+                EXPECT_LT(abs(sum(terms, Digits50(t)) - exact), 1e-46)
                     << "phase " << phase << ", t " << t;
             }
         }
     }
 }
 
-TYPED_TEST(SeriesOfEveryPulse, InDoubleAgreesWithFiftyDigits)
+TEST_P(SeriesOfEveryPulse, InDoubleAgreesWithFiftyDigits)
 {
     constexpr int count = 21; // the longest that a stepper uses
     const double scale = 1.4;
     const double rate = 0.8;
     std::array<double, count> error{};
     std::array<double, count> largest{};
-    for (const double phase : phases<TypeParam>()) {
-        const auto ours = pulse_series<TypeParam, count>(scale, phase, rate);
-        const auto exact =
-            pulse_series<TypeParam, count>(Digits50(scale), Digits50(phase), Digits50(rate));
+    for (const double phase : phases(GetParam())) {
+        const auto ours = series<count>(scale, phase, rate);
+        const auto exact = series<count>(Digits50(scale), Digits50(phase), Digits50(rate));
         for (std::size_t k = 0; k < count; ++k) {
             error[k] = std::max(error[k], std::abs(double(ours[k] - exact[k])));
             largest[k] = std::max(largest[k], std::abs(double(exact[k])));
@@ -85,24 +89,24 @@ TYPED_TEST(SeriesOfEveryPulse, InDoubleAgreesWithFiftyDigits)
     }
 }
 
-TYPED_TEST(SeriesOfEveryPulse, ALongerSeriesBeginsWithTheShorterOne)
+TEST_P(SeriesOfEveryPulse, ALongerSeriesBeginsWithTheShorterOne)
 {
-    for (const double phase : phases<TypeParam>()) {
-        const auto shorter = pulse_series<TypeParam, 14>(1.4, phase, 0.8);
-        const auto longer = pulse_series<TypeParam, 20>(1.4, phase, 0.8);
+    for (const double phase : phases(GetParam())) {
+        const auto shorter = series<14>(1.4, phase, 0.8);
+        const auto longer = series<20>(1.4, phase, 0.8);
         for (std::size_t k = 0; k < shorter.size(); ++k) {
             ASSERT_EQ(shorter[k], longer[k]) << "phase " << phase << ", coefficient " << k;
         }
     }
 }
 
-TYPED_TEST(SeriesOfEveryPulse, ScalesWithTheAmplitudeAndWithPowersOfTheRate)
+TEST_P(SeriesOfEveryPulse, ScalesWithTheAmplitudeAndWithPowersOfTheRate)
 {
-    for (const double phase : phases<TypeParam>()) {
-        const auto once = pulse_series<TypeParam, 20>(0.7, phase, 0.6);
-        const auto scaled = pulse_series<TypeParam, 20>(-1.4, phase, 0.6);
-        const auto faster = pulse_series<TypeParam, 20>(0.7, phase, 1.2);
-        const auto backward = pulse_series<TypeParam, 20>(0.7, phase, -0.6);
+    for (const double phase : phases(GetParam())) {
+        const auto once = series<20>(0.7, phase, 0.6);
+        const auto scaled = series<20>(-1.4, phase, 0.6);
+        const auto faster = series<20>(0.7, phase, 1.2);
+        const auto backward = series<20>(0.7, phase, -0.6);
         for (std::size_t k = 0; k < once.size(); ++k) {
             // Factors of two and signs change no other bit.
             ASSERT_EQ(scaled[k], -2 * once[k]) << "coefficient " << k;
@@ -113,32 +117,31 @@ TYPED_TEST(SeriesOfEveryPulse, ScalesWithTheAmplitudeAndWithPowersOfTheRate)
 }
 
 /// Expects f(-phase) = parity * f(phase) in every coefficient, to the bit.
-template <class Pulse>
-void expect_parity(double parity)
+void expect_parity(PulseKind pulse, double parity)
 {
     for (const double phase : {0.0, 0.1, 0.7, 1.5}) {
-        const auto after = pulse_series<Pulse, 20>(1.4, phase, 0.8);
-        const auto before = pulse_series<Pulse, 20>(1.4, -phase, -0.8);
+        const auto after = ground_motion(pulse, 1.0).series<20>(1.4, phase, 0.8);
+        const auto before = ground_motion(pulse, 1.0).series<20>(1.4, -phase, -0.8);
         for (std::size_t k = 0; k < after.size(); ++k) {
             EXPECT_EQ(before[k], parity * after[k]) << "phase " << phase << ", coefficient " << k;
         }
     }
 }
 
-template <class Pulse>
-void expect_terms_to_follow_as_told()
+void expect_terms_to_follow_as_told(PulseKind pulse)
 {
     constexpr int known = 24;
     constexpr int all = 60;
     for (const double window : {1.0, 2.0, 5.0}) {
-        for (const double phase : phases<Pulse>(window)) {
-            const auto series = pulse_series<Pulse, all>(Digits50(1), Digits50(phase), Digits50(1));
+        for (const double phase : phases(pulse, window)) {
+            const auto series = ground_motion(pulse, Digits50(1))
+                                    .series<all>(Digits50(1), Digits50(phase), Digits50(1));
             for (const double step : {0.1, 0.5, 1.0, 2.0, 3.0}) {
                 const auto term = [&](int k) -> Digits50 {
                     return abs(series[k]) * pow(Digits50(step), k);
                 };
                 const Digits50 ratio =
-                    following_ratio<Pulse, known>(Digits50(phase), Digits50(step));
+                    following_ratio<known>(pulse, Digits50(phase), Digits50(step));
                 const Digits50 last = std::max(term(known - 1), Digits50(ratio * term(known - 2)));
                 for (int j = 1; known - 1 + j < all; ++j) {
                     EXPECT_LE(term(known - 1 + j), last * pow(ratio, j) * (1 + Digits50(1e-40)))
@@ -151,16 +154,16 @@ void expect_terms_to_follow_as_told()
 
 TEST(PulseSeries, OfTheWaveletsGoOnNoFasterThanTold)
 {
-    expect_terms_to_follow_as_told<SymmetricRicker>();
-    expect_terms_to_follow_as_told<AntisymmetricRicker>();
+    expect_terms_to_follow_as_told(PulseKind::symmetric_ricker);
+    expect_terms_to_follow_as_told(PulseKind::antisymmetric_ricker);
 }
 
 TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
 {
-    expect_parity<OneSine>(-1);
-    expect_parity<AntisymmetricRicker>(-1);
-    expect_parity<OneCosine>(1);
-    expect_parity<SymmetricRicker>(1);
+    expect_parity(PulseKind::one_sine, -1);
+    expect_parity(PulseKind::antisymmetric_ricker, -1);
+    expect_parity(PulseKind::one_cosine, 1);
+    expect_parity(PulseKind::symmetric_ricker, 1);
 }
 
 TEST(PulseSeries, OfTheConstantPushIsItsScaleAlone)

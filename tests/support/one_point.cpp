@@ -1,19 +1,18 @@
-// Compiled once per pulse: OVERTURN_PULSE comes from CMake.
 #include "support/one_point.hpp"
 
 namespace overturn {
 
-template <class Method, class Pulse, Theory theory, bool watched>
-ForcedEnd<double> run_in_doubles(const Block<double>& block,
-                                 const Excitation<Pulse, double>& excitation, double tolerance)
+template <class Method, Theory theory, bool with_error>
+ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<double>& excitation,
+                                 double tolerance)
 {
-    return run_forced_stage<Method, Pulse, theory, Records{.impacts = true, .error = watched}>(
+    return run_forced_stage<Method, theory, Records{.impacts = true, .error = with_error}>(
         block, excitation, tolerance);
 }
 
-#define OVERTURN_INSTANTIATE(method, theory, watched)                                              \
-    template ForcedEnd<double> run_in_doubles<method, OVERTURN_PULSE, theory, watched>(            \
-        const Block<double>&, const Excitation<OVERTURN_PULSE, double>&, double);
+#define OVERTURN_INSTANTIATE(method, theory, with_error)                                           \
+    template ForcedEnd<double> run_in_doubles<method, theory, with_error>(                         \
+        const Block<double>&, const Excitation<double>&, double);
 #define OVERTURN_INSTANTIATE_METHOD(method)                                                        \
     OVERTURN_INSTANTIATE(method, Theory::nonlinear, false)                                         \
     OVERTURN_INSTANTIATE(method, Theory::nonlinear, true)                                          \

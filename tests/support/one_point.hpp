@@ -3,7 +3,6 @@
 #pragma once
 
 #include "overturn/integrate/more_digits.hpp"
-#include "overturn/mechanics/region.hpp"
 
 namespace overturn {
 
@@ -13,16 +12,15 @@ struct Point {
     S restitution; ///< r [1]
     S frequency;   ///< Omega [1]
     S amplitude;   ///< a [1]
+
+    Block<S> block() const { return {slenderness, restitution}; }
 };
 
-template <class Pulse, Theory theory, class S>
-Excitation<Pulse, S> excitation_of(const Point<S>& point, double window = 1)
+template <Theory theory, class S>
+Excitation<S> excitation_of(PulseKind pulse, const Point<S>& point, double window = 1)
 {
-    return {.acceleration = point.amplitude * uplift_acceleration<theory>(point.slenderness),
-            .frequency = point.frequency,
-            .uplifts = uplift_phases<Pulse>(point.amplitude, S(window)),
-            .begin = Pulse::begin(S(window)),
-            .end = Pulse::end(S(window))};
+    return excitation_of<theory>(ground_motion(pulse, S(window)), point.slenderness,
+                                 point.amplitude, point.frequency);
 }
 
 inline Point<Digits50> in_digits(const Point<double>& point)
@@ -30,57 +28,49 @@ inline Point<Digits50> in_digits(const Point<double>& point)
     return {point.slenderness, point.restitution, point.frequency, point.amplitude};
 }
 
-/// run_forced_stage(), for each of EveryMethod; watched: with a bound of the error. Compiled once
-/// per pulse, in one_point.cpp.
-template <class Method, class Pulse, Theory theory, bool watched = false>
-ForcedEnd<double> run_in_doubles(const Block<double>& block,
-                                 const Excitation<Pulse, double>& excitation, double tolerance);
+/// run_forced_stage(), for each of EveryMethod; with_error: with a bound of the error. Compiled
+/// once, in one_point.cpp.
+template <class Method, Theory theory, bool with_error = false>
+ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<double>& excitation,
+                                 double tolerance);
 
-template <class Pulse, Theory theory, class Method = RungeKutta, bool watched = false>
-ForcedEnd<double> forced_end(const Point<double>& point, double tolerance)
+template <Theory theory, class Method = RungeKutta, bool with_error = false>
+ForcedEnd<double> forced_end(PulseKind pulse, const Point<double>& point, double tolerance)
 {
-    return run_in_doubles<Method, Pulse, theory, watched>(
-        {point.slenderness, point.restitution}, excitation_of<Pulse, theory>(point), tolerance);
+    return run_in_doubles<Method, theory, with_error>(
+        point.block(), excitation_of<theory>(pulse, point), tolerance);
 }
 
-template <class Pulse, Theory theory>
-ForcedEnd<Digits50> forced_end(const Point<Digits50>& point, double tolerance)
+template <Theory theory>
+ForcedEnd<Digits50> forced_end(PulseKind pulse, const Point<Digits50>& point, double tolerance)
 {
-    return run_in_more_digits<Digits50, Pulse, theory>(
-        {point.slenderness, point.restitution}, excitation_of<Pulse, theory>(point), tolerance);
+    return run_in_more_digits<Digits50, theory>(point.block(), excitation_of<theory>(pulse, point),
+                                                tolerance);
 }
 
-/// Calls visit.template operator()<Pulse, theory>() for every pulse and theory.
+/// Calls visit.template operator()<theory>(pulse) for every pulse and theory.
 template <class Visitor>
 void for_every_scene(const Visitor& visit)
 {
-    const auto both_theories = [&]<class Pulse>() {
-        visit.template operator()<Pulse, Theory::nonlinear>();
-        visit.template operator()<Pulse, Theory::linear>();
-    };
-    both_theories.template operator()<OneSine>();
-    both_theories.template operator()<OneCosine>();
-    both_theories.template operator()<SymmetricRicker>();
-    both_theories.template operator()<AntisymmetricRicker>();
-    both_theories.template operator()<HalfSine>();
-    both_theories.template operator()<Rectangular>();
+    for (std::size_t pulse = 0; pulse < pulses.size(); ++pulse) {
+        visit.template operator()<Theory::nonlinear>(PulseKind(pulse));
+        visit.template operator()<Theory::linear>(PulseKind(pulse));
+    }
 }
 
 template <Theory theory, class S>
 S margin_of(const ForcedEnd<S>& end, const Point<S>& point)
 {
-    const Block<S> block{point.slenderness, point.restitution};
-    return end.fell ? margin_of_fall<theory>(end.state.rate, block)
-                    : margin_after_pulse<theory>(end.state, block);
+    return margin_of<theory>(end, point.block());
 }
 
 /// The amplitude between `low` and `high` at which the verdict flips, by halving.
-template <class Pulse, Theory theory, class Method = RungeKutta>
-double flip(Point<double> point, double low, double high, double tolerance)
+template <Theory theory, class Method = RungeKutta>
+double flip(PulseKind pulse, Point<double> point, double low, double high, double tolerance)
 {
     const auto is_unsafe_at = [&](double amplitude) {
         point.amplitude = amplitude;
-        return margin_of<theory>(forced_end<Pulse, theory, Method>(point, tolerance), point) < 0;
+        return margin_of<theory>(forced_end<theory, Method>(pulse, point, tolerance), point) < 0;
     };
     const bool below = is_unsafe_at(low);
     for (int i = 0; i < 60; ++i) {

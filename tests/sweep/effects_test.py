@@ -29,8 +29,8 @@ SIDE = 24
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
 # Per point: the heap also takes the few numbers of a row, and lists of fields.
 BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1,
-                    "impacts": 8 + 2, "steps": 8 + 4, "error": 8 + 8,  # as found and as stored
-                    "peak": 8 + 1 + 8, "fall_time": 8 + 1 + 8}  # and the region between
+                    "error": 8, "impacts": 8 + 2, "steps": 8 + 4,  # as found and as stored
+                    "peak": 8 + 8, "fall_time": 8 + 8}
 BYTES_BESIDE = 0.25
 # Impacts, errors and peaks come from kernels of their own. The compiler may happen to make the one that
 # counts impacts cheaper than the one without: it has no price that a test could rely on.

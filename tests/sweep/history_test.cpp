@@ -27,11 +27,11 @@ void for_random_points(const Check& check)
     }
 }
 
-int count(const History& history, Event event, double until)
+int count(const History& history, EventKind kind, double until)
 {
     return int(
         std::count_if(history.events.begin(), history.events.end(), [&](const HistoryEvent& found) {
-            return found.event == event && found.after.time <= until;
+            return found.kind == kind && found.after.time <= until;
         }));
 }
 
@@ -50,7 +50,7 @@ TEST(History, EndsThePulseWhereTheSpectrumSays)
         EXPECT_EQ(history.region, region);
         EXPECT_NEAR(history.margin, margin, error + history.error);
         const double end = std::min(history.end_of_pulse, history.time_of_fall);
-        const int struck = count(history, Event::impact, end);
+        const int struck = count(history, EventKind::impact, end);
         EXPECT_TRUE(impacts == struck || impacts == impact_count::bounce_series);
         EXPECT_EQ(std::isfinite(history.time_of_fall), is_unsafe(region));
         EXPECT_EQ(std::isfinite(history.time_of_rest), is_safe(region));
@@ -130,12 +130,12 @@ TEST(History, LosesSpeedAtImpactsAndNowhereElse)
         const History history = history_of(scene, point);
         for (const HistoryEvent& event : history.events) {
             EXPECT_NEAR(event.before.angle, event.after.angle, 1e-15);
-            if (event.event == Event::impact) {
+            if (event.kind == EventKind::impact) {
                 EXPECT_NEAR(event.after.velocity,
                             std::sqrt(point.restitution) * event.before.velocity,
                             1e-13 * std::abs(event.before.velocity) + 1e-15);
                 EXPECT_GE(event.after.q, event.before.q);
-            } else if (event.event != Event::rest) {
+            } else if (event.kind != EventKind::rest) {
                 EXPECT_NEAR(event.before.velocity, event.after.velocity, 1e-15);
             }
         }
@@ -156,10 +156,10 @@ TEST(History, ShowsTheBlockUntilItRests)
 {
     const History history = history_of({}, safe_point);
     EXPECT_EQ(history.region, Region::S);
-    EXPECT_EQ(history.events.front().event, Event::uplift);
+    EXPECT_EQ(history.events.front().kind, EventKind::uplift);
     // When sin(phase) = 1 / a.
     EXPECT_NEAR(history.events.front().after.time, std::asin(1 / 1.3) / 3, 1e-15);
-    EXPECT_EQ(history.events.back().event, Event::rest);
+    EXPECT_EQ(history.events.back().kind, EventKind::rest);
     EXPECT_EQ(history.events.back().after.time, history.time_of_rest);
     EXPECT_EQ(history.samples.back().time, history.time_of_rest);
     EXPECT_EQ(history.samples.back().angle, 0);
@@ -170,13 +170,13 @@ TEST(History, ShowsTheFall)
     PlanePoint point = safe_point;
     point.amplitude = 2;
     const History free = history_of({}, point);
-    EXPECT_EQ(free.events.back().event, Event::fall);
+    EXPECT_EQ(free.events.back().kind, EventKind::fall);
     EXPECT_GT(free.time_of_fall, free.end_of_pulse);
     EXPECT_NEAR(std::abs(free.samples.back().angle), std::acos(0.0), 1e-14);
     point.amplitude = 30;
     point.frequency = 0.5;
     const History forced = history_of({}, point);
-    EXPECT_EQ(forced.events.back().event, Event::fall);
+    EXPECT_EQ(forced.events.back().kind, EventKind::fall);
     EXPECT_LT(forced.time_of_fall, forced.end_of_pulse);
     EXPECT_NEAR(std::abs(forced.samples.back().angle), std::acos(0.0), 1e-14);
 }
@@ -187,7 +187,7 @@ TEST(History, IsThatOfABlockAtRestIfNothingLiftsIt)
     point.amplitude = 0.5;
     const History history = history_of({}, point);
     ASSERT_EQ(history.events.size(), 1u);
-    EXPECT_EQ(history.events[0].event, Event::end_of_pulse);
+    EXPECT_EQ(history.events[0].kind, EventKind::end_of_pulse);
     EXPECT_EQ(history.time_of_rest, 0);
     EXPECT_EQ(history.samples.size(), 2000u + 2); // the event has two
     for (const HistorySample& sample : history.samples) {
@@ -204,9 +204,9 @@ TEST(History, RestsAndIsLiftedAgain)
     point.amplitude = 1.00001;
     point.restitution = 0.3;
     const History history = history_of({PulseKind::one_sine, Theory::nonlinear, 1}, point);
-    EXPECT_EQ(count(history, Event::uplift, history.end_of_pulse), 2);
-    EXPECT_EQ(count(history, Event::rest, history.end_of_pulse), 2);
-    EXPECT_EQ(history.events.back().event, Event::end_of_pulse);
+    EXPECT_EQ(count(history, EventKind::uplift, history.end_of_pulse), 2);
+    EXPECT_EQ(count(history, EventKind::rest, history.end_of_pulse), 2);
+    EXPECT_EQ(history.events.back().kind, EventKind::end_of_pulse);
     EXPECT_LT(history.time_of_rest, history.end_of_pulse);
 }
 

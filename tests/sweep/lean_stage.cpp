@@ -8,16 +8,12 @@ namespace overturn {
 using T = Pack<xsimd::fma3<xsimd::avx2>>;
 
 template <class Method>
-ForcedEnd<T> lean_stage(const Block<T>& block, const Excitation<OneSine, T>& excitation,
-                        double tolerance)
+ForcedEnd<T> lean_stage(const Block<T>& block, const Excitation<T>& excitation, double tolerance)
 {
-    return run_forced_stage<Method, OneSine, Theory::nonlinear, Records{}>(block, excitation,
-                                                                           tolerance);
+    return run_forced_stage<Method, Theory::nonlinear, Records{}>(block, excitation, tolerance);
 }
 
-template ForcedEnd<T> lean_stage<RungeKutta>(const Block<T>&, const Excitation<OneSine, T>&,
-                                             double);
-template ForcedEnd<T> lean_stage<Taylor<14>>(const Block<T>&, const Excitation<OneSine, T>&,
-                                             double);
+template ForcedEnd<T> lean_stage<RungeKutta>(const Block<T>&, const Excitation<T>&, double);
+template ForcedEnd<T> lean_stage<Taylor<14>>(const Block<T>&, const Excitation<T>&, double);
 
 } // namespace overturn

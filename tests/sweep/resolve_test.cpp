@@ -1,8 +1,8 @@
 // Verdicts in doubt are settled with more digits, and only those.
 #include "overturn/sweep/sweep_tile.hpp"
+#include "resolve.hpp"
 #include "support/every_scene.hpp"
 #include "support/one_point.hpp"
-#include "tile_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ constexpr Numerics resolved_taylor{Method::taylor, 1e-4, true};
 Digits50 true_margin(const Point<double>& point)
 {
     return margin_of<Theory::nonlinear>(
-        forced_end<OneSine, Theory::nonlinear>(in_digits(point), 1e-28), in_digits(point));
+        forced_end<Theory::nonlinear>(PulseKind::one_sine, in_digits(point), 1e-28),
+        in_digits(point));
 }
 
 /// The last amplitude below 1.5 that the paper's block survives, and the first that it does not:
@@ -97,11 +98,11 @@ TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
     plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
     plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
-        const TileRun run({}, plane, Tiling(plane)[0], widest_kernel());
-        Ends whole(std::size_t(run.points()), {.error = true, .steps = true});
+        const PointRun run({}, points_of(plane, Tiling(plane)[0]), widest_kernel());
+        Ends whole(std::size_t(run.size()), {.error = true, .steps = true});
         Ends ended = whole;
-        run.run(numerics, whole, InDoubt::goes_on);
-        run.run(numerics, ended, InDoubt::ends);
+        run.run(numerics, whole, OnUnknownError::go_on);
+        run.run(numerics, ended, OnUnknownError::stop);
         double steps_of_doubtful = 0;
         double steps_until_doubt = 0;
         for (std::size_t i = 0; i < whole.tilt.size(); ++i) {
@@ -133,13 +134,13 @@ TEST(FirstPass, DoubtsAVerdictUnlessItsMarginIsLargerThanItsError)
     int doubted_of_fallen = 0;
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            const TileRun run({.theory = theory}, plane, Tiling(plane)[0], widest_kernel());
-            Ends ends(std::size_t(run.points()), {.error = true});
+            const PointRun run({.theory = theory}, points_of(plane, Tiling(plane)[0]),
+                               widest_kernel());
+            Ends ends(std::size_t(run.size()), {.error = true, .margin = true});
             run.run(numerics, ends);
-            const std::vector<double> margins = run.margins(ends);
-            for (std::size_t i = 0; i < margins.size(); ++i) {
+            for (std::size_t i = 0; i < ends.margin.size(); ++i) {
                 const bool in_doubt = ends.flags[i] & end_flag::in_doubt;
-                EXPECT_EQ(in_doubt, !(ends.error[i] < std::abs(margins[i])));
+                EXPECT_EQ(in_doubt, !(ends.error[i] < std::abs(ends.margin[i])));
                 ++(!in_doubt ? sure : ends.flags[i] & end_flag::fell ? doubted_of_fallen : doubted);
             }
         }

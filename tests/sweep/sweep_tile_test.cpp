@@ -186,8 +186,8 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
                                   plane.restitution_ratio(tile.slenderness, tile.restitution),
                                   plane.frequency[tile.frequency_begin + i % tile.frequency_count],
                                   plane.amplitude[tile.amplitude_begin + i / tile.frequency_count]};
-        const auto end =
-            forced_end<OneSine, Theory::nonlinear, RungeKutta, true>(point, Numerics{}.tolerance);
+        const auto end = forced_end<Theory::nonlinear, RungeKutta, true>(PulseKind::one_sine, point,
+                                                                         Numerics{}.tolerance);
         const std::size_t k = std::size_t(i);
         ASSERT_EQ(angles[k], end.state.side * end.state.tilt);
         ASSERT_EQ(velocities[k], end.state.side * end.state.rate);

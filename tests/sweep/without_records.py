@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""without_records.py HEADER OUTPUT: the header of the forced stage, as if nothing could be recorded:
-every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition names a member of
-struct Records is cut out. Each member must have one. Line numbers stay."""
+"""without_records.py RECORDS HEADER OUTPUT: the header of the forced stage, as if nothing could be
+recorded on the way: every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition
+names such a member of struct Records is cut out. Each must have one. Line numbers stay."""
 
 import pathlib
 import re
@@ -31,14 +31,15 @@ def without(text, member):
 
 
 def main():
-    text = pathlib.Path(sys.argv[1]).read_text()
-    members = re.search(r"struct Records \{(.*?)\};", text, re.DOTALL)
+    records = pathlib.Path(sys.argv[1]).read_text()
+    text = pathlib.Path(sys.argv[2]).read_text()
+    members = re.search(r"// Recorded on the way(.*?)// Known at the end", records, re.DOTALL)
     names = re.findall(r"bool (\w+)", members.group(1)) if members else []
     if not names:
-        sys.exit("without_records: no struct Records with members is found")
+        sys.exit("without_records: no members that are recorded on the way are found")
     for name in names:
         text = without(text, name)
-    pathlib.Path(sys.argv[2]).write_text(text)
+    pathlib.Path(sys.argv[3]).write_text(text)
 
 
 if __name__ == "__main__":

@@ -59,18 +59,17 @@ Tile whole(const Plane& plane)
 
 Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
 {
-    const TileRun run(scene, plane, whole(plane), kernel);
-    Ends ends = ends_of(run, tightest, {.error = true});
-    const std::vector<double> margins = run.margins(ends);
+    const PointRun run(scene, points_of(plane, whole(plane)), kernel);
+    Ends ends = ends_of(run, tightest, {.error = true, .margin = true});
     for (int point = 0; point < ends.size(); ++point) {
         // Nor are half a million impacts worth the hours that they take in 50 digits.
         const bool hopeless = ends.flags[point] & end_flag::capped;
-        if (!hopeless && !(std::abs(margins[point]) >= margin_that_wants_digits &&
-                           ends.error[point] < std::abs(margins[point]))) {
+        const double margin = std::abs(ends.margin[point]);
+        if (!hopeless && !(margin >= margin_that_wants_digits && ends.error[point] < margin)) {
             run.run_exactly<Digits50>(point, ends);
         }
     }
-    Truth truth{run.margins(ends), ends.error, {}};
+    Truth truth{ends.margin, ends.error, {}};
     for (const std::uint8_t flags : ends.flags) {
         truth.fell.push_back(flags & end_flag::fell);
     }
@@ -96,9 +95,9 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
 void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, const Truth& truth,
                   Kernel kernel)
 {
-    const TileRun run(scene, plane, whole(plane), kernel);
-    Ends ends = ends_of(run, check.numerics, {.error = true});
-    const std::vector<double> margins = run.margins(ends);
+    const PointRun run(scene, points_of(plane, whole(plane)), kernel);
+    const Ends ends = ends_of(run, check.numerics, {.error = true, .margin = true});
+    const std::vector<double>& margins = ends.margin;
     for (int point = 0; point < ends.size(); ++point) {
         const bool known = std::isfinite(truth.margin[point]) &&
                            std::isfinite(truth.error[point]) && std::isfinite(margins[point]);

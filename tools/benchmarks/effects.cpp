@@ -1,8 +1,7 @@
 // bench_effects: sweeps one tile, so that a profiler can count the instructions of that call alone:
 // all inside measured(). Prints the points, and the bytes that the call took from the heap.
-#include "sweep_kernel.hpp"
+#include "point_run.hpp"
 
-#include "overturn/mechanics/pulse.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
 #include <algorithm>
@@ -18,11 +17,6 @@
 
 namespace overturn {
 
-#ifdef __x86_64__
-SweepKernel sweep_kernel_avx2_OneSine(Integrator, Theory, Recorded);
-extern const FieldKernels field_kernels_avx2;
-#endif
-
 namespace benchmarks {
 
 namespace {
@@ -32,7 +26,9 @@ constexpr std::string_view usage =
     "           SIDE x SIDE points of the paper's block, with these fields\n"
     "       bench_effects by-hand METHOD SIDE TOLERANCE nothing|region|impacts\n"
     "           the same under one_sine, nonlinear, avx2, past the sweep: its kernel alone; with\n"
-    "           the regions after it; or the kernel that counts impacts\n";
+    "           the regions; or the kernel that counts impacts\n"
+    "       bench_effects pulses\n"
+    "           their names\n";
 
 class UsageError : public std::runtime_error {
 public:
@@ -66,63 +62,46 @@ Plane plane_of(std::int64_t side)
     return plane;
 }
 
-/// What a scene cannot do without: the kernel, and the regions if they are asked for.
+/// What a scene cannot do without: its points, the kernel, and the regions if they are asked for.
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
 {
-    const double slenderness = work.plane.slenderness[0];
-    const double restitution = work.plane.restitution_ratio(0, 0);
-    const double threshold = uplift_acceleration<Theory::nonlinear>(slenderness);
-    const std::vector<double> frequency = work.plane.frequency.values();
-    std::vector<double> acceleration;
-    std::vector<double> uplifts;
-    for (const double amplitude : work.plane.amplitude.values()) {
-        acceleration.push_back(amplitude * threshold);
-        const auto phases = uplift_phases<OneSine>(amplitude, work.scene.window);
-        uplifts.insert(uplifts.end(), phases.begin(), phases.end());
-    }
-    const TilePoints points{.slenderness = slenderness,
-                            .restitution = restitution,
-                            .rows = int(acceleration.size()),
-                            .columns = int(frequency.size()),
-                            .acceleration = acceleration.data(),
-                            .uplifts = uplifts.data(),
-                            .frequency = frequency.data(),
-                            .begin = OneSine::begin(work.scene.window),
-                            .end = OneSine::end(work.scene.window),
-                            .tolerance = work.numerics.tolerance,
-                            .in_doubt = InDoubt::goes_on,
-                            .chosen = nullptr,
-                            .chosen_count = int(work.tile.points()),
-                            .drop_requested = [](const void*) { return false; },
-                            .context = nullptr};
-    const std::size_t count = std::size_t(work.tile.points());
+    const GroundMotion<double> motion = ground_motion(work.scene.pulse, work.scene.window);
+    const std::vector<PlanePoint> points = points_of(work.plane, work.tile);
+    const Pushes pushes(motion, work.scene.theory, points);
+    const std::size_t count = points.size();
+    const Records records{.impacts = asked == ByHand::impacts, .region = asked == ByHand::region};
+    const KernelTask task{.motion = motion,
+                          .points = points.data(),
+                          .push_of_point = pushes.of_point.data(),
+                          .pushes = pushes.pushes.data(),
+                          .tolerance = work.numerics.tolerance,
+                          .records = records,
+                          .on_unknown_error = OnUnknownError::go_on,
+                          .chosen = nullptr,
+                          .chosen_count = int(count),
+                          .drop_requested = [](const void*) { return false; },
+                          .context = nullptr};
     std::vector<double> tilt(count);
     std::vector<double> rate(count);
     std::vector<double> side(count);
     std::vector<std::uint8_t> flags(count);
-    std::vector<double> impacts(asked == ByHand::impacts ? count : 0);
+    std::vector<std::uint8_t> regions(records.region ? count : 0);
+    std::vector<double> impacts(records.impacts ? count : 0);
     const PointEnds ends{.tilt = tilt.data(),
                          .rate = rate.data(),
                          .side = side.data(),
                          .flags = flags.data(),
-                         .impacts = impacts.empty() ? nullptr : impacts.data(),
+                         .region = regions.data(),
+                         .margin = nullptr,
+                         .impacts = impacts.data(),
                          .error = nullptr,
                          .steps = nullptr,
                          .phase = nullptr,
                          .peak = nullptr};
-#ifdef __x86_64__
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
-    const Recorded recorded = asked == ByHand::impacts ? Recorded::impacts : Recorded::nothing;
-    sweep_kernel_avx2_OneSine(integrator, Theory::nonlinear, recorded)(points, ends);
-    if (asked == ByHand::region) {
-        std::vector<std::uint8_t> regions(count);
-        field_kernels_avx2.regions(Theory::nonlinear, {slenderness, restitution}, ends, int(count),
-                                   regions.data());
-        return regions;
-    }
-#endif
-    return {};
+    sweep_kernel(work.kernel, integrator, Theory::nonlinear, records)(task, ends);
+    return regions;
 }
 
 } // namespace
@@ -197,6 +176,12 @@ Work work_from(const std::vector<std::string>& words)
 
 int run(const std::vector<std::string>& words)
 {
+    if (words == std::vector<std::string>{"pulses"}) {
+        for (const std::string_view name : pulse_names) {
+            std::cout << name << "\n";
+        }
+        return 0;
+    }
     const Work work = work_from(words);
     const std::size_t before = bytes_taken;
     const TileFields fields = measured(work);

@@ -94,22 +94,25 @@ namespace overturn::benchmarks {
 namespace {
 
 /// The same points as the kernel gets.
-Excitation<OneSine, Counted> excitation_of(const PeerPoint& point)
+Excitation<Counted> excitation_of(const PeerPoint& point)
 {
-    const auto uplifts = uplift_phases<OneSine>(point.amplitude, 1.0);
-    const double threshold = uplift_acceleration<Theory::nonlinear>(point.slenderness);
-    return {.acceleration = Counted(point.amplitude * threshold),
-            .frequency = Counted(point.frequency),
-            .uplifts = {Counted(uplifts[0]), Counted(uplifts[1])},
-            .begin = OneSine::begin(1.0),
-            .end = OneSine::end(1.0)};
+    const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
+        ground_motion(PulseKind::one_sine, 1.0), point.slenderness, point.amplitude,
+        point.frequency);
+    Excitation<Counted> counting{.motion = in_doubles.motion,
+                                 .acceleration = Counted(in_doubles.acceleration),
+                                 .frequency = Counted(in_doubles.frequency),
+                                 .uplifts = {}};
+    std::transform(in_doubles.uplifts.begin(), in_doubles.uplifts.end(), counting.uplifts.begin(),
+                   [](double phase) { return Counted(phase); });
+    return counting;
 }
 
 template <class Method>
 PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
 {
     const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
-    const ForcedEnd<Counted> end = run_forced_stage<Method, OneSine, Theory::nonlinear, Records{}>(
+    const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Records{}>(
         block, excitation_of(point), tolerance);
     const double code =
         region_code_after_pulse<Theory::nonlinear>(end.state, block).value; // of fallen ones, too

@@ -33,13 +33,10 @@ class Rocking {
 public:
     explicit Rocking(const PeerPoint& point)
         : block_{S(point.slenderness), S(point.restitution)},
-          excitation_{.acceleration = S(point.amplitude) *
-                                      uplift_acceleration<Theory::nonlinear>(block_.slenderness),
-                      .frequency = S(point.frequency),
-                      .uplifts = uplift_phases<OneSine>(S(point.amplitude), S(1)),
-                      .begin = S(0),
-                      .end = OneSine::end(S(1))},
-          end_(excitation_.end / excitation_.frequency), push_(excitation_.acceleration)
+          excitation_(excitation_of<Theory::nonlinear>(ground_motion(PulseKind::one_sine, S(1)),
+                                                       block_.slenderness, S(point.amplitude),
+                                                       S(point.frequency))),
+          end_(excitation_.motion.end / excitation_.frequency), push_(excitation_.acceleration)
     {}
 
     // Inlined to the last: the calls cost a peer up to 10 % of its time.
@@ -63,13 +60,13 @@ public:
     void rock_on(const S& side) { push_ = side * excitation_.acceleration; }
 
     const Block<S>& block() const { return block_; }
-    const Excitation<OneSine, S>& excitation() const { return excitation_; }
+    const Excitation<S>& excitation() const { return excitation_; }
     S end() const { return end_; }
     S frequency() const { return excitation_.frequency; }
 
 private:
     Block<S> block_;
-    Excitation<OneSine, S> excitation_;
+    Excitation<S> excitation_;
     S end_;  // time at which the pulse ends
     S push_; // a_p/g with the sign of the side
 };
@@ -84,16 +81,16 @@ PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
     using std::sqrt;
     Rocking<S, sines> rocking(point);
     const Block<S>& block = rocking.block();
-    const Excitation<OneSine, S>& excitation = rocking.excitation();
+    const Excitation<S>& excitation = rocking.excitation();
     const S sqrt_restitution = sqrt(block.restitution);
     State<S> end{S(0), S(0), S(1)};
-    S phase = excitation.begin;
+    S phase = excitation.motion.begin;
     while (true) {
         S uplift = std::numeric_limits<S>::infinity();
         for (const S& candidate : excitation.uplifts) {
             uplift = candidate >= phase && candidate < uplift ? candidate : uplift;
         }
-        if (!(uplift < excitation.end)) {
+        if (!(uplift < excitation.motion.end)) {
             break; // at rest until the pulse ends
         }
         end.side = excitation.ground(uplift) < 0 ? S(1) : S(-1);

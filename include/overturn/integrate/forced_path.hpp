@@ -5,24 +5,23 @@
 
 namespace overturn {
 
-/// What runs a path, as finely as doubles allow.
+/// What integrates a path, as finely as doubles allow.
 inline constexpr int path_order = 20;
 inline constexpr double path_tolerance = 1e-13;
 
 /// The way from rest to the end of the pulse, or to a fall.
 struct ForcedPath {
-    std::vector<Milestone<double>> milestones;
+    Events<double> events;
     ForcedEnd<double> end;
 };
 
-/// Compiled once per pulse.
-template <class Pulse, Theory theory>
-ForcedPath forced_path(const Block<double>& block, const Excitation<Pulse, double>& excitation);
+template <Theory theory>
+ForcedPath forced_path(const Block<double>& block, const Excitation<double>& excitation);
 
-/// The block between a milestone, from which on it rocks, and the next one: at a phase [rad] that
-/// lies between theirs. It is the series of the step itself that is evaluated.
-template <class Pulse, Theory theory>
-State<double> state_after(const Milestone<double>& milestone, const Block<double>& block,
-                          const Excitation<Pulse, double>& excitation, double phase);
+/// The block between an event, from which on it rocks, and the next one: at a phase [rad] that lies
+/// between theirs. It is the series of the step itself that is evaluated.
+template <Theory theory>
+State<double> state_after(const Event<double>& event, const Block<double>& block,
+                          const Excitation<double>& excitation, double phase);
 
 } // namespace overturn

@@ -3,46 +3,17 @@
 // Lanes run in lockstep, each with its own step size; a lane that is done is frozen.
 #pragma once
 
-#include "overturn/integrate/in_doubt.hpp"
+#include "overturn/integrate/event.hpp"
+#include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/margin_error.hpp"
-#include "overturn/integrate/milestone.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
+#include "overturn/integrate/unknown_error.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <type_traits>
 
 namespace overturn {
-
-/// What a run records beside the end state. Not asked for, not paid for.
-struct Records {
-    bool impacts = false;
-    bool error = false;
-    bool peak = false;       ///< not together with the error
-    bool milestones = false; ///< of a single block only
-};
-
-constexpr Watch watch_for(const Records& records)
-{
-    return records.error ? Watch::errors : records.peak ? Watch::peak : Watch::nothing;
-}
-
-/// The end of the forced stage. Counts are whole numbers held in T.
-template <Number T>
-struct ForcedEnd {
-    State<T> state;       ///< at the end of the pulse, or where |theta| reached pi/2
-    mask_t<T> fell;       ///< |theta| reached pi/2
-    mask_t<T> rested;     ///< came to rest after a bounce series
-    mask_t<T> capped;     ///< stopped after too many steps: the state means nothing
-    mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
-    T impacts;            ///< counted only if asked for; a bounce series that died out is not
-    T steps;              ///< steps tried
-    T phase;              ///< of the pulse: its end, or less where it fell [rad]
-    /// Only if asked for:
-    T error;            ///< of the margin, at most, to first order; infinite where unknown
-    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
-    T peak;             ///< the largest tilt [rad]
-};
 
 /// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
 /// over thousands of periods of 1/p. A block lifted by less than 1e-4 of the threshold makes more
@@ -50,18 +21,20 @@ struct ForcedEnd {
 inline constexpr double most_steps = 1 << 20;
 
 /// Integrates one block per lane. Method: RungeKutta or Taylor<order>.
-template <class Method, class Pulse, Theory theory, Records records, Number T>
+template <class Method, Theory theory, Records records, Number T>
 class ForcedStage {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
 
 public:
-    /// in_doubt: matters only where errors are recorded.
-    ForcedStage(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance,
-                InDoubt in_doubt = InDoubt::goes_on)
-        : block_(block), excitation_(excitation), end_(excitation.end), zero_(S(0)),
-          stepper_(block, excitation, tolerance), now_{T(excitation.begin), zero_, zero_, T(S(1))},
-          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_), in_doubt_(in_doubt)
+    /// on_unknown_error: matters only where errors are recorded.
+    ForcedStage(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance,
+                OnUnknownError on_unknown_error = OnUnknownError::go_on)
+        : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
+          stepper_(block, excitation, tolerance), now_{T(excitation.motion.begin), zero_, zero_,
+                                                       T(S(1))},
+          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
+          on_unknown_error_(on_unknown_error)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -81,7 +54,9 @@ public:
     }
 
     /// What has happened so far, in order; only if asked for.
-    const auto& milestones() const { return milestones_; }
+    const auto& events() const { return events_; }
+
+    const Block<T>& block() const { return block_; }
 
     /// Whether a lane has still to go on.
     bool is_active() const { return any<T>(active_); }
@@ -102,8 +77,8 @@ public:
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
-        if constexpr (records.milestones) {
-            milestones_.note(Happening::step, now_, moved);
+        if constexpr (records.events) {
+            events_.add(EventKind::step, now_, moved);
         }
         const Mask fell = moved && step.falls;
         const Mask strikes = moved && step.strikes;
@@ -124,8 +99,7 @@ public:
     {
         ForcedEnd<T> end = end_of_run_;
         if constexpr (records.error) {
-            const Mask stopped = end.capped || end.not_finite;
-            const auto bound = margin_error_.at_end(block_, excitation_, now_, end.fell, stopped);
+            const MarginBound<T> bound = margin_error_.at_end(block_, excitation_, now_, end);
             end.error = bound.error;
             end.in_doubt = bound.in_doubt;
         }
@@ -150,8 +124,8 @@ private:
         lifted_ = select<T>(lifted, next, lifted_);
         const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
-        if constexpr (records.milestones) {
-            milestones_.note(Happening::uplift, now_, lifted);
+        if constexpr (records.events) {
+            events_.add(EventKind::uplift, now_, lifted);
         }
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
@@ -186,7 +160,7 @@ private:
         const State<T> after =
             state_after_impact<T>({zero_, now_.rate, now_.side}, sqrt_restitution_);
         Mask rests = lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, after.rate);
-        if constexpr (records.milestones) { // who looks wants to see the bounces, not their sum
+        if constexpr (records.events) { // who looks wants to see the bounces, not their sum
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
         if constexpr (records.error) {
@@ -198,9 +172,9 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
-        if constexpr (records.milestones) {
-            milestones_.note(Happening::impact, now_, lanes);
-            milestones_.note(Happening::rest, now_, rests);
+        if constexpr (records.events) {
+            events_.add(EventKind::impact, now_, lanes);
+            events_.add(EventKind::rest, now_, rests);
         }
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
@@ -211,31 +185,30 @@ private:
         }
         stepper_.turn(now_, lanes && active_);
         if constexpr (records.error) {
-            if (in_doubt_ == InDoubt::ends) {
+            if (on_unknown_error_ == OnUnknownError::stop) {
                 finish(active_ && margin_error_.is_doubtful());
             }
         }
     }
 
     const Block<T> block_;
-    const Excitation<Pulse, T> excitation_;
+    const Excitation<T> excitation_;
     const T end_;
     const T zero_;
     T sqrt_restitution_;
 
-    typename Method::template Stepper<Pulse, theory, T, watch_for(records)> stepper_;
+    typename Method::template Stepper<theory, T, recorded_in_steps(records)> stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift: no flank of a lobe lifts a block twice
     Mask active_;
     ForcedEnd<T> end_of_run_;
 
     struct NoError {};
-    struct NoMilestones {};
+    struct NoEvents {};
     [[no_unique_address]] std::conditional_t<records.error, MarginError<theory, T>, NoError>
         margin_error_;
-    [[no_unique_address]] std::conditional_t<records.milestones, Milestones<T>, NoMilestones>
-        milestones_;
-    InDoubt in_doubt_;
+    [[no_unique_address]] std::conditional_t<records.events, Events<T>, NoEvents> events_;
+    OnUnknownError on_unknown_error_;
 };
 
 /// Steps every stage in turn until all are done, or for so many turns, from which those that it
@@ -258,12 +231,11 @@ bool run_in_turns(std::array<Stage, count>& stages, int& turns)
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step
 /// of tilt and rate, over the size of the motion, at most alpha [1].
-template <class Method, class Pulse, Theory theory, Records records = Records{.impacts = true},
-          Number T>
-ForcedEnd<T> run_forced_stage(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+template <class Method, Theory theory, Records records = Records{.impacts = true}, Number T>
+ForcedEnd<T> run_forced_stage(const Block<T>& block, const Excitation<T>& excitation,
                               const scalar_t<T>& tolerance)
 {
-    ForcedStage<Method, Pulse, theory, records, T> stage(block, excitation, tolerance);
+    ForcedStage<Method, theory, records, T> stage(block, excitation, tolerance);
     while (stage.is_active()) {
         stage.advance();
     }

@@ -2,9 +2,9 @@
 // the linearised motion over steps and impacts, and what they come to in the margin (Eqs. 11-20).
 #pragma once
 
+#include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/mechanics/excitation.hpp"
-#include "overturn/mechanics/region.hpp"
 
 namespace overturn {
 
@@ -28,9 +28,8 @@ public:
     void forget(const Mask& lanes) { growth_.forget(lanes); }
 
     /// Errors grow over a step, and its own come on top.
-    template <class Pulse>
-    void pass_step(const Block<T>& block, const Excitation<Pulse, T>& excitation,
-                   const Rocking<T>& now, const WatchedStepEnd<T>& step, const Mask& lanes)
+    void pass_step(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
+                   const StepEndWithErrors<T>& step, const Mask& lanes)
     {
         using arithmetic::fma;
         using std::abs;
@@ -63,9 +62,8 @@ public:
     /// quarter of itself; that a series of bounces dies out, to a 64th. A block that stood on its
     /// edge for long before it came back may as well have overturned: its distance from the top has
     /// grown since, like its error, which must still be small beside alpha.
-    template <class Pulse>
-    void pass_impact(const Block<T>& block, const Excitation<Pulse, T>& excitation,
-                     const Rocking<T>& now, const Mask& lanes, const Mask& rests)
+    void pass_impact(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
+                     const Mask& lanes, const Mask& rests)
     {
         using std::sqrt;
         const T push = now.side * excitation.ground(now.phase);
@@ -83,11 +81,11 @@ public:
                      lanes);
     }
 
-    /// Where the lanes have ended. fell: |theta| reached pi/2; stopped: the state means nothing.
-    template <class Pulse>
-    MarginBound<T> at_end(const Block<T>& block, const Excitation<Pulse, T>& excitation,
-                          const Rocking<T>& now, const Mask& fell, const Mask& stopped) const
+    /// Where the lanes have ended, at `now`.
+    MarginBound<T> at_end(const Block<T>& block, const Excitation<T>& excitation,
+                          const Rocking<T>& now, const ForcedEnd<T>& end) const
     {
+        const Mask& fell = end.fell;
         using std::abs;
         using std::sqrt;
         const T one(S(1));
@@ -106,7 +104,7 @@ public:
                          roundings() * now.rate * now.rate) /
                         (largest * largest);
         // Whether it lies before the pulse ends.
-        const T left = (excitation.end - now.phase) / excitation.frequency;
+        const T left = (excitation.motion.end - now.phase) / excitation.frequency;
         const Mask either =
             (fell && left * now.rate < radius) || (!fell && T(pi<S>() / 2) - now.tilt < radius);
         // Nor whether it lies at all, unless it comes down with some energy. That is bounded away
@@ -117,10 +115,9 @@ public:
         const T error = select<T>(fell, lying, standing.error + near_impact);
         const Mask known = growth_.bound(one, one) < T(unknown_error<S> * S(0x1p-100));
         const Mask unknown =
-            doubtful_ || stopped || either || barely || !known || !(error == error);
+            doubtful_ || end.is_stopped() || either || barely || !known || !(error == error);
         const T bound = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
-        const T margin = select<T>(fell, margin_of_fall<theory>(now.rate, block), standing.margin);
-        return {bound, !(bound < abs(margin))};
+        return {bound, !(bound < abs(margin_of<theory>(end, block)))};
     }
 
 private:

@@ -29,10 +29,9 @@ struct MoreDigits<Digits50> {
 };
 
 /// run_forced_stage() for one block, which counts impacts and bounds its error, and after
-/// `step_limit` steps gives up as capped. T: long double or Digits50. Compiled for every pulse in
-/// src/integrate.
-template <class T, class Pulse, Theory theory>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<Pulse, T>& excitation,
+/// `step_limit` steps gives up as capped. T: long double or Digits50. Compiled in src/integrate.
+template <class T, Theory theory>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& excitation,
                                 double tolerance = MoreDigits<T>::tolerance,
                                 int step_limit = MoreDigits<T>::most_steps);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"
+#include "overturn/integrate/records.hpp"
 
 namespace overturn {
 
@@ -27,16 +28,13 @@ struct StepEnd {
     mask_t<T> broken;  ///< a number is not finite, and no other step would be
 };
 
-/// What a step watches on its way. Not asked for, not paid for.
-enum class Watch { nothing, errors, peak };
-
-/// A step that has watched its errors.
+/// A step whose errors are recorded.
 template <Number T>
-struct WatchedStepEnd : StepEnd<T> {
+struct StepEndWithErrors : StepEnd<T> {
     StepErrors<T> errors;
 };
 
-/// A step that has watched how high the block goes.
+/// A step whose peak is recorded.
 template <Number T>
 struct StepEndWithPeak : StepEnd<T> {
     T peak; ///< the largest tilt within the step [rad]
@@ -44,15 +42,15 @@ struct StepEndWithPeak : StepEnd<T> {
 
 /// The motion at one point of a step, by its share of the step.
 template <Number T>
-struct Glance {
+struct MotionSample {
     T tilt;         ///< [rad]
     T rate;         ///< [rad per step]
     T acceleration; ///< [rad per step^2]
 };
 
-/// The largest tilt within a step [rad]. most: a bound of it; look(share) is a Glance. Of eight
-/// parts of the step that are looked at, Newton's method goes on from the highest to where the rate
-/// is zero.
+/// The largest tilt within a step [rad]. most: a bound of it; look(share) is a MotionSample. Of
+/// eight parts of the step that are looked at, Newton's method goes on from the highest to where
+/// the rate is zero.
 template <Number T, class Look>
 T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
 {
@@ -76,7 +74,7 @@ T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
     const T last = lesser<T>(best + part, one);
     T share = best;
     for (int i = 0; i < 3; ++i) {
-        const Glance<T> here = look(share);
+        const MotionSample<T> here = look(share);
         const mask_t<T> bends = here.acceleration < zero;
         const T newton = share - here.rate / select<T>(bends, here.acceleration, -one);
         share = lesser<T>(greater<T>(newton, first), last);

@@ -3,47 +3,45 @@
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
-#include "overturn/integrate/landing.hpp"
+#include "overturn/integrate/event_correction.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/integrate/step_size.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/excitation.hpp"
-#include "overturn/mechanics/pulse_series.hpp"
+#include "overturn/mechanics/wavelet.hpp"
 
 #include <type_traits>
 
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
-template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
+template <Theory theory, Number T, Records records = Records{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
-    static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
-    static constexpr bool watched = watch == Watch::errors;
     /// Of the pulse, within a step whose error is known [rad].
     static constexpr double longest_angle = 2;
 
 public:
-    RungeKuttaStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation,
-                      const S& tolerance)
-        : block_(block), excitation_(excitation), tolerance_(tolerance), end_(excitation.end),
-          zero_(S(0)), acceleration_(zero_), landing_step_(zero_), towards_fall_(zero_),
-          landing_(zero_ != zero_)
+    RungeKuttaStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
+        : block_(block), excitation_(excitation), is_wavelet_(has_window(excitation.motion.pulse)),
+          tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
+          towards_fall_(zero_), ends_at_event_(zero_ != zero_)
     {
         const T frequency = excitation.frequency;
         using std::abs;
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
         first_step_ = step_error_power(T(tolerance)) / fastest;
         step_size_ = first_step_;
-        if constexpr (wavelet) {
+        if (is_wavelet_) {
             longest_seen_ = T(S(longest_angle)) / frequency;
             const T unfelt = T(tolerance) * T(S(1) / 128) * block.slenderness;
-            tail_end_ = end_of_tail<Pulse>(
-                T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
+            tail_end_ =
+                end_of_tail(excitation.motion.pulse,
+                            T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
         }
-        if constexpr (watched) {
+        if constexpr (records.error) {
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
@@ -63,7 +61,7 @@ public:
         const T push = now.side * excitation_.ground(now.phase);
         const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
-        if constexpr (watched) {
+        if constexpr (records.error) {
             remember(sample(now.side, now.tilt, now.rate, now.phase), lanes);
         }
     }
@@ -72,54 +70,63 @@ public:
     auto step(const Rocking<T>& now, const Mask& active)
     {
         const Motion<T> start{now.tilt, now.rate, acceleration_};
-        const T left = (end_ - now.phase) / excitation_.frequency;
+        const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
+        const T left = (end_of_piece - now.phase) / excitation_.frequency;
         const T longest = longest_step(now);
-        const Mask last = !landing_ && longest >= left;
-        const T h = select<T>(landing_, landing_step_, select<T>(last, left, longest));
+        const Mask last = !ends_at_event_ && longest >= left;
+        const T h = select<T>(ends_at_event_, step_to_event_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
-        const auto acceleration = [&](const S& node, const T& tilt) {
+        // All stages share the motion: asked once, and the last two are at the same time.
+        constexpr int nodes = DormandPrince::stages - 2;
+        std::array<T, nodes> phases;
+        unrolled<nodes>([&]<int i>() {
             using arithmetic::fma;
-            const T push = now.side * excitation_.ground(fma(T(node), phase_step, now.phase));
+            phases[i] = fma(T(value_of<S, DormandPrince::node[i + 1]>()), phase_step, now.phase);
+        });
+        const std::array<T, nodes> ground = excitation_.ground(phases);
+        const auto acceleration = [&](std::size_t stage, const T& tilt) {
+            const T push = now.side * ground[stage <= nodes ? stage - 1 : nodes - 1];
             return rocking_acceleration<theory>(tilt, block_.slenderness, push);
         };
         const Step<T> step = runge_kutta_step(start, h, acceleration);
         const T error = relative_error(step, h);
         const Mask accepted = error <= T(S(1));
 
-        const Mask looked_at = active && accepted && !landing_;
+        const Mask looked_at = active && accepted && !ends_at_event_;
         const Mask event = looked_at && find_event(start, step, h, looked_at);
         const Mask moved = active && accepted && !event;
         acceleration_ = select<T>(moved, step.end.acceleration, acceleration_);
-        // A landing step says nothing of how long a step may be.
+        // A step that ends at an event says nothing of how long a step may be.
         const T resized = h * step_size_factor(error);
-        const Mask resize = active && !event && !(landing_ && accepted);
+        const Mask resize = active && !event && !(ends_at_event_ && accepted);
         step_size_ = select<T>(resize && !(last && accepted), resized, step_size_);
 
-        const Mask landed = moved && landing_;
-        landing_ = event;
+        const Mask arrived = moved && ends_at_event_;
+        ends_at_event_ = event;
         const Mask finite = h * (step.end.position - step.end.position) == zero_;
-        StepEnd<T> end{.phase = select<T>(last, end_, now.phase + phase_step),
+        StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + phase_step),
                        .tilt = step.end.position,
                        .rate = step.end.rate,
                        .moved = moved,
-                       .strikes = landed && !landed,
-                       .falls = landed && !landed,
+                       .strikes = arrived && !arrived,
+                       .falls = arrived && !arrived,
                        .broken = active && !finite && h < first_step_ * T(S(0x1p-60))};
         T delay = zero_;
-        if (any<T>(landed)) {
+        if (any<T>(arrived)) {
             const Mask flat = towards_fall_ > zero_;
-            delay = land_on_event(end, landed && !flat, landed && flat, acceleration_, excitation_);
+            delay =
+                move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
         }
-        if constexpr (watched) {
+        if constexpr (records.error) {
             const Sample last_sample =
                 sample(now.side, step.end.position, step.end.rate, now.phase + phase_step);
             const StepErrors<T> errors = this->errors(now, start, step, h, delay, last_sample);
             remember(last_sample, moved);
-            return WatchedStepEnd<T>{end, errors};
-        } else if constexpr (watch == Watch::peak) {
+            return StepEndWithErrors<T>{end, errors};
+        } else if constexpr (records.peak) {
             const Quintic<T> tilt = dense_output(start, step.end, h);
             const T one(S(1));
-            const auto look = [&](const T& share) -> Glance<T> {
+            const auto look = [&](const T& share) -> MotionSample<T> {
                 const Quintic<T> before = restricted(tilt, zero_, share);
                 const T slope = before[5] - before[4];
                 const T bend = slope - (before[4] - before[3]);
@@ -138,12 +145,9 @@ private:
     /// in, as long as it is felt: a step over all of its tail finds it flat at every node.
     T longest_step(const Rocking<T>& now) const
     {
-        if constexpr (wavelet) {
-            return lesser<T>(step_size_,
-                             select<T>(now.phase < tail_end_, longest_seen_, step_size_));
-        } else {
-            return step_size_;
-        }
+        return is_wavelet_ ? lesser<T>(step_size_,
+                                       select<T>(now.phase < tail_end_, longest_seen_, step_size_))
+                           : step_size_;
     }
 
     /// Local error in units of what is allowed: the tolerance times the size of the motion, at
@@ -179,8 +183,8 @@ private:
     Sample sample(const T& side, const T& tilt, const T& rate, const T& phase) const
     {
         using arithmetic::fma;
-        const auto push = pulse_series<Pulse, 2>(T(side * excitation_.acceleration), phase,
-                                                 excitation_.frequency);
+        const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
+                                                                phase, excitation_.frequency);
         const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
         T lever(S(1)); // of the push
         if constexpr (theory == Theory::nonlinear) {
@@ -210,7 +214,7 @@ private:
     /// steps that are longer than an angle of the pulse of 2 nothing is known. In 4 of 10^6 points
     /// it was up to twice too small.
     ///
-    /// delay: of a landing after the step's end. Left out of the variation it would turn errors of
+    /// delay: of an event after the step's end. Left out of the variation it would turn errors of
     /// the time into errors of the energy, at each of thousands of bounces.
     StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
                          const T& h, const T& delay, const Sample& last) const
@@ -236,10 +240,10 @@ private:
                                     start.rate);
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
-        // Where the push is constant, or is not felt any more, the block's own time says what is
+        // Where the push is linear, or is not felt any more, the block's own time says what is
         // long.
-        T length = std::same_as<Pulse, Rectangular> ? h : phase_step;
-        if constexpr (wavelet) {
+        T length = traits_of(excitation_.motion.pulse).is_linear ? h : phase_step;
+        if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
         }
         const T longest = T(S(longest_variation));
@@ -270,54 +274,55 @@ private:
                                     upper_bound(tilt), tilt_at_turn)};
     }
 
-    /// Finds the first impact or fall within an accepted step, and sets the lanes that have one to
-    /// land on it with their next step.
+    /// Finds the first impact or fall within an accepted step; the next step of the lanes that have
+    /// one ends there.
     Mask find_event(const Motion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
         const T noise = dip_of_round_off(block_.slenderness, h);
         const Quintic<T> tilt = dense_output(start, step.end, h);
         const Mask suspect =
             lanes && (lower_bound(tilt) < -noise || T(pi<S>() / 2) - upper_bound(tilt) < -noise);
-        return any<T>(suspect) ? set_out_to_land(tilt, noise, h, suspect) : suspect;
+        return any<T>(suspect) ? aim_at_event(tilt, noise, h, suspect) : suspect;
     }
 
-    [[gnu::noinline]] Mask set_out_to_land(const Quintic<T>& tilt, const T& noise, const T& h,
-                                           const Mask& suspect)
+    [[gnu::noinline]] Mask aim_at_event(const Quintic<T>& tilt, const T& noise, const T& h,
+                                        const Mask& suspect)
     {
         const T impact = first_fall_below_zero(tilt, noise, suspect);
         const T fall = first_fall_below_zero(room_above(tilt), noise, suspect);
         const T first = select<T>(fall < impact, fall, impact);
         const Mask event = suspect && first <= T(S(1));
-        landing_step_ = select<T>(event, h * first, landing_step_);
+        step_to_event_ = select<T>(event, h * first, step_to_event_);
         towards_fall_ = select<T>(event, select<T>(fall < impact, T(S(1)), zero_), towards_fall_);
         return event;
     }
 
     const Block<T> block_;
-    const Excitation<Pulse, T> excitation_;
+    const Excitation<T> excitation_;
+    const bool is_wavelet_;
     const S tolerance_;
-    const T end_;
     const T zero_;
     T first_step_;
 
-    T acceleration_; // at the beginning of the next step
-    T step_size_;    // the next step, unless it lands or ends the pulse [1/p]
-    T landing_step_; // the step that ends at an event found before [1/p]
-    T towards_fall_; // 1 if that event is the fall, 0 if it is an impact
-    Mask landing_;
+    T acceleration_;  // at the beginning of the next step
+    T step_size_;     // the next step, unless an event or a smooth piece ends before [1/p]
+    T step_to_event_; // the step that ends at an event found before [1/p]
+    T towards_fall_;  // 1 if that event is the fall, 0 if it is an impact
+    Mask ends_at_event_;
+    T tail_end_ = T(S(0));     // of what is felt of a wavelet [rad]
+    T longest_seen_ = T(S(0)); // of a wavelet [1/p]
 
     struct Nothing {};
-    [[no_unique_address]] std::conditional_t<watched, Sample, Nothing> sample_; // at the beginning
-    [[no_unique_address]] std::conditional_t<watched, T, Nothing> embedded_share_; // see errors()
-    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing>
-        tail_end_; // of what is felt [rad]
-    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing> longest_seen_; // [1/p]
+    [[no_unique_address]] std::conditional_t<records.error, Sample, Nothing>
+        sample_; // at the beginning
+    [[no_unique_address]] std::conditional_t<records.error, T, Nothing>
+        embedded_share_; // see errors()
 };
 
 /// The method as a choice: Dormand-Prince 5(4).
 struct RungeKutta {
-    template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
-    using Stepper = RungeKuttaStepper<Pulse, theory, T, watch>;
+    template <Theory theory, Number T, Records records>
+    using Stepper = RungeKuttaStepper<theory, T, records>;
 };
 
 } // namespace overturn

@@ -70,13 +70,12 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
     return sum;
 }
 
-/// A step of length h from `start`. acceleration(c, position) gives x'' at the time c h after the
-/// start, c being a node in the scalar type.
+/// A step of length h from `start`. acceleration(stage, position) gives x'' at the time of a stage,
+/// 1 to 6: node[stage] h after the start.
 template <Number T, class Acceleration>
 Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration& acceleration)
 {
     using arithmetic::fma;
-    using S = scalar_t<T>;
     using Table = DormandPrince;
     std::array<T, Table::stages> rate{start.rate};
     std::array<T, Table::stages> pull{start.acceleration};
@@ -84,7 +83,7 @@ Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration&
     const auto run_stage = [&]<std::size_t i>() {
         position = fma(h, weighted_sum<Table::stage[i], i>(rate), start.position);
         rate[i] = fma(h, weighted_sum<Table::stage[i], i>(pull), start.rate);
-        pull[i] = acceleration(value_of<S, Table::node[i]>(), position);
+        pull[i] = acceleration(i, position);
     };
     [&]<std::size_t... i>(std::index_sequence<i...>)
     {

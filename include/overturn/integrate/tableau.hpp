@@ -29,6 +29,11 @@ struct DormandPrince {
     using Row = std::array<Ratio, stages>;
 
     static constexpr Row node{{{0}, {1, 5}, {3, 10}, {4, 5}, {8, 9}, {1}, {1}}};
+    template <class S>
+    static S node_value(std::size_t stage)
+    {
+        return S(node[stage].numerator) / S(node[stage].denominator);
+    }
 
     /// Stage weights; row 6 holds the weights of the solution of order 5.
     static constexpr std::array<Row, stages> stage{{

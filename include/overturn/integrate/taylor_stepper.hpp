@@ -4,22 +4,22 @@
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
-#include "overturn/integrate/landing.hpp"
+#include "overturn/integrate/event_correction.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/mechanics/excitation.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
+#include "overturn/mechanics/wavelet.hpp"
 
 namespace overturn {
 
 /// order: of the series of the rate. tolerance: its last terms at the end of a step, over the size
 /// of the motion [1].
-template <int order, class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
+template <int order, Theory theory, Number T, Records records = Records{}>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     using Series = RockingSeries<order, T>;
-    static constexpr bool watched = watch == Watch::errors;
     /// Two may be small by chance: those of an even push from rest are 0 in turn, and now and then
     /// the one between is small, too. With four, errors are up to ten times smaller at the same
     /// tolerance; to the same largest error both take the same time.
@@ -27,13 +27,13 @@ class TaylorStepper {
     /// How far the series is known where its errors are told. In the linear theory a term costs
     /// next to nothing.
     static constexpr int known_order =
-        !watched ? order : order + (theory == Theory::linear ? 3 : 1);
+        !records.error ? order : order + (theory == Theory::linear ? 3 : 1);
     using KnownSeries = RockingSeries<known_order, T>;
-    static constexpr bool wavelet = std::derived_from<Pulse, CutByWindow>;
 
 public:
-    TaylorStepper(const Block<T>& block, const Excitation<Pulse, T>& excitation, const S& tolerance)
-        : slenderness_(block.slenderness), excitation_(excitation), end_(excitation.end)
+    TaylorStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
+        : slenderness_(block.slenderness), excitation_(excitation),
+          is_wavelet_(has_window(excitation.motion.pulse))
     {
         using std::abs;
         const T one(S(1));
@@ -44,12 +44,13 @@ public:
         tolerance_ = T(tolerance);
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
-        if constexpr (wavelet) {
+        if (is_wavelet_) {
             const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
-            lost_ = end_of_tail<Pulse>(
-                T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
+            lost_ =
+                end_of_tail(excitation.motion.pulse,
+                            T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
         }
-        if constexpr (watched) {
+        if constexpr (records.error) {
             unrolled<terms_looked_at>([&]<int i>() {
                 constexpr int k = order + 1 - terms_looked_at + i;
                 T ratio = rough_power_of_two(T(log2_tolerance_ * T(S(1) / k)));
@@ -69,18 +70,19 @@ public:
     /// One step in every lane; what the lanes that are not active do means nothing.
     auto step(const Rocking<T>& now, const Mask& active) const
     {
-        const auto push =
-            pulse_series<Pulse, known_order>(acceleration(now), now.phase, phase_per_unit_);
+        const auto push = excitation_.motion.template series<known_order>(
+            acceleration(now), now.phase, phase_per_unit_);
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
                                                                slenderness_, push, unit_);
         const Series series = leading<order>(known);
         const T dared = longest_step(now, series);
-        const T left = (end_ - now.phase) / phase_per_unit_;
+        const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
+        const T left = (end_of_piece - now.phase) / phase_per_unit_;
         Mask last = dared >= left;
         T h = select<T>(last, left, dared);
 
         const Mask none = active && !active;
-        Event event{h, none, none};
+        FirstEvent event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
         const Mask suspect = active && may_meet(bounds, noise(h));
         if (any<T>(suspect)) {
@@ -91,7 +93,7 @@ public:
         const T zero(S(0));
         const T tilt = value_of_series(series.tilt, h);
         const T rate = value_of_series(series.rate, h) * fastest_;
-        StepEnd<T> end{.phase = select<T>(last, end_, now.phase + h * phase_per_unit_),
+        StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + h * phase_per_unit_),
                        .tilt = select<T>(tilt < zero, zero, tilt),
                        .rate = rate,
                        .moved = active,
@@ -102,12 +104,12 @@ public:
         if (any<T>(ends_at_event)) {
             end.tilt = select<T>(ends_at_event, tilt, end.tilt);
             const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
-            land_on_event(end, event.strikes, event.falls, acceleration, excitation_);
+            move_to_event(end, event.strikes, event.falls, acceleration, excitation_);
         }
-        if constexpr (watched) {
-            return WatchedStepEnd<T>{end, errors(now, known, push, bounds, end, h)};
-        } else if constexpr (watch == Watch::peak) {
-            const auto look = [&](const T& share) -> Glance<T> {
+        if constexpr (records.error) {
+            return StepEndWithErrors<T>{end, errors(now, known, push, bounds, end, h)};
+        } else if constexpr (records.peak) {
+            const auto look = [&](const T& share) -> MotionSample<T> {
                 const T time = share * h;
                 return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
                         slope_of_series(series.rate, time) * h * h};
@@ -125,14 +127,10 @@ private:
     T acceleration(const Rocking<T>& now) const
     {
         const T towards = now.side * excitation_.acceleration;
-        if constexpr (wavelet) {
-            return select<T>(now.phase < lost_, towards, T(S(0)));
-        } else {
-            return towards;
-        }
+        return is_wavelet_ ? select<T>(now.phase < lost_, towards, T(S(0))) : towards;
     }
 
-    struct Event {
+    struct FirstEvent {
         T time; ///< the end of the step: at the event, or before one that is not certain yet
         Mask strikes;
         Mask falls;
@@ -160,14 +158,14 @@ private:
         unrolled<terms_looked_at - 1>([&]<int i>() {
             longest = lesser<T>(longest, log2_longest.template operator()<order - 1 - i>());
         });
-        if constexpr (wavelet) {
-            // In a wavelet's tail terms are small that grow. They shall fall by a quarter each.
-            const T ratio = following_ratio<Pulse, order>(now.phase, phase_per_unit_);
-            const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
-            return lesser<T>(rough_power_of_two(longest), falling);
-        } else {
+        if (!is_wavelet_) {
             return rough_power_of_two(longest);
         }
+        // In a wavelet's tail terms are small that grow. They shall fall by a quarter each.
+        const T ratio =
+            following_ratio<order>(excitation_.motion.pulse, now.phase, phase_per_unit_);
+        const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
+        return lesser<T>(rough_power_of_two(longest), falling);
     }
 
     /// What the series leaves out: the next terms, which are known, and all that follow. Those go
@@ -191,7 +189,7 @@ private:
         T following(S(0));
         T power = h;
         unrolled<order - terms_looked_at>([&]<int>() { power = power * h; });
-        if constexpr (wavelet) {
+        if (is_wavelet_) {
             next = left_out_of(push, now.phase, h, power);
         }
         unrolled<terms_looked_at + known_order - order>([&]<int i>() {
@@ -207,12 +205,13 @@ private:
         const T sum = next + following;
         const T left_out = sum + sum;
 
-        const auto stiffness = [&](const T& tilt, const T& phase) -> T {
-            return rocking_stiffness<theory>(tilt, slenderness_,
-                                             T(now.side * excitation_.ground(phase)));
-        };
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
+        const auto ground = excitation_.ground(
+            std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end.phase});
+        const auto stiffness = [&](const T& tilt, const T& ground_there) -> T {
+            return rocking_stiffness<theory>(tilt, slenderness_, T(now.side * ground_there));
+        };
         const auto tilt_at_turn = [&](const Mask& turns) -> T {
             const T zero(S(0));
             const T one(S(1));
@@ -229,10 +228,9 @@ private:
         const T longest = T(S(longest_variation));
         const T blind = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
         return {.variation =
-                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, now.phase),
-                                      stiffness(value_of_series(series.tilt, middle),
-                                                T(now.phase + middle * phase_per_unit_)),
-                                      stiffness(end.tilt, end.phase)),
+                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, ground[0]),
+                                      stiffness(value_of_series(series.tilt, middle), ground[1]),
+                                      stiffness(end.tilt, ground[2])),
                 .tilt = left_out * h * T(S(1) / (order + 2)),
                 .rate = fma(left_out, fastest_, blind),
                 .acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_),
@@ -250,7 +248,8 @@ private:
         using std::abs;
         constexpr int last = known_order - 1;
         unrolled<last - 1 - (order + 1 - terms_looked_at)>([&]<int>() { power = power * h; });
-        const T ratio = following_ratio<Pulse, known_order>(phase, T(phase_per_unit_ * h));
+        const T ratio =
+            following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
         const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
         return term * ratio / (T(S(1)) - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
     }
@@ -281,8 +280,8 @@ private:
     /// there is none. From there, at a gap g that closes at speed v while |acceleration| <= M, the
     /// gap closes for sure, and only once, if v^2 > 2 M g; if that is not clear the step ends here,
     /// and the next one will see more sharply.
-    Event first_event(const Series& series, const Enclosure<T>& bounds, const T& h,
-                      const Mask& suspect) const
+    FirstEvent first_event(const Series& series, const Enclosure<T>& bounds, const T& h,
+                           const Mask& suspect) const
     {
         const T zero(S(0));
         const T one(S(1));
@@ -305,45 +304,45 @@ private:
         const Mask stuck = share < T(S(0x1p-40));
         const Mask closes =
             here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
-        // To third order, and once more. The landing at the end of the step is the third time, and
-        // enough for doubles: what was 0.2 of the time is less than 1e-18.
-        T landing_time = time + land(here.width, here.rate, acceleration).delay;
+        // To third order, and once more. The correction at the end of the step is the third time,
+        // and enough for doubles: what was 0.2 of the time is less than 1e-18.
+        T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
         constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
         for (int i = 0; i < more; ++i) {
-            const T somewhere = select<T>(near && closes, landing_time, time); // and not far out
+            const T somewhere = select<T>(near && closes, event_time, time); // and not far out
             const Gap there = gap_at(series, somewhere, falls);
-            landing_time = landing_time + land(there.width, there.rate, acceleration).delay;
+            event_time = event_time + event_correction(there.width, there.rate, acceleration).delay;
         }
-        const Mask sure = near && closes && landing_time <= h;
+        const Mask sure = near && closes && event_time <= h;
         const T end = select<T>(near, time, h);
-        return {select<T>(sure, landing_time, end), sure && !falls, sure && falls};
+        return {select<T>(sure, event_time, end), sure && !falls, sure && falls};
     }
 
-    [[gnu::noinline]] Event seldom_first_event(const Series& series, const Enclosure<T>& bounds,
-                                               const T& h, const Mask& suspect) const
+    [[gnu::noinline]] FirstEvent seldom_first_event(const Series& series,
+                                                    const Enclosure<T>& bounds, const T& h,
+                                                    const Mask& suspect) const
     {
         return straight_line<T>([&] { return first_event(series, bounds, h, suspect); });
     }
 
     const T slenderness_;
-    const Excitation<Pulse, T> excitation_;
-    const T end_;
+    const Excitation<T> excitation_;
+    const bool is_wavelet_;
     T unit_;           // of time: 1/p, or the pulse's 1/omega_p if that is shorter [1/p]
     T fastest_;        // its reciprocal
     T phase_per_unit_; // [rad]
     T tolerance_;
     T log2_tolerance_;
     T log2_most_allowed_;
-    struct Nothing {};
-    [[no_unique_address]] std::conditional_t<wavelet, T, Nothing> lost_; // see acceleration()
-    std::array<T, watched ? terms_looked_at : 0> following_per_;         // see errors()
+    T lost_ = T(S(0));                                                 // see acceleration()
+    std::array<T, records.error ? terms_looked_at : 0> following_per_; // see errors()
 };
 
 /// The method as a choice.
 template <int order>
 struct Taylor {
-    template <class Pulse, Theory theory, Number T, Watch watch = Watch::nothing>
-    using Stepper = TaylorStepper<order, Pulse, theory, T, watch>;
+    template <Theory theory, Number T, Records records>
+    using Stepper = TaylorStepper<order, theory, T, records>;
 };
 
 } // namespace overturn

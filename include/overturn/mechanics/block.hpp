@@ -9,6 +9,14 @@ namespace overturn {
 
 enum class Theory { nonlinear, linear };
 
+/// Calls visit.template operator()<theory>().
+template <class Visitor>
+auto with_theory(Theory theory, const Visitor& visit)
+{
+    return theory == Theory::linear ? visit.template operator()<Theory::linear>()
+                                    : visit.template operator()<Theory::nonlinear>();
+}
+
 template <Number T>
 struct Block {
     T slenderness; ///< alpha = arctan(b / h) [rad]

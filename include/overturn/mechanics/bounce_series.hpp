@@ -21,9 +21,9 @@ namespace overturn {
 /// in all if that is at most D. D is 3 v / (1 - sqrt r) over the weaker pull: 1 1/2 times the sum
 /// under constant pulls. The pull changes with the tilt, too, which stays below v^2 / 2g: by less
 /// than a twentieth.
-template <Theory theory, class Pulse, Number T>
-mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& excitation,
-                          const T& phase, const T& rate)
+template <Theory theory, Number T>
+mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<T>& excitation, const T& phase,
+                          const T& rate)
 {
     using std::abs;
     using std::sqrt;
@@ -51,10 +51,9 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<Pulse, T>& exc
 
     // A lane without an impact may have a negative rate, and would look far before the pulse.
     const T over = phase + duration * excitation.frequency;
-    mask_t<T> in_time = fades && over >= phase && over <= T(excitation.end);
-    for (const Flank<S>& flank : Pulse::template flanks<S>()) {
-        const T extremum(flank.peak);
-        in_time = in_time && !(phase < extremum && extremum < over);
+    mask_t<T> in_time = fades && over >= phase && over <= T(excitation.motion.end);
+    for (const S& peak : excitation.motion.peaks) {
+        in_time = in_time && !(phase < T(peak) && T(peak) < over);
     }
     const T ground_then = excitation.ground(select<T>(in_time, over, phase));
     const T plus_then = pull(ground_then);

@@ -1,21 +1,42 @@
-// What shakes the ground under one block, dimensionless: a pulse with an amplitude, a frequency and
-// the phases at which it lifts a block at rest.
+// What shakes the ground under one block, dimensionless: a ground motion with an amplitude, a
+// frequency and the phases at which it lifts the block from rest.
 #pragma once
 
-#include "overturn/mechanics/pulse.hpp"
+#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/ground_motion.hpp"
 
 namespace overturn {
 
-template <class Pulse, Number T>
+template <Number T>
 struct Excitation {
-    T acceleration;                      ///< a_p / g [1]; negative: the mirrored pulse
-    T frequency;                         ///< Omega = omega_p / p [1]
-    std::array<T, Pulse::lobes> uplifts; ///< from uplift_phases() [rad]
-    scalar_t<T> begin;                   ///< phase at which the pulse begins and ends [rad]
-    scalar_t<T> end;
+    GroundMotion<scalar_t<T>> motion;
+    T acceleration; ///< a_p / g [1]; negative: the mirrored pulse
+    T frequency;    ///< Omega = omega_p / p [1]
+    UpliftPhases<T> uplifts;
 
-    /// Acceleration of the ground over g at a phase [1].
-    T ground(const T& phase) const { return acceleration * Pulse::value(phase); }
+    /// Acceleration of the ground over g at some phases [1].
+    template <std::size_t count>
+    std::array<T, count> ground(const std::array<T, count>& phases) const
+    {
+        std::array<T, count> ground = motion.values(phases);
+        for (T& value : ground) {
+            value = acceleration * value;
+        }
+        return ground;
+    }
+    T ground(const T& phase) const { return ground(std::array{phase})[0]; }
 };
+
+/// The excitation of a block of this slenderness [rad]. amplitude: a = a_p / (g tan alpha), linear
+/// theory a_p / (g alpha) [1]; frequency: Omega [1].
+template <Theory theory, class S>
+Excitation<S> excitation_of(const GroundMotion<S>& motion, const S& slenderness, const S& amplitude,
+                            const S& frequency)
+{
+    return {.motion = motion,
+            .acceleration = amplitude * uplift_acceleration<theory>(slenderness),
+            .frequency = frequency,
+            .uplifts = uplift_phases(motion, amplitude)};
+}
 
 } // namespace overturn

@@ -31,9 +31,9 @@ struct LowBounces {
 ///
 /// These are marched through the pulse in steps, each with the weakest pull and the largest rise of
 /// its ends and between them.
-template <Theory theory, class Pulse>
+template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const Excitation<Pulse, double>& excitation)
+                                               const Excitation<double>& excitation)
 {
     constexpr int steps = 1 << 12; // in a half turn of the pulse
     const double turn = pi<double>() / steps;
@@ -41,7 +41,8 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
     const double most = std::abs(excitation.acceleration);
     const double k = theory == Theory::linear ? 1 : std::hypot(1, most);
     const double tangent = theory == Theory::linear ? 0 : std::tan(slenderness);
-    // Between its values at the ends of a step a pulse goes by no more: |f''| < 2 for all of them.
+    // Between its values at the ends of a step a pulse goes by no more: |f''| < 2 for all of them,
+    // on each of their smooth pieces.
     const double between = 0.25 * turn * turn * most;
     const double highest = slenderness / 4;
     const double growth = duration < 1 ? k * duration * duration : 1;
@@ -62,8 +63,8 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
     double energy = 0;
     double tilt = 0;
     double rate = 0;
-    while (phase < excitation.end) {
-        const double next = std::min(phase + turn, double(excitation.end));
+    while (phase < excitation.motion.end) {
+        const double next = std::min(phase + turn, excitation.motion.end_of_piece(phase));
         double weakest[2], rise[2];
         for (const int i : {0, 1}) {
             const double side = i == 0 ? 1 : -1;

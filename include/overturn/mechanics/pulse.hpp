@@ -1,6 +1,7 @@
-// The six ground pulses f(phase) with peak 1; phase = omega_p t [rad]. Each says where it begins
-// and ends, and where its lobes lie; uplift_phases() does the rest.
-// One-sine Eq. 48, one-cosine Eq. 51, Ricker wavelets Eqs. 53, 54.
+// The ground pulses f(phase) with peak 1; phase = omega_p t [rad]. Each formula says where its
+// lobes lie; uplift_phases() derives the rest. To add a pulse: its kind and its row in `pulses`,
+// its formula and its case in with_pulse(), its series in pulse_series.hpp. One-sine Eq. 48,
+// one-cosine Eq. 51, Ricker wavelets Eqs. 53, 54.
 #pragma once
 
 #include "overturn/number/elementary.hpp"
@@ -12,8 +13,47 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
 namespace overturn {
+
+enum class PulseKind {
+    one_sine,
+    one_cosine,
+    symmetric_ricker,
+    antisymmetric_ricker,
+    half_sine,
+    rectangular
+};
+
+/// What tells a pulse from others that share its formula.
+struct PulseTraits {
+    std::string_view name; ///< as it stands in job files and result files
+    int half_turns; ///< it lasts from phase 0 to half_turns pi; 0: a wavelet, cut by a window
+    bool is_linear; ///< on each of its smooth pieces
+};
+
+/// In the order of the enumerators.
+inline constexpr std::array<PulseTraits, 6> pulses{{{"one_sine", 2, false},
+                                                    {"one_cosine", 2, false},
+                                                    {"symmetric_ricker", 0, false},
+                                                    {"antisymmetric_ricker", 0, false},
+                                                    {"half_sine", 1, false},
+                                                    {"rectangular", 1, true}}};
+
+constexpr const PulseTraits& traits_of(PulseKind kind)
+{
+    return pulses[std::size_t(kind)];
+}
+
+/// Whether the pulse is a wavelet without an end of its own: a Ricker wavelet.
+constexpr bool has_window(PulseKind kind)
+{
+    return traits_of(kind).half_turns == 0;
+}
+
+/// The largest number of lobes that a pulse has.
+inline constexpr int most_lobes = 4;
 
 /// The rising flank of a lobe: |f| grows from `foot` to `peak` [rad].
 template <class S>
@@ -22,37 +62,18 @@ struct Flank {
     S peak;
 };
 
-/// A pulse from phase 0 over a number of half turns.
-template <int half_turns>
-struct Lasting {
+/// A formula without a kink.
+struct SmoothPulse {
+    /// The phase of the kink [rad].
     template <class S>
-    static S begin(const S&)
+    static S kink()
     {
-        return S(0);
-    }
-    template <class S>
-    static S end(const S&)
-    {
-        return half_turns * pi<S>();
+        return std::numeric_limits<S>::infinity();
     }
 };
 
-/// A wavelet about phase 0 without an end of its own: from -2 pi window to 2 pi window.
-struct CutByWindow {
-    template <class S>
-    static S begin(const S& window)
-    {
-        return -end(window);
-    }
-    template <class S>
-    static S end(const S& window)
-    {
-        return 2 * pi<S>() * window;
-    }
-};
-
-/// Type A, Eq. 48: one period of a sine.
-struct OneSine : Lasting<2> {
+/// Type A, Eq. 48: one period of a sine. Its first half is the half-sine pulse.
+struct OneSine : SmoothPulse {
     static constexpr int lobes = 2;
 
     template <Number T>
@@ -74,29 +95,8 @@ struct OneSine : Lasting<2> {
     }
 };
 
-/// Half a period of a sine.
-struct HalfSine : Lasting<1> {
-    static constexpr int lobes = 1;
-
-    template <Number T>
-    static T value(const T& phase)
-    {
-        return OneSine::value(phase);
-    }
-    template <class S>
-    static std::array<Flank<S>, lobes> flanks()
-    {
-        return {{{S(0), pi<S>() / 2}}};
-    }
-    template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
-    {
-        return OneSine::phase_at(flank, level);
-    }
-};
-
 /// Type B, Eq. 51: one period of a cosine.
-struct OneCosine : Lasting<2> {
+struct OneCosine : SmoothPulse {
     static constexpr int lobes = 3;
 
     template <Number T>
@@ -118,7 +118,7 @@ struct OneCosine : Lasting<2> {
 };
 
 /// A constant push.
-struct Rectangular : Lasting<1> {
+struct Rectangular : SmoothPulse {
     static constexpr int lobes = 1;
 
     template <Number T>
@@ -151,8 +151,8 @@ S bracketed_phase(const Flank<S>& flank, const S& level)
     return bracket.second; // the upper end: the ground is at least about to lift the block
 }
 
-/// Eq. 53: f = (1 - 2 x^2) exp(-x^2), x = phase / 2; phase from -2 pi window to 2 pi window.
-struct SymmetricRicker : CutByWindow {
+/// Eq. 53: f = (1 - 2 x^2) exp(-x^2), x = phase / 2.
+struct SymmetricRicker : SmoothPulse {
     static constexpr int lobes = 3;
 
     template <Number T>
@@ -177,9 +177,9 @@ struct SymmetricRicker : CutByWindow {
     }
 };
 
-/// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3); phase as above. The paper's
-/// 1.38 makes the peak 1.000086.
-struct AntisymmetricRicker : CutByWindow {
+/// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3). The paper's 1.38 makes the peak
+/// 1.000086.
+struct AntisymmetricRicker : SmoothPulse {
     static constexpr int lobes = 4;
 
     template <Number T>
@@ -210,53 +210,19 @@ struct AntisymmetricRicker : CutByWindow {
     }
 };
 
-/// The phase [rad] from which on |f| of a wavelet stays below 2^log2_level, to within a percent; at
-/// least 6 sqrt(2). With z = phase / sqrt 2, or / sqrt 3, |f| <= z^3 exp(-z^2 / 2).
-template <class Pulse, Number T>
-requires std::derived_from<Pulse, CutByWindow> T end_of_tail(const T& log2_level)
+/// Calls visit.template operator()<Pulse>() for the formula of this kind of pulse.
+template <class Visitor>
+auto with_pulse(PulseKind kind, const Visitor& visit)
 {
-    using std::sqrt;
-    using S = scalar_t<T>;
-    const T least(S(36));
-    T square(S(100)); // z^2 = 2 ln (z^3 / level), by iteration
-    for (int i = 0; i < 4; ++i) {
-        square = (rough_log2(square) * T(S(1.5)) - log2_level) *
-                 T(2 * boost::math::constants::ln_two<S>());
-        square = greater<T>(square, least);
+    switch (kind) {
+    case PulseKind::one_cosine: return visit.template operator()<OneCosine>();
+    case PulseKind::symmetric_ricker: return visit.template operator()<SymmetricRicker>();
+    case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
+    case PulseKind::rectangular: return visit.template operator()<Rectangular>();
+    case PulseKind::one_sine:
+    case PulseKind::half_sine: break;
     }
-    return sqrt(square * T(S(std::same_as<Pulse, SymmetricRicker> ? 2 : 3)));
-}
-
-/// For each lobe of the pulse the first phase [rad] at which amplitude * |f| exceeds 1 and a block
-/// at rest uplifts; infinity where the lobe stays below, or outside the window. amplitude [1].
-template <class Pulse, class S>
-std::array<S, Pulse::lobes> uplift_phases(const S& amplitude, const S& window)
-{
-    using std::abs;
-    const S never = std::numeric_limits<S>::infinity();
-    const S begin = Pulse::begin(window);
-    const S end = Pulse::end(window);
-    const auto lifts = [&](const S& phase) { return amplitude * abs(Pulse::value(phase)) > 1; };
-    const auto flanks = Pulse::template flanks<S>();
-    std::array<S, Pulse::lobes> result;
-    for (int i = 0; i < Pulse::lobes; ++i) {
-        const Flank<S> whole = flanks[std::size_t(i)];
-        const S next_foot = i + 1 < Pulse::lobes ? flanks[std::size_t(i) + 1].foot : end;
-        // The part of the flank within the pulse; a pulse that begins past the peak has none left,
-        // and its first instant is then the highest of the lobe.
-        const bool begins_past_peak = whole.peak < begin && begin < next_foot;
-        const Flank<S> flank{whole.foot < begin ? begin : whole.foot,
-                             begins_past_peak ? begin : (whole.peak < end ? whole.peak : end)};
-        S& phase = result[std::size_t(i)];
-        if (flank.foot > flank.peak || !lifts(flank.peak)) {
-            phase = never;
-        } else if (lifts(flank.foot)) {
-            phase = flank.foot;
-        } else {
-            phase = Pulse::phase_at(flank, S(1) / amplitude);
-        }
-    }
-    return result;
+    return visit.template operator()<OneSine>();
 }
 
 } // namespace overturn

@@ -92,25 +92,4 @@ Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rat
     }
 }
 
-/// How fast the terms of a wavelet's series at most go on: with q = following_ratio, if two terms
-/// f[k] t^k in a row are at most M / q and M in size, k = count - 1 for the second, the j-th one
-/// after is at most M q^j. From the recurrence for the m-th derivative of a Gaussian at z, x =
-/// slope t:
-///
-///     k f[k] t^k = -z x f[k-1] t^(k-1) - x^2 (1 + m / (k - 1)) f[k-2] t^(k-2)
-///
-/// phase, step = rate t [rad].
-template <class Pulse, int count, Number T>
-requires std::derived_from<Pulse, CutByWindow> T following_ratio(const T& phase, const T& step)
-{
-    using arithmetic::fma;
-    using std::abs;
-    using std::sqrt;
-    using S = scalar_t<T>;
-    constexpr int m = std::same_as<Pulse, SymmetricRicker> ? 2 : 3; // and z = phase / sqrt(m)
-    const T linear = abs(phase) * step * T(S(1) / m);
-    const T square = step * step * T(S(4 * count) / m * (S(1) + S(m) / (count - 1)));
-    return (linear + sqrt(fma(linear, linear, square))) * T(S(1) / (2 * count));
-}
-
 } // namespace overturn

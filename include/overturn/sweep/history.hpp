@@ -2,13 +2,11 @@
 // free stage in closed form, until the block lies, rests, or nobody looks any more.
 #pragma once
 
+#include "overturn/integrate/event.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/plane.hpp"
 
-#include <array>
-#include <cstdint>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 namespace overturn {
@@ -27,12 +25,6 @@ inline constexpr double free_time_shown = 60;
 /// Impacts that are followed, at most.
 inline constexpr int most_impacts_shown = 100'000;
 
-enum class Event : std::uint8_t { uplift, impact, rest, end_of_pulse, fall };
-
-/// Names as they stand in result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 5> event_names{"uplift", "impact", "rest",
-                                                             "end_of_pulse", "fall"};
-
 /// The block at one time. An event has two of them, before and after.
 struct HistorySample {
     double time;         ///< since the pulse began [1/p]
@@ -44,7 +36,7 @@ struct HistorySample {
 };
 
 struct HistoryEvent {
-    Event event;
+    EventKind kind; ///< not a step
     HistorySample before;
     HistorySample after;
 };

@@ -23,7 +23,7 @@ constexpr int lanes_of(Kernel kernel)
     return kernel == Kernel::avx512 ? 8 : kernel == Kernel::avx2 ? 4 : 1;
 }
 
-/// Whether this processor can run the kernel.
+/// Whether the kernel was compiled, and this processor can run it.
 bool runs_here(Kernel kernel);
 
 /// This processor can run no kernel.

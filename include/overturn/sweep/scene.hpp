@@ -2,37 +2,33 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/pulse.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
 
 namespace overturn {
 
-enum class PulseKind {
-    one_sine,
-    one_cosine,
-    symmetric_ricker,
-    antisymmetric_ricker,
-    half_sine,
-    rectangular
-};
-
 enum class RestitutionOf { absolute, maximum };
 
 enum class Method { rk45, taylor };
 
 /// Names as they stand in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 6> pulse_names{
-    "one_sine",  "one_cosine", "symmetric_ricker", "antisymmetric_ricker",
-    "half_sine", "rectangular"};
+inline constexpr auto pulse_names = [] {
+    std::array<std::string_view, pulses.size()> names;
+    std::transform(pulses.begin(), pulses.end(), names.begin(),
+                   [](const PulseTraits& pulse) { return pulse.name; });
+    return names;
+}();
 inline constexpr std::array<std::string_view, 2> theory_names{"nonlinear", "linear"};
 inline constexpr std::array<std::string_view, 2> restitution_of_names{"absolute", "maximum"};
 inline constexpr std::array<std::string_view, 2> method_names{"rk45", "taylor"};
 
 constexpr std::string_view name_of(PulseKind pulse)
 {
-    return pulse_names[std::size_t(pulse)];
+    return traits_of(pulse).name;
 }
 constexpr std::string_view name_of(Theory theory)
 {
@@ -45,12 +41,6 @@ constexpr std::string_view name_of(RestitutionOf of)
 constexpr std::string_view name_of(Method method)
 {
     return method_names[std::size_t(method)];
-}
-
-/// Only the Ricker wavelets have no natural end and need a window.
-constexpr bool has_window(PulseKind pulse)
-{
-    return pulse == PulseKind::symmetric_ricker || pulse == PulseKind::antisymmetric_ricker;
 }
 
 struct Scene {

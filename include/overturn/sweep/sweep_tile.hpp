@@ -1,13 +1,13 @@
 // From a tile to the values of its fields: the forced stage of each point, then its region.
 #pragma once
 
+#include "overturn/sweep/drop.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
 #include "overturn/sweep/tile.hpp"
 
-#include <functional>
 #include <vector>
 
 namespace overturn {
@@ -16,11 +16,6 @@ namespace overturn {
 struct TileFields {
     std::vector<FieldValues> values;
 };
-
-/// Asked every second or more often while a tile is computed, by its own thread. Once it is true it
-/// stays so, and TileDropped leaves whatever computes the tile.
-using DropRequested = std::function<bool()>;
-class TileDropped {};
 
 /// Computes every point of a tile. The values of a point depend on the point, the scene and the
 /// numerics alone: not on the tile's shape, the other points, or the kernel.

@@ -23,15 +23,10 @@ int main(int argc, char** argv)
     constexpr Theory theory = Theory::nonlinear;
     const Block<double> block{slenderness, restitution};
     const double window = 1; // matters to wavelets only
-    const Excitation<OneSine, double> excitation{
-        .acceleration = amplitude * uplift_acceleration<theory>(slenderness),
-        .frequency = frequency,
-        .uplifts = uplift_phases<OneSine>(amplitude, window),
-        .begin = OneSine::begin(window),
-        .end = OneSine::end(window)};
-    const ForcedEnd<double> end =
-        run_forced_stage<RungeKutta, OneSine, theory>(block, excitation, 1e-9);
-    std::printf("%d %.17g %.17g %.17g\n", int(region_after_pulse<theory>(end.state, block)),
+    const Excitation<double> excitation = excitation_of<theory>(
+        ground_motion(PulseKind::one_sine, window), slenderness, amplitude, frequency);
+    const ForcedEnd<double> end = run_forced_stage<RungeKutta, theory>(block, excitation, 1e-9);
+    std::printf("%d %.17g %.17g %.17g\n", int(region_of<theory>(end, block)),
                 end.state.side * end.state.tilt, end.state.side * end.state.rate,
-                margin_after_pulse<theory>(end.state, block));
+                margin_of<theory>(end, block));
 }

@@ -10,7 +10,7 @@ namespace overturn {
 
 /// Where a gap vanishes near the end of a step.
 template <Number T>
-struct Landing {
+struct EventCorrection {
     T delay;        ///< time from the end of the step to the event, of either sign
     T closing;      ///< speed there, towards it
     mask_t<T> hits; ///< not so where the gap is open and has its minimum above zero
@@ -21,7 +21,7 @@ struct Landing {
 ///
 ///     gap + rate delay + acceleration delay^2 / 2 = 0,   closing^2 = rate^2 - 2 acceleration gap
 template <Number T>
-Landing<T> land(const T& gap, const T& rate, const T& acceleration)
+EventCorrection<T> event_correction(const T& gap, const T& rate, const T& acceleration)
 {
     using arithmetic::fma;
     using std::sqrt;
@@ -38,9 +38,9 @@ Landing<T> land(const T& gap, const T& rate, const T& acceleration)
 /// Moves a step's end onto the event beside it: the ground in the lanes that strike it, pi/2 in
 /// those that fall. acceleration: d^2|theta| / d tau^2 at the step's end. Returns by how much later
 /// it ends, of either sign [1/p].
-template <class Pulse, Number T>
-T land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
-                const T& acceleration, const Excitation<Pulse, T>& excitation)
+template <Number T>
+T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
+                const T& acceleration, const Excitation<T>& excitation)
 {
     using S = scalar_t<T>;
     const T zero(S(0));
@@ -48,16 +48,16 @@ T land_on_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& fall
     const T gap = select<T>(falls, quarter_turn - end.tilt, end.tilt);
     const T gap_rate = select<T>(falls, -end.rate, end.rate);
     const T gap_acceleration = select<T>(falls, -acceleration, acceleration);
-    const Landing<T> landing = land(gap, gap_rate, gap_acceleration);
-    end.strikes = strikes && landing.hits;
-    end.falls = falls && landing.hits;
+    const EventCorrection<T> correction = event_correction(gap, gap_rate, gap_acceleration);
+    end.strikes = strikes && correction.hits;
+    end.falls = falls && correction.hits;
     const mask_t<T> hits = end.strikes || end.falls;
-    const T last(excitation.end);
-    const T delayed = end.phase + excitation.frequency * landing.delay;
+    const T last(excitation.motion.end);
+    const T delayed = end.phase + excitation.frequency * correction.delay;
     end.phase = select<T>(hits, select<T>(delayed < last, delayed, last), end.phase);
     end.tilt = select<T>(hits, select<T>(falls, quarter_turn, zero), end.tilt);
-    end.rate = select<T>(hits, select<T>(falls, landing.closing, -landing.closing), end.rate);
-    return select<T>(hits, landing.delay, zero);
+    end.rate = select<T>(hits, select<T>(falls, correction.closing, -correction.closing), end.rate);
+    return select<T>(hits, correction.delay, zero);
 }
 
 } // namespace overturn

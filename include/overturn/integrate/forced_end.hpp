@@ -1,0 +1,57 @@
+// How a block leaves the forced stage, and what that means (Eqs. 11-20).
+#pragma once
+
+#include "overturn/mechanics/region.hpp"
+
+#include <limits>
+
+namespace overturn {
+
+/// The end of the forced stage. Counts are whole numbers held in T.
+template <Number T>
+struct ForcedEnd {
+    State<T> state;       ///< at the end of the pulse, or where |theta| reached pi/2
+    mask_t<T> fell;       ///< |theta| reached pi/2
+    mask_t<T> rested;     ///< came to rest after a bounce series
+    mask_t<T> capped;     ///< stopped after too many steps: the state means nothing
+    mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
+    T impacts;            ///< counted only if asked for; a bounce series that died out is not
+    T steps;              ///< steps tried
+    T phase;              ///< of the pulse: its end, or less where it fell [rad]
+    /// Only if asked for:
+    T error;            ///< of the margin, at most, to first order; infinite where unknown
+    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
+    T peak;             ///< the largest tilt [rad]
+
+    mask_t<T> is_stopped() const { return capped || not_finite; }
+};
+
+/// The code of the region of each lane, as a number.
+template <Theory theory, Number T>
+T region_code_of(const ForcedEnd<T>& end, const Block<T>& block)
+{
+    using S = scalar_t<T>;
+    const auto code = [](Region region) { return T(S(int(region))); };
+    const T fallen =
+        select<T>(end.state.side > T(S(0)), code(Region::F_plus), code(Region::F_minus));
+    const T decided =
+        select<T>(end.fell, fallen, region_code_after_pulse<theory>(end.state, block));
+    return select<T>(end.is_stopped(), code(Region::undecided), decided);
+}
+
+template <Theory theory, Number T>
+requires(lanes_v<T> == 1) Region region_of(const ForcedEnd<T>& end, const Block<T>& block)
+{
+    return Region(int(region_code_of<theory>(end, block)));
+}
+
+/// The margin of each lane [1]; not a number where the point is undecided.
+template <Theory theory, Number T>
+T margin_of(const ForcedEnd<T>& end, const Block<T>& block)
+{
+    const T decided = select<T>(end.fell, margin_of_fall<theory>(end.state.rate, block),
+                                margin_after_pulse<theory>(end.state, block));
+    return select<T>(end.is_stopped(), T(std::numeric_limits<scalar_t<T>>::quiet_NaN()), decided);
+}
+
+} // namespace overturn

@@ -1,0 +1,107 @@
+// How the ground moves: what all blocks of a spectrum share. A run-time value; whoever integrates
+// asks it once per step for what the step needs, so that the choice of the pulse costs one branch.
+#pragma once
+
+#include "overturn/mechanics/pulse_series.hpp"
+
+#include <algorithm>
+
+namespace overturn {
+
+/// A pulse of unit peak over its phase. S: the type of one lane.
+template <class S>
+struct GroundMotion {
+    PulseKind pulse;
+    S begin; ///< phases at which the ground starts and stops to move [rad]
+    S end;
+    S kink;                          ///< where two smooth pieces meet [rad]; `begin`: nowhere
+    std::array<S, most_lobes> peaks; ///< phases of the extrema [rad]; infinite beyond the last
+
+    /// The end of the smooth piece that holds the phase [rad]: no step may cross it.
+    template <Number T>
+    T end_of_piece(const T& phase) const
+    {
+        return select<T>(phase < T(kink), T(kink), T(end));
+    }
+
+    /// f at each of these phases.
+    template <std::size_t count, Number T>
+    std::array<T, count> values(const std::array<T, count>& phases) const
+    {
+        return with_pulse(pulse, [&]<class Pulse>() {
+            std::array<T, count> f;
+            unrolled<count>([&]<int i>() { f[i] = Pulse::value(phases[i]); });
+            return f;
+        });
+    }
+
+    /// The Taylor coefficients of f on the smooth piece that begins or continues at the phase, see
+    /// pulse_series().
+    template <int count, Number T>
+    Coefficients<count, T> series(const T& scale, const T& phase, const T& rate) const
+    {
+        return with_pulse(
+            pulse, [&]<class Pulse>() { return pulse_series<Pulse, count>(scale, phase, rate); });
+    }
+};
+
+/// window: half width of a wavelet [pulse periods]; without meaning for other pulses.
+template <class S>
+GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
+{
+    const int half_turns = traits_of(pulse).half_turns;
+    const S end = has_window(pulse) ? 2 * pi<S>() * window : half_turns * pi<S>();
+    GroundMotion<S> motion{.pulse = pulse,
+                           .begin = has_window(pulse) ? S(-end) : S(0),
+                           .end = end,
+                           .kink = has_window(pulse) ? S(-end) : S(0),
+                           .peaks = {}};
+    motion.peaks.fill(std::numeric_limits<S>::infinity());
+    with_pulse(pulse, [&]<class Pulse>() {
+        if (Pulse::template kink<S>() < end) {
+            motion.kink = Pulse::template kink<S>();
+        }
+        const auto flanks = Pulse::template flanks<S>();
+        std::transform(flanks.begin(), flanks.end(), motion.peaks.begin(),
+                       [](const Flank<S>& flank) { return flank.peak; });
+    });
+    return motion;
+}
+
+/// One phase per lobe of a pulse [rad].
+template <class S>
+using UpliftPhases = std::array<S, most_lobes>;
+
+/// For each lobe of the pulse the first phase [rad] at which amplitude * |f| exceeds 1 and a block
+/// at rest uplifts; infinity where the lobe stays below, lies outside the window, or does not
+/// exist. amplitude [1].
+template <class S>
+UpliftPhases<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
+{
+    using std::abs;
+    UpliftPhases<S> result;
+    result.fill(std::numeric_limits<S>::infinity());
+    with_pulse(motion.pulse, [&]<class Pulse>() {
+        const auto lifts = [&](const S& phase) { return amplitude * abs(Pulse::value(phase)) > 1; };
+        const auto flanks = Pulse::template flanks<S>();
+        for (std::size_t i = 0; i < flanks.size(); ++i) {
+            const Flank<S>& whole = flanks[i];
+            const S next_foot = i + 1 < flanks.size() ? flanks[i + 1].foot : motion.end;
+            // The part of the flank within the pulse; a pulse that begins past the peak has none
+            // left, and its first instant is then the highest of the lobe.
+            const bool begins_past_peak = whole.peak < motion.begin && motion.begin < next_foot;
+            const Flank<S> flank{whole.foot < motion.begin ? motion.begin : whole.foot,
+                                 begins_past_peak          ? motion.begin
+                                 : whole.peak < motion.end ? whole.peak
+                                                           : motion.end};
+            if (flank.foot > flank.peak || !lifts(flank.peak)) {
+                continue;
+            }
+            result[i] =
+                lifts(flank.foot) ? flank.foot : Pulse::phase_at(flank, S(S(1) / amplitude));
+        }
+    });
+    return result;
+}
+
+} // namespace overturn

@@ -1,0 +1,217 @@
+#include "point_run.hpp"
+
+#include "exact_end.hpp"
+
+#include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/mechanics/low_bounces.hpp"
+#include "overturn/number/digits50.hpp"
+
+#include <algorithm>
+
+namespace overturn {
+
+Ends::Ends(std::size_t points, const Records& recorded)
+    : records(recorded), tilt(points), rate(points), side(points), flags(points),
+      region(records.region ? points : 0), margin(records.margin ? points : 0),
+      impacts(records.impacts ? points : 0), error(records.error ? points : 0),
+      steps(records.steps ? points : 0), phase(records.phase ? points : 0),
+      peak(records.peak ? points : 0)
+{}
+
+PointEnds Ends::pointers()
+{
+    return {tilt.data(),    rate.data(),  side.data(),  flags.data(), region.data(), margin.data(),
+            impacts.data(), error.data(), steps.data(), phase.data(), peak.data()};
+}
+
+void Ends::record_steps()
+{
+    records.steps = true;
+    steps.resize(tilt.size());
+}
+
+std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
+{
+    const double slenderness = plane.slenderness[tile.slenderness];
+    const double restitution = plane.restitution_ratio(tile.slenderness, tile.restitution);
+    const std::vector<double> frequencies =
+        plane.frequency.values(tile.frequency_begin, tile.frequency_begin + tile.frequency_count);
+    std::vector<PlanePoint> points;
+    points.reserve(std::size_t(tile.points()));
+    for (std::int64_t row = 0; row < tile.amplitude_count; ++row) {
+        const double amplitude = plane.amplitude[tile.amplitude_begin + row];
+        for (const double frequency : frequencies) {
+            points.push_back({slenderness, restitution, amplitude, frequency});
+        }
+    }
+    return points;
+}
+
+Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
+               const std::vector<PlanePoint>& points)
+{
+    of_point.reserve(points.size());
+    const PlanePoint* before = nullptr;
+    for (const PlanePoint& point : points) {
+        if (before == nullptr || point.amplitude != before->amplitude ||
+            point.slenderness != before->slenderness) {
+            const double threshold = with_theory(theory, [&]<Theory known>() {
+                return uplift_acceleration<known>(point.slenderness);
+            });
+            pushes.push_back({point.amplitude * threshold, uplift_phases(motion, point.amplitude)});
+        }
+        of_point.push_back(int(pushes.size()) - 1);
+        before = &point;
+    }
+}
+
+PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
+                   DropRequested drop_requested)
+    : scene_(scene), motion_(ground_motion(scene.pulse, scene.window)), kernel_(kernel),
+      drop_requested_(std::move(drop_requested)), points_(std::move(points)),
+      pushes_(motion_, scene.theory, points_)
+{}
+
+void PointRun::throw_if_dropped() const
+{
+    if (drop_requested_ && drop_requested_()) {
+        throw TileDropped();
+    }
+}
+
+void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unknown_error) const
+{
+    run(numerics, nullptr, size(), ends, on_unknown_error);
+}
+
+void PointRun::run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const
+{
+    if (!chosen.empty()) {
+        run(numerics, chosen.data(), int(chosen.size()), ends, OnUnknownError::go_on);
+    }
+}
+
+void PointRun::run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
+                   OnUnknownError on_unknown_error) const
+{
+    const KernelTask task{.motion = motion_,
+                          .points = points_.data(),
+                          .push_of_point = pushes_.of_point.data(),
+                          .pushes = pushes_.pushes.data(),
+                          .tolerance = numerics.tolerance,
+                          .records = ends.records,
+                          .on_unknown_error = on_unknown_error,
+                          .chosen = chosen,
+                          .chosen_count = count,
+                          .drop_requested =
+                              [](const void* context) {
+                                  const auto& requested =
+                                      *static_cast<const DropRequested*>(context);
+                                  return requested && requested();
+                              },
+                          .context = &drop_requested_};
+    sweep_kernel(kernel_, integrator_of(numerics), scene_.theory, ends.records)(task,
+                                                                                ends.pointers());
+    throw_if_dropped(); // or some ends may be missing
+}
+
+template <class T>
+void PointRun::run_exactly(int point, Ends& ends) const
+{
+    throw_if_dropped();
+    const auto i = std::size_t(point);
+    const ExactEnd end = exact_end<T>(scene_, points_[i]);
+    ends.tilt[i] = end.tilt;
+    ends.rate[i] = end.rate;
+    ends.side[i] = end.side;
+    ends.flags[i] = end.flags;
+    const auto put = [&](auto& values, auto value) {
+        if (!values.empty()) {
+            values[i] = value;
+        }
+    };
+    put(ends.region, std::uint8_t(end.region));
+    put(ends.margin, end.margin);
+    put(ends.error, end.error);
+    put(ends.impacts, end.impacts);
+    put(ends.steps, end.steps);
+    put(ends.phase, end.phase);
+}
+
+template void PointRun::run_exactly<long double>(int, Ends&) const;
+template void PointRun::run_exactly<Digits50>(int, Ends&) const;
+
+bool PointRun::settle_low_bounces(int point, Ends& ends) const
+{
+    const auto i = std::size_t(point);
+    const PlanePoint& block = points_[i];
+    const Excitation<double> excitation{.motion = motion_,
+                                        .acceleration = pushes_[point].acceleration,
+                                        .frequency = block.frequency,
+                                        .uplifts = pushes_[point].uplifts};
+    // The margin is that of a block at rest, 1, but for these: no distance to a limit of the rate
+    // changes by more than the tilt and the rate do.
+    const double error = with_theory(scene_.theory, [&]<Theory theory>() {
+        const auto bounds = bound_of_low_bounces<theory>(block.slenderness, excitation);
+        return bounds
+                   ? (bounds->tilt + bounds->rate) / separatrix_rate<theory>(0.0, block.slenderness)
+                   : 1.0;
+    });
+    if (!(error < 1)) {
+        return false;
+    }
+    if (ends.flags[i] & end_flag::capped) {
+        ends.flags[i] = 0;
+        ends.tilt[i] = 0;
+        ends.rate[i] = 0;
+    }
+    ends.error[i] = error;
+    if (ends.records.region) {
+        ends.region[i] = std::uint8_t(Region::S);
+    }
+    if (ends.records.margin && !(ends.flags[i] & end_flag::undecided)) {
+        ends.margin[i] = 1;
+    }
+    return true;
+}
+
+std::vector<double> PointRun::peaks(const Ends& ends) const
+{
+    std::vector<double> values(ends.tilt.size());
+    with_theory(scene_.theory, [&]<Theory theory>() {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const auto region = Region(ends.region[i]);
+            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
+            const Block<double> block{points_[i].slenderness, points_[i].restitution};
+            values[i] = is_safe(region)
+                            ? std::max(ends.peak[i], largest_free_tilt<theory>(end, block)) /
+                                  block.slenderness
+                        : is_unsafe(region) ? std::numeric_limits<double>::infinity()
+                                            : std::numeric_limits<double>::quiet_NaN();
+        }
+    });
+    return values;
+}
+
+std::vector<double> PointRun::fall_times(const Ends& ends) const
+{
+    std::vector<double> values(ends.tilt.size());
+    with_theory(scene_.theory, [&]<Theory theory>() {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const auto region = Region(ends.region[i]);
+            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
+            const Block<double> block{points_[i].slenderness, points_[i].restitution};
+            const UpliftPhases<double>& uplifts = pushes_[int(i)].uplifts;
+            const double first_uplift = *std::min_element(uplifts.begin(), uplifts.end());
+            const double forced = (ends.phase[i] - first_uplift) / points_[i].frequency;
+            const bool fell = region == Region::F_plus || region == Region::F_minus;
+            values[i] = fell                ? forced
+                        : is_unsafe(region) ? forced + free_fall_time<theory>(end, block)
+                        : is_safe(region)   ? std::numeric_limits<double>::infinity()
+                                            : std::numeric_limits<double>::quiet_NaN();
+        }
+    });
+    return values;
+}
+
+} // namespace overturn

@@ -1,0 +1,147 @@
+#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/wavelet.hpp"
+#include "overturn/number/digits50.hpp"
+#include "support/every_pulse.hpp"
+
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Pulse, EveryPulse, every_pulse(), pulse_test_name);
+
+constexpr int samples = 20000;
+
+/// Phases spread evenly over the pulse.
+double phase_number(int i, const GroundMotion<double>& motion)
+{
+    return motion.begin + (motion.end - motion.begin) * i / samples;
+}
+
+TEST_P(EveryPulse, HasPeakOne)
+{
+    const GroundMotion<double> pulse = motion(1.0);
+    double peak = 0;
+    for (int i = 0; i <= samples; ++i) {
+        peak = std::max(peak, std::abs(value_of_pulse(pulse, phase_number(i, pulse))));
+    }
+    // The grid misses the peak by (phase step)^2 / 2 = 1e-7; the antisymmetric Ricker wavelet is
+    // higher by 8.6e-5 with the paper's factor 1.38.
+    EXPECT_NEAR(peak, GetParam() == PulseKind::antisymmetric_ricker ? 1.000086 : 1.0, 1e-6);
+}
+
+TEST_P(EveryPulse, HasNoExtremumButAtItsPeaks)
+{
+    const GroundMotion<double> pulse = motion(1.0);
+    const double step = phase_number(1, pulse) - pulse.begin;
+    for (int i = 1; i < samples; ++i) {
+        const double phase = phase_number(i, pulse);
+        const double here = value_of_pulse(pulse, phase);
+        const double before = here - value_of_pulse(pulse, phase - step);
+        const double after = value_of_pulse(pulse, phase + step) - here;
+        if (before * after < 0) {
+            const bool known =
+                std::any_of(pulse.peaks.begin(), pulse.peaks.end(),
+                            [&](double peak) { return std::abs(peak - phase) <= step; });
+            EXPECT_TRUE(known) << "turns at " << phase;
+        }
+    }
+}
+
+/// The first phase of each spell in which amplitude |f| > 1, by looking everywhere.
+std::vector<double> spells(const GroundMotion<double>& pulse, double amplitude)
+{
+    std::vector<double> result;
+    bool lifted = false;
+    for (int i = 0; i <= samples; ++i) {
+        const double phase = phase_number(i, pulse);
+        const bool lifts = amplitude * std::abs(value_of_pulse(pulse, phase)) > 1;
+        if (lifts && !lifted) {
+            result.push_back(phase);
+        }
+        lifted = lifts;
+    }
+    return result;
+}
+
+TEST_P(EveryPulse, UpliftsAreWhereTheGroundFirstExceedsTheThreshold)
+{
+    for (const double window : {0.05, 0.15, 0.3, 0.6, 1.0, 3.0}) {
+        const GroundMotion<double> pulse = motion(window);
+        for (const double amplitude : {0.5, 1.003, 1.3, 2.1, 2.4, 9.0, 200.0}) {
+            std::vector<double> ours;
+            for (const double phase : uplift_phases(pulse, amplitude)) {
+                if (std::isfinite(phase)) {
+                    ours.push_back(phase);
+                }
+            }
+            const std::vector<double> seen = spells(pulse, amplitude);
+            ASSERT_EQ(ours.size(), seen.size())
+                << "amplitude " << amplitude << ", window " << window;
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                // The grid sees an uplift at most one step late.
+                EXPECT_LE(ours[i], seen[i]);
+                const double step = phase_number(1, pulse) - pulse.begin;
+                EXPECT_GE(ours[i], seen[i] - 1.001 * step);
+            }
+        }
+    }
+}
+
+TEST_P(EveryPulse, UpliftsInDoubleAndFiftyDigitsAgree)
+{
+    const auto in_double = uplift_phases(motion(1.0), 3.0);
+    const auto in_digits = uplift_phases(motion(Digits50(1)), Digits50(3));
+    for (std::size_t i = 0; i < in_double.size(); ++i) {
+        if (std::isinf(in_double[i])) {
+            EXPECT_TRUE(isinf(in_digits[i]));
+            continue;
+        }
+        // 4 units in the last place of 2 pi; the inverse of f is well conditioned at f = 1/3.
+        EXPECT_NEAR(in_double[i], double(in_digits[i]), 4e-15);
+    }
+}
+
+double first_uplift(PulseKind pulse, double amplitude)
+{
+    return uplift_phases(ground_motion(pulse, 1.0), amplitude)[0];
+}
+
+TEST(UpliftPhases, OfASineIsItsClosedForm)
+{
+    EXPECT_DOUBLE_EQ(first_uplift(PulseKind::one_sine, 4.0), std::asin(0.25));
+    EXPECT_DOUBLE_EQ(first_uplift(PulseKind::half_sine, 1.25), std::asin(0.8));
+    EXPECT_EQ(first_uplift(PulseKind::one_cosine, 1.25), 0);
+}
+
+TEST(UpliftPhases, AnAmplitudeOfOneDoesNotExceedTheThreshold)
+{
+    EXPECT_EQ(first_uplift(PulseKind::one_sine, 1.0), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(first_uplift(PulseKind::one_cosine, 1.0), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(first_uplift(PulseKind::rectangular, 1.0), std::numeric_limits<double>::infinity());
+}
+
+TEST(UpliftPhases, SideLobeOfTheSymmetricRickerLiftsFromItsOwnPeakOn)
+{
+    const double side_peak = 2 * std::exp(-1.5); // |f| at x^2 = 3/2
+    EXPECT_FALSE(std::isfinite(first_uplift(PulseKind::symmetric_ricker, 0.999 / side_peak)));
+    EXPECT_TRUE(std::isfinite(first_uplift(PulseKind::symmetric_ricker, 1.001 / side_peak)));
+}
+
+TEST(Wavelets, HaveTailsThatEndBelowAnyLevel)
+{
+    for (const PulseKind kind : {PulseKind::symmetric_ricker, PulseKind::antisymmetric_ricker}) {
+        const GroundMotion<double> pulse = ground_motion(kind, 1.0);
+        for (const double level : {1e-12, 1e-19, 1e-30, 1e-60}) {
+            const double end = end_of_tail(kind, std::log2(level));
+            for (const double beyond : {1.0, 1.1, 2.0, 3.0}) {
+                EXPECT_LE(std::abs(value_of_pulse(pulse, end * beyond)), level * 1.01) << level;
+            }
+            EXPECT_GT(std::abs(value_of_pulse(pulse, end * 0.95)), level); // nor much earlier
+        }
+        EXPECT_GT(end_of_tail(kind, 0.0), 8); // beyond every lobe: the last ends at 4
+    }
+}
+
+} // namespace
+} // namespace overturn

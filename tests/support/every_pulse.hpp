@@ -1,0 +1,44 @@
+// Tests over all pulses: class Suite : public EveryPulse {}; INSTANTIATE_TEST_SUITE_P(...,
+// every_pulse(), pulse_test_name).
+#pragma once
+
+#include "overturn/mechanics/ground_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+class EveryPulse : public testing::TestWithParam<PulseKind> {
+protected:
+    template <class S>
+    static GroundMotion<S> motion(const S& window)
+    {
+        return ground_motion(GetParam(), window);
+    }
+};
+
+inline auto every_pulse()
+{
+    std::vector<PulseKind> kinds;
+    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
+        kinds.push_back(PulseKind(kind));
+    }
+    return testing::ValuesIn(kinds);
+}
+
+inline std::string pulse_test_name(const testing::TestParamInfo<PulseKind>& pulse)
+{
+    return std::string(traits_of(pulse.param).name);
+}
+
+/// f at one phase [rad].
+template <class S>
+S value_of_pulse(const GroundMotion<S>& motion, const S& phase)
+{
+    return motion.values(std::array{phase})[0];
+}
+
+} // namespace overturn
