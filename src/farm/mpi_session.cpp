@@ -39,10 +39,17 @@ void prepare_for_one_rank()
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
     // Ranks alone of several runs would share a session folder, make it while another run takes it
-    // away at its end, and fail. Only the default way to share file pointers would put anything
-    // there, which nobody here does.
+    // away at its end, and fail. Nobody here puts anything there.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
-    setenv("OMPI_MCA_sharedfp", "individual", keep);
+}
+
+/// Nobody here shares file pointers. These two ways to do so make and remove files
+/// OUT.h5.locktest.0, OUT.h5.data.0, ... whoever they belong to, and the first one overflows a
+/// buffer at paths from 245 bytes on.
+void leave_files_of_others_alone()
+{
+    constexpr int replace = 1;
+    setenv("OMPI_MCA_sharedfp", "^lockedfile,individual", replace);
 }
 
 /// Whether Open MPI's mpirun started all ranks on this host.
@@ -91,6 +98,7 @@ MpiSession::MpiSession()
     MPI_Initialized(&initialized);
     finalizes_ = initialized == 0;
     if (finalizes_) {
+        leave_files_of_others_alone();
         if (first_of(rank_variables) == nullptr) {
             prepare_for_one_rank();
         } else if (all_ranks_are_here()) {

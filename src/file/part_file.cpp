@@ -2,6 +2,7 @@
 
 #include "sync.hpp"
 #include "system_reason.hpp"
+#include "working_file.hpp"
 
 #include "overturn/file/file_error.hpp"
 
@@ -25,7 +26,7 @@ std::string folder_of(const std::string& path)
 } // namespace
 
 PartFile::PartFile(std::string path)
-    : target_(std::move(path)), folder_(folder_of(target_)), part_(part_of(target_))
+    : target_(std::move(path)), folder_(folder_of(target_)), part_(target_ + ".part")
 {
     if (!std::filesystem::is_directory(folder_)) {
         throw FileError(
@@ -38,7 +39,22 @@ PartFile::PartFile(std::string path)
                                     "Choose another name with -o.",
                                     target_, folder_, system_reason(errno)));
     }
-    unlink(part_.c_str());
+    std::error_code none;
+    if (std::filesystem::is_symlink(target_, none) && !std::filesystem::exists(target_, none)) {
+        throw FileError(fmt::format("cannot create \"{}\": it is a link to a file that does not "
+                                    "exist. Remove the link, or choose another name with -o.",
+                                    target_));
+    }
+    int created = create_working_file(part_);
+    if (created < 0 && errno == EEXIST && is_left_over(part_)) {
+        unlink(part_.c_str());
+        created = create_working_file(part_);
+    }
+    if (created < 0) {
+        throw FileError(fmt::format("cannot create \"{}\": {}. Choose another name with -o.", part_,
+                                    system_reason(errno)));
+    }
+    close(created);
 }
 
 PartFile::~PartFile()
@@ -64,6 +80,7 @@ void PartFile::move_into_place()
         throw FileError(fmt::format("cannot create \"{}\": {}.", target_, system_reason(errno)));
     }
     in_place_ = true;
+    unmark_working_file(target_);
 }
 
 } // namespace overturn

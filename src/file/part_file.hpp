@@ -9,14 +9,12 @@ namespace overturn {
 
 class PartFile {
 public:
-    /// Throws FileError if the folder of `path` is missing or not writable. An older part is
-    /// removed.
+    /// Throws FileError if the folder of `path` is missing or not writable, if `path` is a link to
+    /// nothing, or if the part's name is taken. The part of a run that was killed is replaced.
     explicit PartFile(std::string path);
     ~PartFile();
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
-
-    static std::string part_of(const std::string& path) { return path + ".part"; }
 
     /// Where to write.
     const std::string& path() const { return part_; }

@@ -112,13 +112,9 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
 {
     const std::string path = sidecar_of(spectrum_path);
     struct stat file = {};
-    if (stat(PartFile::part_of(path).c_str(), &file) != 0 && errno == ENAMETOOLONG) {
-        throw FileError(fmt::format("cannot write \"{}\", the record of this run: {}. Choose a "
-                                    "shorter name with -o.",
-                                    path, system_reason(errno)));
-    }
+    const PartFile place(path);
     if (stat(path.c_str(), &file) != 0) {
-        return; // it is not there, or whoever writes the spectrum will say why it cannot be seen
+        return;
     }
     std::string beginning(sidecar_beginning.size(), '\0');
     if (S_ISREG(file.st_mode)) { // to open a pipe would wait for its other end

@@ -1,5 +1,8 @@
 #include "overturn/file/sole_writer.hpp"
 
+#include "system_reason.hpp"
+#include "working_file.hpp"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -30,38 +33,35 @@ std::string lock_of(const std::string& path)
     return (said_when_it_is_opened ? path : file.string()) + ".lock";
 }
 
-/// A lock of ours is an empty file. What has been opened instead is closed.
-void demand_lock(int descriptor, const std::string& lock)
+/// Creates the lock, or opens that of another run. -1 if the folder cannot be written: whoever
+/// needs to write there says so.
+int open_lock(const std::string& lock)
 {
-    struct stat file = {};
-    const bool opened = descriptor >= 0;
-    const bool is_another_thing = !opened && (errno == EISDIR || errno == ELOOP);
-    const bool has_content =
-        opened && fstat(descriptor, &file) == 0 && (!S_ISREG(file.st_mode) || file.st_size > 0);
-    if (is_another_thing || has_content) {
-        if (opened) {
-            ::close(descriptor);
+    int descriptor = create_working_file(lock);
+    while (descriptor < 0 && errno == EEXIST) {
+        if (!is_left_over(lock)) { // any more
+            descriptor = create_working_file(lock);
+        } else if ((descriptor = open(lock.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0) {
+            throw FileError(
+                fmt::format("cannot open the lock \"{}\": {}. If no run of another user "
+                            "holds it, remove it; or choose another name with -o.",
+                            lock, system_reason(errno)));
         }
-        throw FileError(fmt::format("\"{}\" stands where the lock of this run would be, and is "
-                                    "none. Move it away, or choose another name with -o.",
-                                    lock));
     }
+    return descriptor;
 }
 
 } // namespace
 
 SoleWriter::SoleWriter(const std::string& path) : lock_(lock_of(path))
 {
-    constexpr mode_t for_all_to_lock = 0666;
     do {
         if (descriptor_ >= 0) {
             ::close(descriptor_);
         }
-        // Children get it as well: one that makes the file, and outlives us, still holds the lock.
-        descriptor_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW, for_all_to_lock);
-        demand_lock(descriptor_, lock_);
+        descriptor_ = open_lock(lock_);
         if (descriptor_ < 0) {
-            return; // a folder that cannot be written: whoever needs to write there says so
+            return;
         }
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             ::close(descriptor_);

@@ -102,6 +102,26 @@ void SpectrumFile::Open::bring_to_disk() const
     }
 }
 
+namespace {
+
+/// Each write is handed to the system before it returns: a rank alone needs no MPI-IO for that,
+/// which would make and remove files of its own beside this one.
+Handle unbuffered_access(MPI_Comm communicator)
+{
+    Handle access = hdf5::file_access();
+    int ranks = 1;
+    MPI_Comm_size(communicator, &ranks);
+    if (ranks == 1) {
+        check(H5Pset_cache(access, 0, 0, 0, 0));
+        check(H5Pset_sieve_buf_size(access, 0));
+    } else {
+        check(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL));
+    }
+    return access;
+}
+
+} // namespace
+
 SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job,
                            Durability durability)
     : open_(std::make_unique<Open>())
@@ -116,9 +136,8 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     }
     try {
         hdf5::start();
-        const Handle through_mpi = hdf5::file_access();
-        check(H5Pset_fapl_mpio(through_mpi, communicator, MPI_INFO_NULL));
-        open_->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, through_mpi), H5Fclose);
+        open_->file =
+            Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, unbuffered_access(communicator)), H5Fclose);
         for (const Field field : job.fields) {
             open_->datasets.emplace_back(H5Dopen2(open_->file, name_of(field).data(), H5P_DEFAULT),
                                          H5Dclose);

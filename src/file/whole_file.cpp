@@ -12,7 +12,7 @@ using hdf5::Handle;
 
 void expect_room_for(const std::string& path, const char* kind)
 {
-    const PartFile in_its_folder(path); // which throws if there is none, or none to write in
+    static_cast<void>(PartFile(path)); // which throws if there is no folder, or none to write in
     if (!std::filesystem::exists(path)) {
         return;
     }

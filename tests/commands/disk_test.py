@@ -153,7 +153,7 @@ class AFullDisk(Scratch):
         result = self.on_small_disk(
             "mount -o remount,size=64m $DISK; cp unfinished.h5 $DISK/out.h5;"
             "mount -o remount,ro $DISK; $OVERTURN run small.toml -o $DISK/out.h5")
-        self.assert_exit(result, 74, "cannot open", "for writing: read-only file system")
+        self.assert_exit(result, 74, "not writable: read-only file system")
 
 
 class AFileThatChanges(Scratch):

@@ -1,8 +1,12 @@
 """What overturn refuses, with which words and exit code; and what it teaches."""
 
+import os
+import subprocess
 import unittest
 
-from program import JOB, SMALL, Scratch, checksum
+from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum
+
+A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7"]
 
 
 class TheCommandLine(Scratch):
@@ -88,6 +92,66 @@ class ABadOutput(Scratch):
             (self.folder / name).rmdir()
         (self.folder / "small.toml").rename(self.folder / "job.json")
         self.assert_refused(74, ["job.json", "Move it away"], "run", "job.json", "-o", "job")
+
+    def test_what_has_the_name_of_a_file_that_it_needs_for_a_while_stays(self):
+        for name in ("out.h5.part", "out.h5.json.part", "out.h5.lock"):
+            for content in ("not to be lost", ""):
+                (self.folder / name).write_text(content)
+                self.assert_refused(74, [name, "Move it away"], "run", "small.toml", "-o", "out.h5")
+                self.assertEqual((self.folder / name).read_text(), content)
+            if "json" not in name:
+                self.assert_refused(74, [name, "Move it away"], *A_HISTORY, "-o", "out.h5")
+            (self.folder / name).unlink()
+
+    def test_files_of_others_whose_names_mpi_would_use_stay(self):
+        names = [f"out.h5.{name}" for name in ("data.0", "data.1", "metadata.0", "metadata.1",
+                                               "locktest.0", "locktest.1", "lockedfile")]  # fmt: skip
+        for name in names:
+            (self.folder / name).write_text("not to be lost")
+        for ranks in (None, 1, 2):
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5", ranks=ranks), 0)
+            for name in names:
+                self.assertEqual((self.folder / name).read_text(), "not to be lost", name)
+            (self.folder / "out.h5").unlink()
+
+    def test_a_link_to_nothing_is_refused(self):
+        for name in ("out.h5", "out.h5.json", "out.h5.lock"):
+            (self.folder / name).symlink_to("nowhere")
+            self.assert_refused(74, [name], "run", "small.toml", "-o", "out.h5")
+            if name == "out.h5":
+                self.assert_refused(74, [name], *A_HISTORY, "-o", "out.h5")
+            self.assertTrue((self.folder / name).is_symlink())
+            (self.folder / name).unlink()
+
+    def test_a_lock_that_cannot_be_opened_is_refused(self):
+        lock = self.folder / "out.h5.lock"
+        with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
+                              env=ENVIRONMENT, stdout=subprocess.PIPE, text=True) as run:
+            run.stdout.readline()
+            run.kill()
+        lock.chmod(lock.stat().st_mode & ~0o777)  # as another user's may be
+        if os.geteuid() == 0:  # who may open all
+            without = ["setpriv", "--bounding-set=-dac_override,-dac_read_search",
+                       "--inh-caps=-dac_override,-dac_read_search"]  # fmt: skip
+            if subprocess.run([*without, "true"], capture_output=True).returncode:
+                self.skipTest("privileges cannot be dropped here")
+        else:
+            without = []
+        result = subprocess.run([*without, OVERTURN, "run", "long.toml", "-o", "out.h5"],
+                                cwd=self.folder, env=ENVIRONMENT, timeout=PATIENCE,
+                                capture_output=True, text=True)
+        self.assert_exit(result, 74, "cannot open the lock", "out.h5.lock\": permission denied")
+        self.assertTrue(lock.exists())
+
+    def test_a_path_of_any_length_serves_under_mpirun(self):
+        for length in (243, 244, 245, 246, 250, 600, 2000):
+            folder = self.folder
+            while len(str(folder)) < length - 120:
+                folder = folder / ("x" * 100)
+            folder.mkdir(parents=True, exist_ok=True)
+            output = folder / ("y" * (length - len(str(folder)) - 1))
+            self.assertEqual(len(str(output)), length)
+            self.assert_exit(self.overturn("run", "small.toml", "-o", output, ranks=2), 0)
 
     def test_a_name_too_long_for_the_files_beside_it_is_refused_at_once(self):
         refused = 0

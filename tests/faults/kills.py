@@ -36,8 +36,8 @@ JOB = f"""
 pulse = "one_sine"
 theory = "nonlinear"
 [plane]
-frequency = {{ first = 0.5, last = 8.0, count = 250 }}
-amplitude = {{ first = 0.5, last = 12.0, count = 320 }}
+frequency = {{ first = 0.5, last = 8.0, count = 320 }}
+amplitude = {{ first = 0.5, last = 12.0, count = 250 }}
 restitution = {{ values = [0.7, 0.85, 1.0], of = "maximum" }}
 slenderness = {{ values = [0.1745716] }}
 [numerics]
@@ -67,7 +67,8 @@ class Runs:
         with h5py.File(self.folder / "whole.h5") as file:
             self.values = {name: file[name][0] for name in FIELDS}
             self.tiles = len(file["checksum"])
-        # Each tile takes a write per field and one for its checksum; the others make the file.
+        # Each tile is of whole rows of its chunk, and takes a write per field and one for its
+        # checksum; the others make the file.
         self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
         self.writes = self.count_writes()
 

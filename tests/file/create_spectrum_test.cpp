@@ -112,14 +112,36 @@ TEST(CreateSpectrumFile, LeavesNothingElseInTheFolder)
     EXPECT_THAT(names, ElementsAre("a.h5"));
 }
 
-TEST(CreateSpectrumFile, TakesThePlaceOfAPartLeftByAKilledRun)
+TEST(CreateSpectrumFile, RemovesNoPartThatItDidNotMake)
 {
     const ScratchFolder folder;
-    write_bytes(folder / "a.h5.part", "half a file");
+    write_bytes(folder / "a.h5.part", "somebody else's");
+    const Job job = sample_job();
+    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); }),
+                HasSubstr("a.h5.part\" exists, was not made by overturn"));
+    EXPECT_EQ(bytes_of(folder / "a.h5.part"), "somebody else's");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
+}
+
+TEST(CreateSpectrumFile, LeavesALinkToNothingAsItIs)
+{
+    const ScratchFolder folder;
+    std::filesystem::create_symlink("nowhere", folder / "a.h5");
+    const Job job = sample_job();
+    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); }),
+                HasSubstr("a link to a file that does not exist"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.h5"));
+}
+
+// As overturn's own files, a result bears no mark of a file that exists for a while.
+TEST(CreateSpectrumFile, GivesTheFileUsualPermissions)
+{
+    const ScratchFolder folder;
     const Job job = sample_job();
     create_spectrum_file(folder / "a.h5", job, sample_tiling(job));
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
-    EXPECT_EQ(examine(folder / "a.h5", job, sample_tiling(job)), Existing::unfinished);
+    write_bytes(folder / "usual", "");
+    EXPECT_EQ(std::filesystem::status(folder / "a.h5").permissions(),
+              std::filesystem::status(folder / "usual").permissions());
 }
 
 TEST(CreateSpectrumFile, NamesAMissingFolder)
