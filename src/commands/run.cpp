@@ -188,7 +188,11 @@ int compute_what_is_missing(const Task& task)
     const std::vector<std::string> hosts = task.session.host_names();
     std::vector<std::int64_t> missing;
     if (task.leads()) {
-        file.forget(task.damaged);
+        for (const std::int64_t number : task.damaged) {
+            if (!StopSignals::requested()) {
+                file.forget(task.tiling[number]);
+            }
+        }
         missing = file.missing_tiles();
         say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
     }

@@ -174,15 +174,17 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
     }
 }
 
-void SpectrumFile::forget(const std::vector<std::int64_t>& tiles)
+void SpectrumFile::forget(const Tile& tile)
 {
     try {
-        for (const std::int64_t tile : tiles) {
-            write_checksum(open_->checksums, tile, not_computed_checksum);
+        for (std::size_t i = 0; i < open_->fields.size(); ++i) {
+            const Field field = open_->fields[i];
+            write_tile(open_->datasets[i], tile, field, not_computed(field, tile.points()));
         }
+        write_checksum(open_->checksums, tile.number, not_computed_checksum);
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("cannot mark the damaged tiles of \"{}\": {}.", open_->path, error.what()));
+        throw FileError(fmt::format("cannot clear the damaged tile {} of \"{}\": {}.", tile.number,
+                                    open_->path, error.what()));
     }
 }
 

@@ -19,11 +19,16 @@ Extents extents_of(const Tile& tile)
     return {1, 1, hsize_t(tile.amplitude_count), hsize_t(tile.frequency_count)};
 }
 
+Extents begin_of(const Tile& tile)
+{
+    return {hsize_t(tile.slenderness), hsize_t(tile.restitution), hsize_t(tile.amplitude_begin),
+            hsize_t(tile.frequency_begin)};
+}
+
 /// Where a tile lies in a dataset of four dimensions.
 Handle selection(hid_t dataset, const Tile& tile)
 {
-    const Extents begin{hsize_t(tile.slenderness), hsize_t(tile.restitution),
-                        hsize_t(tile.amplitude_begin), hsize_t(tile.frequency_begin)};
+    const Extents begin = begin_of(tile);
     const Extents count = extents_of(tile);
     Handle space(H5Dget_space(dataset), H5Sclose);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr));
@@ -39,6 +44,14 @@ Handle in_memory(const Tile& tile)
 }
 
 } // namespace
+
+FieldValues not_computed(Field field, std::int64_t points)
+{
+    const auto stored = layout::stored_as(field);
+    return std::visit(
+        [&](auto value) { return FieldValues(std::vector(std::size_t(points), value)); },
+        stored.fill);
+}
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {

@@ -11,6 +11,9 @@
 
 namespace overturn {
 
+/// What stands where nothing is computed yet.
+FieldValues not_computed(Field field, std::int64_t points);
+
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
 

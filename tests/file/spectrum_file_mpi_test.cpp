@@ -138,6 +138,20 @@ TEST_F(SpectrumFileOnRanks, HoldsValuesThatMatchTheirChecksums)
     EXPECT_THAT(damaged_tiles(folder / "a.h5"), IsEmpty());
 }
 
+TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileOnceAllTilesAreForgotten)
+{
+    create(folder / "new.h5");
+    bytes_from_one_rank(folder / "a.h5");
+    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+    if (rank == ranks - 1) {
+        for (const std::int64_t number : all_tiles()) {
+            file.forget(tiling[number]);
+        }
+    }
+    file.close();
+    EXPECT_TRUE(bytes_of(folder / "a.h5") == bytes_of(folder / "new.h5"));
+}
+
 TEST_F(SpectrumFileOnRanks, CannotBeOpenedWhereItIsNot)
 {
     try {

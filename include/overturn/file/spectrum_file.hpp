@@ -60,8 +60,8 @@ public:
     /// Numbers of the tiles that are not computed yet, ascending. For any rank.
     std::vector<std::int64_t> missing_tiles();
 
-    /// Marks these tiles as not computed. For one rank.
-    void forget(const std::vector<std::int64_t>& tiles);
+    /// Makes a damaged tile one that is not computed, its values first. For one rank.
+    void forget(const Tile& tile);
 
     /// Stores a tile, its checksum last. Each rank at its own time.
     void write(const Tile& tile, const TileFields& fields);
