@@ -1,5 +1,5 @@
 // What accuracy costs in time, on the plane of a job.
-#include "apart.hpp"
+#include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 
@@ -82,10 +82,8 @@ int accuracy(const AccuracyOptions& options)
     const Kernel kernel = widest_kernel();
     const Job job = read_job(options.job.path, options.job.overrides);
     const SoleWriter sole_writer(options.output);
-    const int refusal = read_apart(options.output, [&] {
-        expect_room_for_accuracy_file(options.output);
-        return exit_code::complete;
-    });
+    const int refusal =
+        run_in_child(options.output, [&] { expect_room_for_accuracy_file(options.output); });
     if (refusal != exit_code::complete) {
         return refusal;
     }

@@ -123,8 +123,6 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
                     "Lanes to compute with; changes the speed, but no byte of the result")
         ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
         ->capture_default_str();
-    command.add_flag("--make-only", options.make_only)
-        ->group(""); // what a run asks of another process
     command.add_flag("--durable", options.durable,
                      "Bring each tile to the disk before it counts as done, so that it outlasts a "
                      "loss of power; slower");
@@ -143,7 +141,7 @@ struct Arguments {
     AccuracyOptions accuracy;
     HistoryOptions history;
     std::string info;
-    VerifyOptions verify;
+    std::string verify;
 };
 
 } // namespace
@@ -220,9 +218,7 @@ Command read_command_line(int argc, const char* const* argv)
     CLI::App* const verify_command =
         app.add_subcommand("verify", "Tell whether a result file is as it was written");
     verify_command->footer(verify_help);
-    verify_command->add_option("FILE", arguments->verify.file, "The result file")->required();
-    verify_command->add_flag("--numbers", arguments->verify.numbers,
-                             "Print the numbers of the damaged tiles, one per line");
+    verify_command->add_option("FILE", arguments->verify, "The result file")->required();
 
     // For the build, which installs what they print; --help does not tell of them.
     const std::string_view only = argc == 2 ? argv[1] : "";
@@ -250,12 +246,10 @@ Command read_command_line(int argc, const char* const* argv)
         throw UsageError(fmt::format("{}\nRun with --help for more information.", error.what()));
     }
     if (run_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->run); },
-                .on_every_rank = !arguments->run.make_only};
+        return {.execute = [arguments] { return run(arguments->run); }, .on_every_rank = true};
     }
     if (boundary_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->boundary); },
-                .on_every_rank = !arguments->boundary.make_only};
+        return {.execute = [arguments] { return run(arguments->boundary); }, .on_every_rank = true};
     }
     if (check_command->parsed()) {
         return {.execute = [arguments] { return check(arguments->check); }};

@@ -17,10 +17,9 @@ struct RunOptions {
     JobSource job;
     std::string output; ///< path of the result file; empty: the job's name in the working directory
     std::string kernel = "auto";
-    bool durable = false;   ///< tiles outlast a loss of power
-    int patience = 300;     ///< with a rank of which nothing is heard [s]
-    bool boundary = false;  ///< where verdicts flip, instead of a spectrum
-    bool make_only = false; ///< makes the result file, and computes nothing
+    bool durable = false;  ///< tiles outlast a loss of power
+    int patience = 300;    ///< with a rank of which nothing is heard [s]
+    bool boundary = false; ///< where verdicts flip, instead of a spectrum
 };
 int run(const RunOptions& options);
 
@@ -50,10 +49,6 @@ int history(const HistoryOptions& options);
 int info(const std::string& path);
 
 /// Reads all values of a result file, and tells which tiles are not as they were written.
-struct VerifyOptions {
-    std::string file;
-    bool numbers = false; ///< prints those of the damaged tiles, one per line, and nothing else
-};
-int verify(const VerifyOptions& options);
+int verify(const std::string& path);
 
 } // namespace overturn

@@ -39,9 +39,6 @@ std::string bash_completion(const CLI::App& app)
     for (const CLI::App* command : app.get_subcommands({})) {
         std::string words, ending;
         for (const CLI::Option* option : command->get_options()) {
-            if (option->get_group().empty()) { // of use to overturn alone
-                continue;
-            }
             const std::string names = option->get_name(false, true); // "-o,--output"
             const std::string type = option->get_type_name();
             if (option->get_positional()) {

@@ -33,7 +33,7 @@ int exit_code_of(const std::exception& error)
     if (is<FileError>(error)) {
         return exit_code::output;
     }
-    return exit_code::internal;
+    return is<Stopped>(error) ? exit_code::stopped : exit_code::internal;
 }
 
 std::string message_of(const std::exception& error)

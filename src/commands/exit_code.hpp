@@ -22,6 +22,16 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// A signal has stopped the run, which can be resumed.
+class Stopped : public std::runtime_error {
+public:
+    /// `when` follows "stopped by a signal".
+    explicit Stopped(const std::string& when)
+        : std::runtime_error("stopped by a signal" + when +
+                             ". Run the same command again to resume.")
+    {}
+};
+
 int exit_code_of(const std::exception& error);
 
 /// What to print of it: on one line, and safe on a terminal.

@@ -1,5 +1,5 @@
 // One point in full: the forced stage, then the analytical free stage.
-#include "apart.hpp"
+#include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "print_row.hpp"
@@ -102,10 +102,8 @@ int history(const HistoryOptions& options)
 {
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
-    const int refusal = read_apart(options.output, [&] {
-        expect_room_for_history_file(options.output);
-        return exit_code::complete;
-    });
+    const int refusal =
+        run_in_child(options.output, [&] { expect_room_for_history_file(options.output); });
     if (refusal != exit_code::complete) {
         return refusal;
     }

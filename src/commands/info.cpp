@@ -1,7 +1,6 @@
 // What a result file holds, and how to go on with it if it is unfinished.
-#include "apart.hpp"
+#include "child_process.hpp"
 #include "commands.hpp"
-#include "exit_code.hpp"
 #include "print_row.hpp"
 #include "printable.hpp"
 
@@ -24,7 +23,7 @@ std::string axis_text(const AxisSummary& axis)
     return fmt::format("{} values from {} to {}{}", axis.size, axis.first, axis.last, unit);
 }
 
-int print_what_it_holds(const std::string& path)
+void print_what_it_holds(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
     const std::vector<std::string> damaged = damaged_coordinates(path);
@@ -54,14 +53,13 @@ int print_what_it_holds(const std::string& path)
                                             is_boundary ? "boundary" : "run", path));
     }
     fmt::print("\nThe job as resolved:\n\n{}", printable(summary.resolved_job));
-    return exit_code::complete;
 }
 
 } // namespace
 
 int info(const std::string& path)
 {
-    return read_apart(path, [&] { return print_what_it_holds(path); });
+    return run_in_child(path, [&] { print_what_it_holds(path); });
 }
 
 } // namespace overturn

@@ -130,16 +130,10 @@ std::string heading_of(const CLI::Option& option)
     return names + " " + italic(type.substr(type.find(':') + 1));
 }
 
-/// What is of use to overturn alone is in no group.
-bool is_shown(const CLI::Option* option)
-{
-    return !option->get_group().empty();
-}
-
 std::string options_of(const CLI::App& command)
 {
     std::string result;
-    for (const CLI::Option* option : command.get_options(is_shown)) {
+    for (const CLI::Option* option : command.get_options()) {
         const std::string& standard = option->get_default_str();
         result +=
             fmt::format(".TP\n{}\n{}{}.\n", heading_of(*option), escaped(option->get_description()),

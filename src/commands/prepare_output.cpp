@@ -1,6 +1,6 @@
 #include "prepare_output.hpp"
 
-#include "apart.hpp"
+#include "child_process.hpp"
 #include "exit_code.hpp"
 #include "say.hpp"
 
@@ -8,140 +8,85 @@
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/spectrum_summary.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
 #include <filesystem>
-#include <optional>
-#include <sstream>
 
 namespace overturn {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr const char* before_anything = " before anything was computed";
 
-/// A file of this size is made in a second or less [bytes].
-constexpr long double quickly_made = 1e8L;
-
-Prepared stopped_before(const char* what)
+void expect_no_stop(const char* when)
 {
-    say_stopped(fmt::format(" before {}", what));
-    return {.verdict = exit_code::stopped, .damaged = {}};
+    if (StopSignals::requested()) {
+        throw Stopped(when);
+    }
 }
 
-/// False if it is asked to stop meanwhile. Throws FileError if the file, which may have been
-/// damaged or made for that, does harm to whoever reads it.
-bool is_readable(const std::string& path)
-{
-    const Answer answer = ask_overturn({"info", "--", path}, StopSignals::requested);
-    if (answer.exit_code != exit_code::complete && answer.exit_code != exit_code::stopped) {
-        throw FileError(answer.complaint + " Choose another name with -o.");
-    }
-    return answer.exit_code == exit_code::complete;
-}
-
-/// Reads all that is done: a machine that lost its power may have kept the mark and lost the
-/// values. Nothing if it is asked to stop meanwhile.
-std::optional<std::vector<std::int64_t>> find_damaged_tiles(const std::string& path)
-{
-    const auto start = Clock::now();
-    bool told = false;
-    const Answer answer = ask_overturn({"verify", "--numbers", "--", path}, [&] {
-        if (!told && Clock::now() - start > std::chrono::seconds(2)) {
-            say(path + ": looking whether what is done is as it was written");
-            told = true;
-        }
-        return StopSignals::requested();
-    });
-    if (answer.exit_code == exit_code::stopped) {
-        return std::nullopt;
-    }
-    std::vector<std::int64_t> damaged;
-    std::istringstream lines(answer.output);
-    for (std::int64_t number = 0; lines >> number;) {
-        damaged.push_back(number);
-    }
-    if (answer.exit_code != exit_code::complete && damaged.empty()) {
-        throw FileError(answer.complaint);
-    }
-    return damaged;
-}
-
-/// In a process of its own if it takes long: neither HDF5 nor a disk that is to take gigabytes at
-/// once can be interrupted. False if it is asked to stop meanwhile.
-bool make_file(const Job& job, const RunOptions& options, const std::string& path)
+void make_file(const Job& job, const std::string& path)
 {
     const Tiling tiling = tiling_of(job);
     const long double bytes = spectrum_file_bytes(job, tiling);
-    if (bytes <= quickly_made) {
-        create_spectrum_file(path, job, tiling);
-        return true;
+    constexpr long double made_at_once = 1e8L;
+    if (bytes > made_at_once) {
+        say(fmt::format("{}: making a file of {}", path, human_bytes(double(bytes))));
     }
-    say(fmt::format("{}: making a file of {}", path, human_bytes(double(bytes))));
-    std::vector<std::string> arguments{job.product == Product::boundary ? "boundary" : "run",
-                                       "--make-only", "--output=" + path};
-    for (const std::string& setting : options.job.overrides) {
-        arguments.push_back("--set=" + setting);
-    }
-    arguments.insert(arguments.end(), {"--", "/dev/stdin"}); // a job may come from a pipe
-    const Answer answer = ask_overturn(arguments, StopSignals::requested, job.given);
-    if (answer.exit_code == exit_code::complete) {
-        return true;
-    }
-    remove_half_made_file(path);
-    if (answer.exit_code != exit_code::stopped) {
-        throw FileError(answer.complaint);
-    }
-    return false;
+    create_spectrum_file(path, job, tiling, [] { expect_no_stop(" before the file was made"); });
+}
+
+/// Reads all that is done: a machine that lost its power may have kept the mark and lost the
+/// values.
+std::vector<std::int64_t> find_damaged_tiles(const std::string& path)
+{
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    bool told = false;
+    return damaged_tiles(path, [&] {
+        if (!told && Clock::now() - start > std::chrono::seconds(2)) {
+            say(path + ": checking whether what is done is as it was written");
+            told = true;
+        }
+        expect_no_stop(before_anything);
+    });
 }
 
 } // namespace
 
-Job read_job_of(const RunOptions& options)
-{
-    Job job = read_job(options.job.path, options.job.overrides);
-    return options.boundary ? boundary_of(std::move(job)) : job;
-}
-
-Prepared prepare_output(const Job& job, const RunOptions& options, const std::string& path)
+int examine_in_child(const Job& job, const std::string& path)
 {
     std::error_code said_by_examine;
-    if (std::filesystem::exists(path, said_by_examine) && !is_readable(path)) {
-        return stopped_before("anything was computed");
+    if (!std::filesystem::exists(path, said_by_examine)) {
+        return exit_code::complete;
     }
-    const Existing existing = examine(path, job, tiling_of(job));
-    if (existing == Existing::nothing) {
-        demand_place_for_sidecar(path);
-        return make_file(job, options, path) ? Prepared{} : stopped_before("the file was made");
+    const int code = run_in_child(
+        path, [&] { examine(path, job, tiling_of(job)); }, StopSignals::requested);
+    if (code == exit_code::stopped) {
+        throw Stopped(before_anything);
     }
-    const auto damaged = find_damaged_tiles(path);
-    if (!damaged) {
-        return stopped_before("anything was computed");
-    }
-    Prepared prepared{.verdict = go_on, .damaged = *damaged};
-    if (existing == Existing::complete && prepared.damaged.empty()) {
-        say(path + " is complete already.");
-        prepared.verdict = exit_code::complete;
-    } else {
-        demand_place_for_sidecar(path);
-    }
-    return prepared;
+    return code;
 }
 
-int make_output(const RunOptions& options)
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path)
 {
-    end_with_parent();
-    std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
-    const Job job = read_job_of(options);
-    std::error_code said_when_it_is_made;
-    if (std::filesystem::exists(options.output, said_when_it_is_made)) {
-        throw FileError(fmt::format("\"{}\" exists.", options.output));
+    const Existing existing = examine(path, job, tiling_of(job));
+    std::vector<std::int64_t> damaged;
+    if (existing != Existing::nothing) {
+        damaged = find_damaged_tiles(path);
     }
-    create_spectrum_file(options.output, job, tiling_of(job));
-    return exit_code::complete;
+    if (existing == Existing::complete && damaged.empty()) {
+        say(path + " is complete already.");
+        return std::nullopt;
+    }
+    demand_place_for_sidecar(path);
+    if (existing == Existing::nothing) {
+        make_file(job, path);
+    }
+    return damaged;
 }
 
 } // namespace overturn

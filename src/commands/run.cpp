@@ -30,6 +30,8 @@ namespace {
 
 using Clock = std::chrono::system_clock; // the record tells the date
 
+constexpr int go_on = -1; ///< there is something to compute; no exit code
+
 /// All that a rank needs to know to take part.
 struct Task {
     const MpiSession& session;
@@ -62,6 +64,12 @@ std::string output_path(const RunOptions& options)
     }
     return std::filesystem::path(options.job.path).stem().string() +
            (options.boundary ? "_boundary.h5" : ".h5");
+}
+
+Job read_job_of(const RunOptions& options)
+{
+    Job job = read_job(options.job.path, options.job.overrides);
+    return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
 Kernel kernel_of(const RunOptions& options)
@@ -204,9 +212,9 @@ int compute_what_is_missing(const Task& task)
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (report.stopped) {
-            say_stopped(fmt::format("; {} of {} tiles are missing",
-                                    std::int64_t(missing.size()) - report.tiles,
-                                    task.tiling.size()));
+            complain(Stopped(fmt::format("; {} of {} tiles are missing",
+                                         std::int64_t(missing.size()) - report.tiles,
+                                         task.tiling.size())));
         }
     }
     return report.stopped ? exit_code::stopped : exit_code::complete;
@@ -216,45 +224,57 @@ int compute_what_is_missing(const Task& task)
 
 int run(const RunOptions& options)
 {
-    if (options.make_only) {
-        return make_output(options);
-    }
     const auto start = Clock::now();
     const StopSignals signals;
-    start_hdf5();
-    const MpiSession session;
     std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
     std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more ends no run
     const std::string path = output_path(options);
-    Job job;
-
-    // Rank 0 looks first. What it finds wrong is said once, and all ranks leave with it; what goes
-    // wrong on a single rank after that stops the others.
+    std::optional<Job> job;
     std::optional<SoleWriter> sole_writer;
-    Prepared prepared;
-    if (session.rank() == 0) {
+    std::optional<std::vector<std::int64_t>> damaged;
+    int verdict = exit_code::complete;
+
+    // What rank 0 finds wrong is said once, and all ranks leave with it; what goes wrong on a
+    // single rank after that stops the others.
+    const auto complain_if_it_fails = [&](const auto& action) {
         try {
+            action();
+        } catch (const std::exception& error) {
+            verdict = complain(error);
+        }
+    };
+    if (launched_rank() == 0) {
+        complain_if_it_fails([&] {
             kernel_of(options); // throws if it does not run here
             job = read_job_of(options);
-            sole_writer.emplace(path);
-            prepared = prepare_output(job, options, path);
-        } catch (const std::exception& error) {
-            prepared.verdict = complain(error);
-        }
+            verdict = examine_in_child(*job, path);
+        });
     }
-    const int verdict = session.from_rank_0(prepared.verdict);
+    start_hdf5();
+    const MpiSession session;
+    if (session.rank() == 0 && verdict == exit_code::complete) {
+        complain_if_it_fails([&] {
+            if (!job) { // the launcher tells no ranks, or other ones
+                job = read_job_of(options);
+            }
+            sole_writer.emplace(path);
+            damaged = prepare_output(*job, path);
+        });
+    }
+    verdict = session.from_rank_0(damaged ? go_on : verdict);
     if (verdict != go_on) {
         return verdict;
     }
     try {
-        if (session.rank() != 0) {
+        if (!job) {
             job = read_job_of(options);
         }
-        if (session.from_rank_0(job.resolved) != job.resolved) {
+        if (session.from_rank_0(job->resolved) != job->resolved) {
             throw JobError(options.job.path + " is another job here than on rank 0.");
         }
-        return compute_what_is_missing({session, job, tiling_of(job), path, options,
-                                        kernel_of(options), start, prepared.damaged});
+        return compute_what_is_missing({session, *job, tiling_of(*job), path, options,
+                                        kernel_of(options), start,
+                                        damaged.value_or(std::vector<std::int64_t>())});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

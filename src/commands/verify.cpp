@@ -1,7 +1,6 @@
 // Whether a result file is as it was written.
-#include "apart.hpp"
+#include "child_process.hpp"
 #include "commands.hpp"
-#include "exit_code.hpp"
 
 #include "overturn/file/spectrum_summary.hpp"
 
@@ -33,15 +32,11 @@ void expect_coordinates_of_its_job(const std::string& path)
     }
 }
 
-int print_whether_it_is_whole(const VerifyOptions& options)
+void print_whether_it_is_whole(const std::string& path)
 {
-    const std::string& path = options.file;
     const SpectrumSummary summary = summarize(path);
     expect_coordinates_of_its_job(path);
     const std::vector<std::int64_t> damaged = damaged_tiles(path);
-    if (options.numbers) {
-        fmt::print("{}{}", fmt::join(damaged, "\n"), damaged.empty() ? "" : "\n");
-    }
     if (!damaged.empty()) {
         throw FileError(fmt::format(
             "\"{}\" is damaged: {} of {} tiles are not as they were written, by number {}. To "
@@ -50,18 +45,15 @@ int print_whether_it_is_whole(const VerifyOptions& options)
             path, damaged.size(), summary.tiles_done, list_text(damaged),
             summary.product == Product::boundary ? "boundary" : "run", path));
     }
-    if (!options.numbers) {
-        fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
-                   summary.tiles_done, summary.tiles);
-    }
-    return exit_code::complete;
+    fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
+               summary.tiles_done, summary.tiles);
 }
 
 } // namespace
 
-int verify(const VerifyOptions& options)
+int verify(const std::string& path)
 {
-    return read_apart(options.file, [&] { return print_whether_it_is_whole(options); });
+    return run_in_child(path, [&] { print_whether_it_is_whole(path); });
 }
 
 } // namespace overturn

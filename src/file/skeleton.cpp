@@ -7,12 +7,18 @@
 #include "layout.hpp"
 #include "netcdf.hpp"
 #include "part_file.hpp"
+#include "sync.hpp"
+#include "system_reason.hpp"
+#include "tile_access.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
+
+#include <algorithm>
+#include <cerrno>
 
 namespace overturn {
 
@@ -50,9 +56,27 @@ std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
     return names;
 }
 
-/// Allocates and fills every chunk at once: all that a run does later is to overwrite values.
-void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
-               const std::string& coordinates)
+/// Writes fill values to every chunk: all that a run does later is to overwrite them.
+void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& path,
+          const BetweenTiles& between_tiles)
+{
+    // What the system has not yet brought to the disk stays little: no wait for it takes long.
+    constexpr std::int64_t most_in_memory = 1 << 25; // [bytes]
+    const std::int64_t points = tiling.amplitude_extent() * tiling.frequency_extent();
+    const std::int64_t bytes = points * std::int64_t(bytes_per_point(field));
+    const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
+    const FieldValues values = not_computed(field, points);
+    for (std::int64_t number = 0; number < tiling.size(); ++number) {
+        between_tiles();
+        write_chunk(dataset, tiling[number], values);
+        if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
+            throw hdf5::Hdf5Error(system_reason(errno));
+        }
+    }
+}
+
+Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
+                 const std::string& coordinates)
 {
     const Plane& plane = job.plane;
     const layout::StoredAs stored = layout::stored_as(field);
@@ -62,14 +86,12 @@ void add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
 
     const Handle creation = dataset_creation();
     check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
-    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
-    check(H5Pset_fill_time(creation, H5D_FILL_TIME_ALLOC));
     std::visit([&](auto fill) { check(H5Pset_fill_value(creation, stored.memory, &fill)); },
                stored.fill);
-    const Handle dataset =
-        create_dataset(file, name_of(field).data(), stored.file, shape, creation);
+    Handle dataset = create_dataset(file, name_of(field).data(), stored.file, shape, creation);
     attach_dimensions(file, dataset, layout::dimensions_of(job.product));
     write_field_attributes(dataset, field, coordinates);
+    return dataset;
 }
 
 void add_checksums(hid_t file, const Tiling& tiling)
@@ -91,7 +113,8 @@ void add_checksums(hid_t file, const Tiling& tiling)
     write_attribute(dataset, layout::frequency_extent, tiling.frequency_extent());
 }
 
-void write_skeleton(const std::string& path, const Job& job, const Tiling& tiling)
+void write_skeleton(const std::string& path, const Job& job, const Tiling& tiling,
+                    const BetweenTiles& between_tiles)
 {
     Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
                 H5Fclose);
@@ -107,7 +130,8 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
     write_attribute(restitution, "of", name_of(job.plane.restitution_of));
     add_bare_dimension(file, layout::tile, tiling.size());
     for (const Field field : job.fields) {
-        add_field(file, field, job, tiling, names_of_auxiliary(coordinates));
+        fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates)), field, tiling,
+             path, between_tiles);
     }
     add_checksums(file, tiling);
     add_job(file, job);
@@ -116,12 +140,8 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
 
 } // namespace
 
-void remove_half_made_file(const std::string& path)
-{
-    const PartFile removed(path);
-}
-
-void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling)
+void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling,
+                          const BetweenTiles& between_tiles)
 {
     PartFile part(path);
     const long double needed = spectrum_file_bytes(job, tiling);
@@ -135,7 +155,7 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
     }
     try {
         hdf5::start();
-        write_skeleton(part.path(), job, tiling);
+        write_skeleton(part.path(), job, tiling, between_tiles);
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
             fmt::format("cannot create \"{}\" of {:.0f} bytes: {}. Choose another name with "

@@ -81,6 +81,24 @@ bool is_stored(hid_t dataset, hsize_t bytes)
     return H5Dget_storage_size(dataset) >= bytes;
 }
 
+/// Whether all values are stored. Reads the whole index of chunks as well, so that a damaged one
+/// shows, or crashes HDF5, before anything else is done with the file.
+bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t bytes_per_value)
+{
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    hsize_t expected = bytes_per_value;
+    std::vector<hsize_t> chunk(shape.size(), 1);
+    if (H5Pget_layout(creation) == H5D_CHUNKED) {
+        check(H5Pget_chunk(creation, int(chunk.size()), chunk.data()));
+    }
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        demand(chunk[i] >= 1, "a field has empty chunks");
+        expected *= (shape[i] + chunk[i] - 1) / chunk[i] * chunk[i];
+    }
+    const bool is_compressed = check(H5Pget_nfilters(creation)) > 0;
+    return H5Dget_storage_size(dataset) == expected || is_compressed;
+}
+
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
     const Handle dataset = open_dataset(file, name);
@@ -138,6 +156,8 @@ void check_field(const StoredSpectrum& spectrum, Field field)
         demand(shape[i] <= room, "a field is larger than the file");
         room /= shape[i];
     }
+    demand(is_stored_as_a_whole(dataset, shape, bytes_per_point(field)),
+           "values of a field are missing");
 }
 
 void read_checksums_of_tiles(StoredSpectrum& spectrum)

@@ -50,7 +50,8 @@ std::vector<std::string> damaged_coordinates(const std::string& path)
     }
 }
 
-std::vector<std::int64_t> damaged_tiles(const std::string& path)
+std::vector<std::int64_t> damaged_tiles(const std::string& path,
+                                        const std::function<void()>& between_tiles)
 {
     const StoredSpectrum stored = open_stored_spectrum(path);
     const Tiling tiling = stored.tiling();
@@ -62,6 +63,7 @@ std::vector<std::int64_t> damaged_tiles(const std::string& path)
         }
         std::vector<std::int64_t> damaged;
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            between_tiles();
             const std::uint64_t expected = stored.checksums[std::size_t(number)];
             if (expected == not_computed_checksum) {
                 continue;

@@ -53,6 +53,18 @@ FieldValues not_computed(Field field, std::int64_t points)
         stored.fill);
 }
 
+void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values)
+{
+    constexpr std::uint32_t no_filter_skipped = 0;
+    const Extents begin = begin_of(tile);
+    std::visit(
+        [&](const auto& list) {
+            check(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter_skipped, begin.data(),
+                                 list.size() * sizeof(list[0]), list.data()));
+        },
+        values);
+}
+
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {
     const Handle place = selection(dataset, tile);

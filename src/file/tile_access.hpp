@@ -14,6 +14,9 @@ namespace overturn {
 /// What stands where nothing is computed yet.
 FieldValues not_computed(Field field, std::int64_t points);
 
+/// Writes all of a tile's chunk, for the first time. Not through MPI-IO.
+void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values);
+
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
 

@@ -3,23 +3,29 @@ FAULTY_DISK, the library of tests/faults, in the environment too."""
 
 import errno
 import os
+import pathlib
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, under_mpi, words
+from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, children_of, under_mpi, words
 
 FAULTY_DISK = os.environ["FAULTY_DISK"]
 AGAIN = "run the same command again to resume"
 
 
 class OnFaultyDisk(Scratch):
+    def settings_of(self, faults):
+        return {"LD_PRELOAD": FAULTY_DISK, "FAULTY_FILE": self.folder / "out.h5", **faults}
+
     def overturn_on_faulty_disk(self, *arguments, ranks=None, **faults):
         """Runs the program with the faults in the file out.h5."""
-        settings = {"LD_PRELOAD": FAULTY_DISK, "FAULTY_FILE": self.folder / "out.h5", **faults}
+        settings = self.settings_of(faults)
         preload = "export " + " ".join(f"{name}={value}" for name, value in settings.items())
         if ranks is None:
             return self.overturn(*arguments, shell_setup=preload)
@@ -156,6 +162,45 @@ class AFullDisk(Scratch):
         self.assert_exit(result, 74, "not writable: read-only file system")
 
 
+class ASlowDisk(OnFaultyDisk):
+    """One on which a complete file is read for seconds before a run knows that nothing is missing:
+    its metadata in a child, then again, then the values of all tiles."""
+
+    DELAYS = (0.2, 0.6, 1.2)  # of the signal [s]
+    COMMAND = [OVERTURN, "run", "small.toml", "-o", "out.h5"]
+
+    def setUp(self):
+        super().setUp()
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
+
+    def end_by(self, number, delay):
+        settings = {name: str(value) for name, value in self.settings_of({"READ_TAKES": 5}).items()}
+        with subprocess.Popen(self.COMMAND, cwd=self.folder, env=ENVIRONMENT | settings,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+            time.sleep(delay)
+            children = children_of(run.pid)
+            run.send_signal(number)
+            sent = time.monotonic()
+            code = run.wait(timeout=PATIENCE)
+            while any(pathlib.Path(f"/proc/{child}").exists() for child in children):
+                self.assertLess(time.monotonic() - sent, PATIENCE, "a child outlives its parent")
+                time.sleep(0.01)
+            return code, time.monotonic() - sent
+
+    def test_does_not_keep_a_killed_run_from_being_resumed(self):
+        for delay in self.DELAYS:
+            code, _ = self.end_by(signal.SIGKILL, delay)
+            self.assertEqual(code, -signal.SIGKILL)
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "complete already")
+            self.assertEqual(self.files(), ["long.toml", "out.h5", "out.h5.json", "small.toml"])
+
+    def test_does_not_keep_a_run_from_being_stopped(self):
+        for delay in self.DELAYS:
+            code, seconds = self.end_by(signal.SIGUSR1, delay)
+            self.assertEqual(code, 85)
+            self.assertLess(seconds, 2)
+
+
 class AFileThatChanges(Scratch):
     # Some ten seconds, of which none needs more than the first two.
     LONGER = JOB.format(columns=1200, rows=1200, restitutions="[0.7]", tolerance="1e-13")
@@ -238,8 +283,11 @@ class AnUnreadableFile(OnFaultyDisk):
                          "-o", "out.h5"]):  # fmt: skip
             result = self.overturn_on_faulty_disk(*command, CRASH_AT_READ=1)
             self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')
-        # Wherever it comes: all tiles, which are verified before a run goes on, take more reads.
-        for read, ranks in ((1, 2), (8, None), (16, None), (32, 2), (64, None), (128, None)):
+        # Wherever it comes: when the values of all tiles are verified, and for a run in the metadata.
+        for read in (32, 64, 128, 256):
+            result = self.overturn_on_faulty_disk("verify", "out.h5", CRASH_AT_READ=read)
+            self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')
+        for read, ranks in ((1, 2), (8, None), (16, None), (32, 2), (64, None)):
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   CRASH_AT_READ=read)
             self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')

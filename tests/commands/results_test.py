@@ -286,8 +286,11 @@ class AnInterruptedRun(Scratch):
                     text=True) as process:
                 self.addCleanup(process.kill)
                 self.assertIn("making a file of 1", process.stdout.readline())
+                time.sleep(0.5)  # of the second or two that it takes
                 process.send_signal(signal.SIGUSR1)
+                sent = time.monotonic()
                 output, _ = process.communicate(timeout=PATIENCE / 2)
+                self.assertLess(time.monotonic() - sent, 2)
             self.assertEqual(process.returncode, 85, output)
             self.assertIn("before the file was made", output)
             self.assertEqual(self.files(), before)

@@ -5,6 +5,7 @@
 //   FAIL_AT_WRITE=17       from the 17th write on all of them fail, with the error number ERROR
 //   FAIL_AT_SYNC=1         and so does bringing it to the disk
 //   CRASH_AT_READ=17       a crash at the 17th read of this process
+//   READ_TAKES=10          milliseconds of each read
 //   COUNT_WRITES_IN=PATH   at exit, the writes and how often the file was brought to the disk
 //   FAULTY_RANK=1          all this in this rank alone; without a launcher the rank is 0
 #include <cerrno>
@@ -81,11 +82,13 @@ ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
     return write_some(bytes);
 }
 
-void crash_if_asked(int descriptor)
+void begin_read(int descriptor)
 {
-    if (is_the_file(descriptor) && ++count.reads == number_from("CRASH_AT_READ", 0) &&
-        is_faulty_rank()) {
-        raise(SIGSEGV);
+    if (is_the_file(descriptor) && is_faulty_rank()) {
+        usleep(useconds_t(1000 * number_from("READ_TAKES", 0)));
+        if (++count.reads == number_from("CRASH_AT_READ", 0)) {
+            raise(SIGSEGV);
+        }
     }
 }
 
@@ -99,7 +102,7 @@ ssize_t write_at(int descriptor, const void* buffer, size_t bytes, off64_t offse
 ssize_t read_at(int descriptor, void* buffer, size_t bytes, off64_t offset)
 {
     static const auto real = original<ssize_t (*)(int, void*, size_t, off64_t)>("pread64");
-    crash_if_asked(descriptor);
+    begin_read(descriptor);
     return real(descriptor, buffer, bytes, offset);
 }
 
@@ -145,7 +148,7 @@ extern "C" ssize_t pread(int descriptor, void* buffer, size_t bytes, off_t offse
 extern "C" ssize_t read(int descriptor, void* buffer, size_t bytes)
 {
     static const auto real = original<ssize_t (*)(int, void*, size_t)>("read");
-    crash_if_asked(descriptor);
+    begin_read(descriptor);
     return real(descriptor, buffer, bytes);
 }
 

@@ -112,6 +112,25 @@ TEST(CreateSpectrumFile, LeavesNothingElseInTheFolder)
     EXPECT_THAT(names, ElementsAre("a.h5"));
 }
 
+TEST(CreateSpectrumFile, TakesThePlaceOfAPartLeftByAKilledRun)
+{
+    const ScratchFolder folder;
+    const Job job = sample_job();
+    // The part's name is linked to another one, which stays when the part is removed.
+    struct Killed {};
+    const auto link_and_stop = [&] {
+        std::filesystem::create_hard_link(folder / "a.h5.part", folder / "left");
+        throw Killed();
+    };
+    EXPECT_THROW(create_spectrum_file(folder / "a.h5", job, sample_tiling(job), link_and_stop),
+                 Killed);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
+    std::filesystem::rename(folder / "left", folder / "a.h5.part");
+    create_spectrum_file(folder / "a.h5", job, sample_tiling(job));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
+    EXPECT_EQ(examine(folder / "a.h5", job, sample_tiling(job)), Existing::unfinished);
+}
+
 TEST(CreateSpectrumFile, RemovesNoPartThatItDidNotMake)
 {
     const ScratchFolder folder;
@@ -131,6 +150,25 @@ TEST(CreateSpectrumFile, LeavesALinkToNothingAsItIs)
     EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); }),
                 HasSubstr("a link to a file that does not exist"));
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.h5"));
+}
+
+TEST(CreateSpectrumFile, CanBeEndedBetweenAnyTwoTilesAndLeavesNothingBehind)
+{
+    const ScratchFolder folder;
+    const Job job = sample_job();
+    const Tiling tiling = sample_tiling(job);
+    std::int64_t calls = 0;
+    create_spectrum_file(folder / "a.h5", job, tiling, [&] { ++calls; });
+    EXPECT_EQ(calls, tiling.size() * std::int64_t(job.fields.size()));
+    struct Stopped {};
+    const auto stop = [&] {
+        if (--calls == 7) {
+            throw Stopped();
+        }
+    };
+    EXPECT_THROW(create_spectrum_file(folder / "b.h5", job, tiling, stop), Stopped);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.h5"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.h5.part"));
 }
 
 // As overturn's own files, a result bears no mark of a file that exists for a while.

@@ -69,6 +69,19 @@ TEST_F(Summary, FindsTilesWithoutValuesUndamaged)
     EXPECT_THAT(damaged_tiles(path), IsEmpty());
 }
 
+TEST_F(Summary, IsEndedByWhatIsThrownBetweenTiles)
+{
+    struct Stopped {};
+    int calls = 0;
+    const auto stop = [&] {
+        if (++calls == 3) {
+            throw Stopped();
+        }
+    };
+    EXPECT_THROW(damaged_tiles(path, stop), Stopped);
+    EXPECT_EQ(calls, 3);
+}
+
 TEST_F(Summary, FindsTheTileInWhichOneBitHasFlipped)
 {
     // The angle at the last point of tile 5: a number that stands nowhere else in the file.

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,13 +33,15 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling);
 /// smaller. In floating point, which cannot overflow here.
 long double spectrum_file_bytes(const Job& job, const Tiling& tiling);
 
+/// Called between tiles; what it throws ends the work on all of them.
+using BetweenTiles = std::function<void()>;
+
 /// Makes the file of which no tile is computed yet, under a name of its own, and renames it into
 /// place when it is safe on the disk. For one rank alone. Throws FileError, and leaves nothing
 /// behind, if the folder is missing or not writable, or if the file does not fit.
-void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling);
-
-/// Removes what a create_spectrum_file() that was killed has left behind.
-void remove_half_made_file(const std::string& path);
+void create_spectrum_file(
+    const std::string& path, const Job& job, const Tiling& tiling,
+    const BetweenTiles& between_tiles = [] {});
 
 /// When a tile counts as done: once its values are in the file, which outlasts the death of any
 /// process; or once they are on the disk, which outlasts a loss of power as well.

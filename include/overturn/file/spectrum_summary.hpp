@@ -5,6 +5,7 @@
 #include "overturn/job/job.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,9 @@ SpectrumSummary summarize(const std::string& path);
 std::vector<std::string> damaged_coordinates(const std::string& path);
 
 /// Numbers of the tiles whose stored values do not match their checksum, ascending; tiles that are
-/// not computed yet are not among them. Reads all data. Throws FileError as summarize() does.
-std::vector<std::int64_t> damaged_tiles(const std::string& path);
+/// not computed yet are not among them. Reads all data, and calls `between_tiles`, which may end it
+/// by an exception. Throws FileError as summarize() does.
+std::vector<std::int64_t> damaged_tiles(
+    const std::string& path, const std::function<void()>& between_tiles = [] {});
 
 } // namespace overturn

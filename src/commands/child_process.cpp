@@ -1,0 +1,128 @@
+#include "child_process.hpp"
+
+#include "exit_code.hpp"
+
+#include "overturn/file/file_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array crashes{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU};
+
+void limit(int resource, rlim_t most)
+{
+    const rlimit limits{most, most};
+    setrlimit(resource, &limits);
+}
+
+/// A crash leaves no core file, an endless loop ends, and no size in a file takes all memory.
+void limit_resources(const std::string& path)
+{
+    std::error_code none;
+    const std::uintmax_t found = std::filesystem::file_size(path, none);
+    const rlim_t bytes = none ? 0 : rlim_t(found);
+    const rlim_t seconds = 60 + 60 * (bytes >> 30);
+    const rlimit processor_time{seconds, seconds + 1}; // first a signal that tells what it was
+    setrlimit(RLIMIT_CPU, &processor_time);
+    limit(RLIMIT_CORE, 0);
+#ifndef __SANITIZE_ADDRESS__ // which takes all there is, to begin with
+    limit(RLIMIT_DATA, (rlim_t(1) << 29) + 2 * bytes);
+#endif
+}
+
+[[noreturn]] void be_child(pid_t parent, const std::string& path, const std::function<void()>& read)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) {
+        _exit(exit_code::internal); // it has ended before the line above
+    }
+    limit_resources(path);
+    int code = exit_code::complete;
+    try {
+        read();
+        if (std::fflush(stdout) != 0) {
+            throw FileError("cannot write what was found.");
+        }
+    } catch (const std::exception& error) {
+        code = complain(error);
+    }
+    _exit(code);
+}
+
+/// How the child has ended, as waitpid() tells it.
+int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
+{
+    int status = 0;
+    for (;;) {
+        const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended == child) {
+            return status;
+        }
+        if (ended < 0 && errno != EINTR) {
+            throw FileError(
+                fmt::format("cannot learn how a process has ended: {}.", std::strerror(errno)));
+        }
+        if (is_unwanted()) {
+            kill(child, SIGKILL);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+} // namespace
+
+int run_in_child(const std::string& path, const std::function<void()>& read,
+                 const std::function<bool()>& is_unwanted)
+{
+    std::signal(SIGCHLD, SIG_DFL); // ignored, as who starts us may have it, it leaves no status
+    std::fflush(nullptr);          // what is in a buffer would be printed twice
+    const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child < 0) {
+        throw FileError(
+            fmt::format("cannot start a process to read \"{}\": {}.", path, std::strerror(errno)));
+    }
+    if (child == 0) {
+        be_child(parent, path, read);
+    }
+    const int status = wait_for(child, is_unwanted);
+    if (WIFEXITED(status)) {
+        return WEXITSTATUS(status);
+    }
+    const int signal = WTERMSIG(status);
+    if (signal == SIGKILL) {
+        if (is_unwanted()) {
+            return exit_code::stopped;
+        }
+        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps for want of "
+                                    "memory.",
+                                    path));
+    }
+    if (std::find(crashes.begin(), crashes.end(), signal) == crashes.end()) {
+        std::signal(signal, SIG_DFL); // it was sent to both of us
+        raise(signal);
+    }
+    throw FileError(fmt::format(
+        "\"{}\" is damaged: the HDF5 library {}.", path,
+        signal == SIGXCPU ? "does not come to an end with it"
+                          : fmt::format("crashes when it reads it ({})", strsignal(signal))));
+}
+
+} // namespace overturn
