@@ -55,7 +55,7 @@ double angle_at_second_uplift_value(const HardCase& point)
 {
     Excitation<T> excitation =
         excitation_of<Theory::nonlinear>(PulseKind::one_sine, in_digits(point));
-    excitation.motion.end = pi<T>() + asin(1 / T(point.amplitude));
+    excitation.motion = cut_at<T>(pi<T>() + asin(1 / T(point.amplitude)), excitation.motion);
     return end_of<Theory::nonlinear>(point, excitation, steps_of_a_second).angle;
 }
 

@@ -24,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Pulse, SeriesOfEveryPulse, every_pulse(), pulse_test_na
 /// Phases spread over the pulse, its two ends included [rad].
 std::vector<double> phases(PulseKind pulse, double window = 1)
 {
-    constexpr int count = 60;
+    constexpr int count = 61; // none is in the middle, where doubles may miss a kink
     const GroundMotion<double> motion = ground_motion(pulse, window);
     std::vector<double> result;
     for (int i = 0; i <= count; ++i) {
@@ -46,7 +46,7 @@ Digits50 sum(const std::array<Digits50, count>& c, const Digits50& t)
     return result;
 }
 
-TEST_P(SeriesOfEveryPulse, SumsToThePulseItself)
+TEST_P(SeriesOfEveryPulse, SumsToThePulseItselfOnItsSmoothPiece)
 {
     const Digits50 scale = -Digits50(7) / 5;
     const Digits50 rate = Digits50(9) / 5;
@@ -54,8 +54,12 @@ TEST_P(SeriesOfEveryPulse, SumsToThePulseItself)
         for (const double phase : phases(GetParam(), window)) {
             const auto terms = series<40>(scale, Digits50(phase), rate);
             for (const double t : {-0.125, 0.0625, 0.125}) {
-                const Digits50 exact =
-                    scale * value_of_pulse(motion(Digits50(1)), Digits50(phase + rate * t));
+                const GroundMotion<Digits50> pulse = motion(Digits50(1));
+                const Digits50 there = phase + rate * t;
+                if (pulse.end_of_piece(Digits50(phase)) != pulse.end_of_piece(there)) {
+                    continue;
+                }
+                const Digits50 exact = scale * value_of_pulse(pulse, there);
                 // The steps advance the phase by 0.225. What a sine leaves out is 0.225^40 / 40!,
                 // 1e-74; a Gaussian of width 1.4 leaves 1e-53 at most. A wrong term shows in full.
                 EXPECT_LT(abs(sum(terms, Digits50(t)) - exact), 1e-46)
@@ -168,13 +172,16 @@ TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
 
 TEST(PulseSeries, OfTheConstantPushIsItsScaleAlone)
 {
-    EXPECT_EQ((pulse_series<Rectangular, 4>(1.4, 0.3, 0.8)), (Coefficients<4, double>{1.4}));
+    EXPECT_EQ((ground_motion(PulseKind::rectangular, 1.0).series<4>(1.4, 0.3, 0.8)),
+              (Coefficients<4, double>{1.4}));
 }
 
 TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
 {
-    const auto sine = pulse_series<OneSine, 8>(Digits50(1), Digits50(0), Digits50(1));
-    const auto cosine = pulse_series<OneCosine, 8>(Digits50(1), Digits50(0), Digits50(1));
+    const auto sine = ground_motion(PulseKind::one_sine, Digits50(1))
+                          .series<8>(Digits50(1), Digits50(0), Digits50(1));
+    const auto cosine = ground_motion(PulseKind::one_cosine, Digits50(1))
+                            .series<8>(Digits50(1), Digits50(0), Digits50(1));
     Digits50 factorial = 1;
     for (int k = 0; k < 8; ++k) {
         factorial *= k == 0 ? 1 : k;
@@ -188,12 +195,13 @@ TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
 TEST(PulseSeries, OfTheWaveletsAtTheirCentreAreTheirTaylorSeries)
 {
     // With x = t / 2: (1 - 2 x^2) exp(-x^2) = 1 - 3 x^2 + 5/2 x^4 - 7/6 x^6 + ...
-    const auto even = pulse_series<SymmetricRicker, 8>(Digits50(1), Digits50(0), Digits50(2));
+    const auto even = ground_motion(PulseKind::symmetric_ricker, Digits50(1))
+                          .series<8>(Digits50(1), Digits50(0), Digits50(2));
     const Coefficients<8, Digits50> even_by_hand{1, 0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 6,
                                                  0};
     // With z = t: z (z^2 - 3) exp(-z^2 / 2) = -3 z + 5/2 z^3 - 7/8 z^5 + 3/16 z^7 + ...
-    const auto odd =
-        pulse_series<AntisymmetricRicker, 8>(Digits50("1.38"), Digits50(0), sqrt(Digits50(3)));
+    const auto odd = ground_motion(PulseKind::antisymmetric_ricker, Digits50(1))
+                         .series<8>(Digits50("1.38"), Digits50(0), sqrt(Digits50(3)));
     const Coefficients<8, Digits50> odd_by_hand{
         0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 8, 0, Digits50(3) / 16};
     for (std::size_t k = 0; k < 8; ++k) {

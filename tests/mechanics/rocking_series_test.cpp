@@ -188,8 +188,10 @@ TYPED_TEST(SeriesOfEveryTheory, RunsBackwardUnderAPushThatRunsBackward)
     for (const Start<double>& start : random_starts(200)) {
         const double w = start.frequency * start.unit;
         const double rate = start.rate * start.unit;
-        const auto forth = pulse_series<OneSine, 20>(start.acceleration, start.phase, w);
-        const auto back = pulse_series<OneSine, 20>(start.acceleration, start.phase, -w);
+        const auto forth =
+            ground_motion(PulseKind::one_sine, 1.0).series<20>(start.acceleration, start.phase, w);
+        const auto back =
+            ground_motion(PulseKind::one_sine, 1.0).series<20>(start.acceleration, start.phase, -w);
         const auto later = rocking_series<TypeParam::value, 20>(start.tilt, rate, start.slenderness,
                                                                 forth, start.unit);
         const auto earlier = rocking_series<TypeParam::value, 20>(

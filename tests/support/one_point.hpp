@@ -23,6 +23,15 @@ Excitation<S> excitation_of(PulseKind pulse, const Point<S>& point, double windo
                                  point.amplitude, point.frequency);
 }
 
+/// The motion as if it ended at an earlier phase [rad].
+template <class S>
+GroundMotion<S> cut_at(const S& phase, GroundMotion<S> motion)
+{
+    motion.end = phase;
+    motion.kink = motion.kink < phase ? motion.kink : motion.begin;
+    return motion;
+}
+
 inline Point<Digits50> in_digits(const Point<double>& point)
 {
     return {point.slenderness, point.restitution, point.frequency, point.amplitude};

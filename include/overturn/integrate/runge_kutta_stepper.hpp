@@ -62,7 +62,7 @@ public:
         const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
         if constexpr (records.error) {
-            remember(sample(now.side, now.tilt, now.rate, now.phase), lanes);
+            remember(sample(now.side, now.tilt, now.rate, now.phase, now.phase), lanes);
         }
     }
 
@@ -118,10 +118,15 @@ public:
                 move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
         }
         if constexpr (records.error) {
+            const T phase = now.phase + phase_step;
             const Sample last_sample =
-                sample(now.side, step.end.position, step.end.rate, now.phase + phase_step);
+                sample(now.side, step.end.position, step.end.rate, phase, now.phase);
             const StepErrors<T> errors = this->errors(now, start, step, h, delay, last_sample);
             remember(last_sample, moved);
+            if (excitation_.motion.has_kink()) { // where another piece begins the jerk is its own
+                remember(sample(now.side, step.end.position, step.end.rate, phase, end.phase),
+                         moved);
+            }
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (records.peak) {
             const Quintic<T> tilt = dense_output(start, step.end, h);
@@ -180,11 +185,12 @@ private:
         T stiffness;
     };
 
-    Sample sample(const T& side, const T& tilt, const T& rate, const T& phase) const
+    /// At a phase of the smooth piece that begins or continues at `on`.
+    Sample sample(const T& side, const T& tilt, const T& rate, const T& phase, const T& on) const
     {
         using arithmetic::fma;
         const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
-                                                                phase, excitation_.frequency);
+                                                                phase, excitation_.frequency, on);
         const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
         T lever(S(1)); // of the push
         if constexpr (theory == Theory::nonlinear) {
@@ -229,7 +235,7 @@ private:
         const T phase_step = excitation_.frequency * h;
         const Sample& first = sample_;
         const Sample middle =
-            sample(now.side, middle_tilt, zero_, fma(phase_step, T(S(0.5)), now.phase));
+            sample(now.side, middle_tilt, zero_, fma(phase_step, T(S(0.5)), now.phase), now.phase);
         const T rate_gain = h * fma(T(S(7) / 30), first.acceleration + last.acceleration,
                                     fma(T(S(16) / 30), middle.acceleration,
                                         h * T(S(1) / 60) * (first.jerk - last.jerk)));

@@ -35,14 +35,22 @@ struct GroundMotion {
         });
     }
 
-    /// The Taylor coefficients of f on the smooth piece that begins or continues at the phase, see
-    /// pulse_series().
+    /// Taylor coefficients at a phase, see pulse_series(), of f on the smooth piece that begins or
+    /// continues at the phase `on`. [rad]
+    template <int count, Number T>
+    Coefficients<count, T> series(const T& scale, const T& phase, const T& rate, const T& on) const
+    {
+        return with_pulse(pulse, [&]<class Pulse>() {
+            return pulse_series<Pulse, count>(scale, phase, rate, on);
+        });
+    }
     template <int count, Number T>
     Coefficients<count, T> series(const T& scale, const T& phase, const T& rate) const
     {
-        return with_pulse(
-            pulse, [&]<class Pulse>() { return pulse_series<Pulse, count>(scale, phase, rate); });
+        return series<count>(scale, phase, rate, phase);
     }
+
+    bool has_kink() const { return kink != begin; }
 };
 
 /// window: half width of a wavelet [pulse periods]; without meaning for other pulses.

@@ -52,10 +52,12 @@ std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, 
     return f;
 }
 
-/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f the pulse; scale [1],
-/// phase [rad], rate [rad per unit of t].
+/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f the pulse on the smooth
+/// piece that begins or continues at the phase `on`; scale [1], phases [rad], rate [rad per unit of
+/// t].
 template <class Pulse, int count, Number T>
-Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rate)
+Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rate,
+                                    [[maybe_unused]] const T& on)
 {
     using arithmetic::fma;
     using std::sqrt;
