@@ -67,6 +67,22 @@ TYPED_TEST(ClosedForm, RectangularLinearOverturnsFromTheAmplitudeOfHousnersProbl
     }
 }
 
+TYPED_TEST(ClosedForm, TriangularLinearOverturnsFromTheAmplitudeOfItsIntegral)
+{
+    for (const double frequency : {0.7, 2.0, 5.0}) {
+        // Without impact a block overturns if the integral of A f exp(-(tau - tau0)) over tau >
+        // tau0 exceeds alpha, tau0 the uplift. Piece by piece, with q = exp(-pi / (2 Omega)), that
+        // is 1 - 2 q exp(tau0) + q^2 exp(tau0) > 0; the uplift is at the phase pi alpha / (2 A). A
+        // step across the kink would be off by the square of its length.
+        const double q = std::exp(-pi<double>() / (2 * frequency));
+        const double uplift = -frequency * std::log(q * (2 - q));
+        const double exact = pi<double>() / (2 * uplift);
+        const double ours = flip<Theory::linear, TypeParam>(
+            PulseKind::triangular, {0.2, 0.9, frequency, 0}, 1 + 1e-9, 2 * exact, digits);
+        EXPECT_NEAR(ours / exact, 1, closed_form_error) << "frequency " << frequency;
+    }
+}
+
 TYPED_TEST(ClosedForm, RectangularLinearEndsInTheStateOfItsClosedForm)
 {
     // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).

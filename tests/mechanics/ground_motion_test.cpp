@@ -112,6 +112,7 @@ TEST(UpliftPhases, OfASineIsItsClosedForm)
     EXPECT_DOUBLE_EQ(first_uplift(PulseKind::one_sine, 4.0), std::asin(0.25));
     EXPECT_DOUBLE_EQ(first_uplift(PulseKind::half_sine, 1.25), std::asin(0.8));
     EXPECT_EQ(first_uplift(PulseKind::one_cosine, 1.25), 0);
+    EXPECT_DOUBLE_EQ(first_uplift(PulseKind::triangular, 1.25), 0.4 * pi<double>());
 }
 
 TEST(UpliftPhases, AnAmplitudeOfOneDoesNotExceedTheThreshold)
@@ -119,6 +120,7 @@ TEST(UpliftPhases, AnAmplitudeOfOneDoesNotExceedTheThreshold)
     EXPECT_EQ(first_uplift(PulseKind::one_sine, 1.0), std::numeric_limits<double>::infinity());
     EXPECT_EQ(first_uplift(PulseKind::one_cosine, 1.0), std::numeric_limits<double>::infinity());
     EXPECT_EQ(first_uplift(PulseKind::rectangular, 1.0), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(first_uplift(PulseKind::triangular, 1.0), std::numeric_limits<double>::infinity());
 }
 
 TEST(UpliftPhases, SideLobeOfTheSymmetricRickerLiftsFromItsOwnPeakOn)

@@ -176,6 +176,16 @@ TEST(PulseSeries, OfTheConstantPushIsItsScaleAlone)
               (Coefficients<4, double>{1.4}));
 }
 
+TEST(PulseSeries, OfATriangleAtItsKinkIsThatOfThePieceThatItIsAskedFor)
+{
+    const GroundMotion<double> triangle = ground_motion(PulseKind::triangular, 1.0);
+    const double kink = pi<double>() / 2;
+    const auto rising = triangle.series<4>(1.5, kink, kink, 0.0);
+    const auto falling = triangle.series<4>(1.5, kink, kink, kink);
+    EXPECT_EQ(rising, (Coefficients<4, double>{1.5, 1.5}));
+    EXPECT_EQ(falling, (Coefficients<4, double>{1.5, -1.5}));
+}
+
 TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
 {
     const auto sine = ground_motion(PulseKind::one_sine, Digits50(1))

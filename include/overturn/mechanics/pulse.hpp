@@ -23,7 +23,8 @@ enum class PulseKind {
     symmetric_ricker,
     antisymmetric_ricker,
     half_sine,
-    rectangular
+    rectangular,
+    triangular
 };
 
 /// What tells a pulse from others that share its formula.
@@ -34,12 +35,13 @@ struct PulseTraits {
 };
 
 /// In the order of the enumerators.
-inline constexpr std::array<PulseTraits, 6> pulses{{{"one_sine", 2, false},
+inline constexpr std::array<PulseTraits, 7> pulses{{{"one_sine", 2, false},
                                                     {"one_cosine", 2, false},
                                                     {"symmetric_ricker", 0, false},
                                                     {"antisymmetric_ricker", 0, false},
                                                     {"half_sine", 1, false},
-                                                    {"rectangular", 1, true}}};
+                                                    {"rectangular", 1, true},
+                                                    {"triangular", 1, true}}};
 
 constexpr const PulseTraits& traits_of(PulseKind kind)
 {
@@ -138,6 +140,34 @@ struct Rectangular : SmoothPulse {
     }
 };
 
+/// A triangle: f rises linearly from 0 to 1 at pi/2, and falls to 0 at pi.
+struct Triangular {
+    static constexpr int lobes = 1;
+
+    template <Number T>
+    static T value(const T& phase)
+    {
+        using S = scalar_t<T>;
+        const T x = phase * T(2 / pi<S>());
+        return lesser<T>(x, T(S(2)) - x);
+    }
+    template <class S>
+    static S kink()
+    {
+        return pi<S>() / 2;
+    }
+    template <class S>
+    static std::array<Flank<S>, lobes> flanks()
+    {
+        return {{{S(0), pi<S>() / 2}}};
+    }
+    template <class S>
+    static S phase_at(const Flank<S>& flank, const S& level)
+    {
+        return flank.foot + level * (flank.peak - flank.foot);
+    }
+};
+
 /// Where |Pulse::value| reaches `level` between the ends of a flank that encloses it.
 template <class Pulse, class S>
 S bracketed_phase(const Flank<S>& flank, const S& level)
@@ -219,6 +249,7 @@ auto with_pulse(PulseKind kind, const Visitor& visit)
     case PulseKind::symmetric_ricker: return visit.template operator()<SymmetricRicker>();
     case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
     case PulseKind::rectangular: return visit.template operator()<Rectangular>();
+    case PulseKind::triangular: return visit.template operator()<Triangular>();
     case PulseKind::one_sine:
     case PulseKind::half_sine: break;
     }

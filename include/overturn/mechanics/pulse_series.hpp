@@ -67,6 +67,16 @@ Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rat
         f.fill(T(S(0)));
         f[0] = scale;
         return f;
+    } else if constexpr (std::same_as<Pulse, Triangular>) {
+        const T slope(2 / pi<S>());
+        const mask_t<T> rises = on < T(Triangular::kink<S>());
+        const T x = phase * slope;
+        const T steep = scale * rate * slope;
+        Coefficients<count, T> f;
+        f.fill(T(S(0)));
+        f[0] = scale * select<T>(rises, x, T(S(2)) - x);
+        f[1] = select<T>(rises, steep, -steep);
+        return f;
     } else if constexpr (std::same_as<Pulse, SymmetricRicker>) {
         // z = phase / sqrt 2 has x^2 = z^2 / 2; 1 - 2 x^2 = 1 - z^2.
         const T to_z(sqrt(S(2)) / 2);
