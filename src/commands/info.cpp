@@ -1,6 +1,7 @@
 // What a result file holds, and how to go on with it if it is unfinished.
 #include "child_process.hpp"
 #include "commands.hpp"
+#include "lines_text.hpp"
 #include "print_row.hpp"
 #include "printable.hpp"
 
@@ -47,6 +48,10 @@ void print_what_it_holds(const std::string& path)
     print_row("tiles", fmt::format("{} of {} done, {} x {} {} each", summary.tiles_done,
                                    summary.tiles, summary.amplitude_extent,
                                    summary.frequency_extent, is_boundary ? "flips" : "points"));
+    if (const std::string lines = is_boundary ? lines_text(count_lines(path)) : "";
+        !lines.empty()) {
+        print_row("lines", lines);
+    }
     if (summary.tiles_done < summary.tiles) {
         print_row("unfinished", fmt::format("To go on: overturn {} JOB.toml -o {}, with the job "
                                             "file and the --set arguments of the first run",

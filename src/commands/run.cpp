@@ -2,6 +2,7 @@
 // compute each, write each.
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "lines_text.hpp"
 #include "prepare_output.hpp"
 #include "say.hpp"
 
@@ -211,6 +212,11 @@ int compute_what_is_missing(const Task& task)
     write_record(task, hosts, report, seconds);
     if (task.leads()) {
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
+        if (task.job.product == Product::boundary && !report.stopped) {
+            if (const std::string lines = lines_text(count_lines(task.path)); !lines.empty()) {
+                say(fmt::format("{}: {}", task.path, lines));
+            }
+        }
         if (report.stopped) {
             complain(Stopped(fmt::format("; {} of {} tiles are missing",
                                          std::int64_t(missing.size()) - report.tiles,

@@ -29,17 +29,14 @@ void describe_region(hid_t dataset)
         "F overturned during the pulse");
 }
 
-void describe_region_beside_flip(hid_t dataset, const char* long_name)
+void describe_region_beside_flip(hid_t dataset, const char* long_name, const char* comment)
 {
     write_attribute(dataset, "long_name", long_name);
     write_attribute(dataset, "flag_values",
-                    std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, boundary_code::no_flip,
-                                              boundary_code::in_doubt, 255});
+                    std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, no_flip, 254, 255});
     write_attribute(dataset, "flag_meanings",
-                    fmt::format("{} no_flip in_doubt not_computed", fmt::join(region_names, " ")));
-    write_attribute(
-        dataset, "comment",
-        "in_doubt: a verdict on the line could not be settled, or there are more flips");
+                    fmt::format("{} no_flip undecided not_computed", fmt::join(region_names, " ")));
+    write_attribute(dataset, "comment", comment);
 }
 
 void describe_status(hid_t dataset)
@@ -123,15 +120,25 @@ void write_field_attributes(hid_t dataset, Field field, const std::string& coord
         write_attribute(
             dataset, "comment",
             "two amplitudes at most `width` of themselves apart, with settled verdicts, are on "
-            "either side. Between neighbours of scan_amplitude the steps were halved where margins "
+            "either side. Where a region beside it is undecided, it is the last amplitude that was "
+            "settled, and no flip. Between neighbours of scan_amplitude the steps were halved "
+            "where margins "
             "bend or impacts change, down to `finest_step` of the amplitude. Missed can be thinner "
             "strips, and strips between two neighbours of which neither tells");
         break;
     case Field::region_below:
-        describe_region_beside_flip(dataset, "region just below the flip");
+        describe_region_beside_flip(
+            dataset, "region just below the flip",
+            "where there is no flip: of the first crossing, the region at the first of "
+            "scan_amplitude. A first flip from a safe region is the minimum overturning amplitude; "
+            "where the first crossing has an unsafe region below, the block overturns at the first "
+            "amplitude looked at");
         break;
     case Field::region_above:
-        describe_region_beside_flip(dataset, "region just above the flip");
+        describe_region_beside_flip(
+            dataset, "region just above the flip",
+            "undecided: up to the next flip verdicts could not be settled; or it is the last "
+            "crossing, and there are more");
         break;
     }
     write_attribute(dataset, "coordinates", coordinates);

@@ -4,6 +4,7 @@
 #include "tile_checksum.hpp"
 
 #include "overturn/file/spectrum_summary.hpp"
+#include "overturn/mechanics/region.hpp"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,42 @@ SpectrumSummary summarize(const std::string& path)
                                                     stored.checksums.end(), not_computed_checksum);
     summary.bytes = stored.bytes;
     return summary;
+}
+
+BoundaryLines count_lines(const std::string& path)
+{
+    const StoredSpectrum stored = open_stored_spectrum(path);
+    const Tiling tiling = stored.tiling();
+    BoundaryLines lines;
+    try {
+        const auto regions = [&](const Tile& tile, Field field) {
+            const hdf5::Handle dataset(H5Dopen2(stored.file, name_of(field).data(), H5P_DEFAULT),
+                                       H5Dclose);
+            return std::get<std::vector<std::uint8_t>>(read_tile(dataset, tile, field));
+        };
+        for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            if (stored.checksums[std::size_t(number)] == not_computed_checksum) {
+                continue;
+            }
+            const Tile tile = tiling[number];
+            const auto below = regions(tile, Field::region_below);
+            const auto above = regions(tile, Field::region_above);
+            const auto columns = std::size_t(tile.frequency_count);
+            lines.computed += tile.frequency_count;
+            for (std::size_t column = 0; column < columns; ++column) {
+                bool undecided = false;
+                for (std::size_t point = column; point < below.size(); point += columns) {
+                    undecided = undecided || Region(below[point]) == Region::undecided ||
+                                Region(above[point]) == Region::undecided;
+                }
+                lines.undecided += undecided;
+                lines.unsafe_at_first += is_unsafe(Region(below[column]));
+            }
+        }
+    } catch (const hdf5::Hdf5Error& error) {
+        throw FileError(fmt::format("cannot read the values in \"{}\": {}.", path, error.what()));
+    }
+    return lines;
 }
 
 std::vector<std::string> damaged_coordinates(const std::string& path)

@@ -26,6 +26,11 @@ void check_size(const Job& boundary)
 Job boundary_of(Job spectrum)
 {
     Job job = std::move(spectrum);
+    if (job.plane.amplitude.size() == 1) {
+        throw JobError(fmt::format("plane.amplitude has one value, {}, and flips are looked for "
+                                   "between the first and the last. Give two or more.",
+                                   job.plane.amplitude.first()));
+    }
     job.product = Product::boundary;
     job.resolved = resolved_text(job);
     job.scan = job.plane.amplitude;

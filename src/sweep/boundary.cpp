@@ -6,6 +6,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -17,9 +18,9 @@ namespace {
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
 constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
 
-/// A line is incomplete with the first verdict that stays in doubt, which may take a second; after
-/// so many the scan is not refined any more.
-constexpr int most_doubts = 16;
+/// A verdict that stays undecided may take a second: after so many the scan is not refined any
+/// more.
+constexpr std::size_t most_undecided = 16;
 
 /// What becomes of a block at one amplitude.
 struct Probe {
@@ -54,23 +55,28 @@ public:
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back(
                 {amplitudes[i], Region(ends.region[i]), ends.margin[i], ends.impacts[i]});
-            doubts_ += !probes.back().is_settled();
+            if (!probes.back().is_settled()) {
+                undecided_.push_back(probes.back());
+            }
         }
         return probes;
     }
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
 
-    /// How often something on it could not be found out.
-    int doubts() const { return doubts_; }
-    void add_doubt() { ++doubts_; }
+    /// Amplitudes whose verdict could not be settled, in the order of their probing.
+    const std::vector<Probe>& undecided() const { return undecided_; }
+    void add_undecided(double amplitude)
+    {
+        undecided_.push_back({amplitude, Region::undecided, 0, 0});
+    }
 
 private:
     Scene scene_;
     BoundaryLine line_;
     Kernel kernel_;
     DropRequested drop_requested_;
-    int doubts_ = 0;
+    std::vector<Probe> undecided_;
 };
 
 bool is_narrow(double below, double above)
@@ -78,9 +84,14 @@ bool is_narrow(double below, double above)
     return above - below <= flip_width * above || std::nextafter(below, above) >= above;
 }
 
-/// Narrows a bracket of one flip; nothing if a verdict within it cannot be settled. The margin
-/// changes its sign there, but may jump.
-std::optional<Flip> narrowed(Line& line, const Probe& below, const Probe& above)
+double middle_of(const Probe& below, const Probe& above)
+{
+    return below.amplitude + (above.amplitude - below.amplitude) / 2;
+}
+
+/// Narrows a bracket of one flip, until a verdict within it cannot be settled. The margin changes
+/// its sign there, but may jump.
+std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above)
 {
     Probe low = below;
     Probe high = above;
@@ -98,24 +109,27 @@ std::optional<Flip> narrowed(Line& line, const Probe& below, const Probe& above)
     boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
                                       above.margin, is_narrow, most_looks);
     while (settled && !is_narrow(low.amplitude, high.amplitude)) { // a margin of 0 ends it early
-        margin(low.amplitude + (high.amplitude - low.amplitude) / 2);
+        margin(middle_of(low, high));
     }
-    return settled ? std::optional(Flip{low.amplitude, high.amplitude, low.region, high.region})
-                   : std::nullopt;
+    return {low, high};
 }
 
-/// A safe amplitude between two that overturn to different sides: by halving.
-std::optional<Probe> safe_between(Line& line, Probe below, Probe above)
+/// What separates two amplitudes that overturn to different sides, by halving: a safe one; or the
+/// closest two found, where it cannot be settled or is thinner than flip_width.
+std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
     while (!is_narrow(below.amplitude, above.amplitude)) {
-        const Probe middle = line.at(below.amplitude + (above.amplitude - below.amplitude) / 2);
-        if (!is_unsafe(middle.region)) {
-            return is_safe(middle.region) ? std::optional(middle) : std::nullopt;
+        const Probe middle = line.at(middle_of(below, above));
+        if (is_safe(middle.region)) {
+            return {middle};
+        }
+        if (!middle.is_settled()) {
+            return {below, above};
         }
         (middle.falls_to_plus() == below.falls_to_plus() ? below : above) = middle;
     }
-    line.add_doubt(); // it is there, but thinner than that
-    return std::nullopt;
+    line.add_undecided(middle_of(below, above));
+    return {below, above};
 }
 
 /// An amplitude of the other verdict near `nearest`, whose margin is nearest to 0 of three: by
@@ -144,8 +158,9 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
 
 void sort_by_amplitude(std::vector<Probe>& probes)
 {
-    std::sort(probes.begin(), probes.end(),
-              [](const Probe& one, const Probe& other) { return one.amplitude < other.amplitude; });
+    std::stable_sort(probes.begin(), probes.end(), [](const Probe& one, const Probe& other) {
+        return one.amplitude < other.amplitude;
+    });
 }
 
 /// Whether the margin may turn back towards 0 between three neighbours: it is far from a straight
@@ -191,7 +206,7 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
                                           std::size_t most_flips)
 {
     forget_the_useless(probes, most_flips);
-    for (int time = 0; line.doubts() <= most_doubts; ++time) {
+    for (int time = 0; line.undecided().size() <= most_undecided; ++time) {
         std::vector<double> middles;
         std::size_t halved = 0; // the step that ends at this probe
         for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
@@ -206,7 +221,7 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
                 const bool is_wide =
                     above.amplitude - below.amplitude > finest_step * above.amplitude;
                 if (end > halved && is_new && is_wide) {
-                    middles.push_back(below.amplitude + (above.amplitude - below.amplitude) / 2);
+                    middles.push_back(middle_of(below, above));
                     halved = end;
                 }
             }
@@ -246,19 +261,29 @@ void find_what_hides_between(Line& line, std::vector<Probe>& probes)
         if (is_flip(now, next)) {
             continue;
         }
-        std::optional<Probe> other;
         if (is_unsafe(now.region) && now.falls_to_plus() != next.falls_to_plus()) {
-            other = safe_between(line, now, next);
+            const std::vector<Probe> between = between_sides(line, now, next);
+            found.insert(found.end(), between.begin(), between.end());
         } else if (i > 0 && !is_flip(probes[i - 1], now) &&
                    may_reach_zero(probes[i - 1], now, next)) {
-            other = other_verdict_near(line, probes[i - 1], now, next);
-        }
-        if (other) {
-            found.push_back(*other);
+            if (const auto other = other_verdict_near(line, probes[i - 1], now, next)) {
+                found.push_back(*other);
+            }
         }
     }
     probes.insert(probes.end(), found.begin(), found.end());
     sort_by_amplitude(probes);
+}
+
+/// Adds what was left undecided, where nothing was settled later.
+void add_undecided(const Line& line, std::vector<Probe>& probes)
+{
+    probes.insert(probes.end(), line.undecided().begin(), line.undecided().end());
+    sort_by_amplitude(probes); // stable: of equal amplitudes the settled one stays first
+    const auto is_same = [](const Probe& one, const Probe& other) {
+        return one.amplitude == other.amplitude;
+    };
+    probes.erase(std::unique(probes.begin(), probes.end(), is_same), probes.end());
 }
 
 } // namespace
@@ -271,60 +296,34 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     std::vector<Probe> probes =
         looked_at_more_closely(line, line.at(amplitudes, scanning), most_flips);
     find_what_hides_between(line, probes);
+    std::vector<Probe> closer;
+    for (std::size_t i = 1; i < probes.size() && closer.size() < 2 * most_flips; ++i) {
+        if (is_flip(probes[i - 1], probes[i])) {
+            const auto [low, high] = narrowed(line, probes[i - 1], probes[i]);
+            closer.insert(closer.end(), {low, high});
+        }
+    }
+    probes.insert(probes.end(), closer.begin(), closer.end());
+    add_undecided(line, probes);
+
     Boundary boundary;
+    boundary.region_at_first = probes.front().region;
+    boundary.complete = line.undecided().empty();
     for (std::size_t i = 1; i < probes.size() && !boundary.has_more; ++i) {
-        if (!is_flip(probes[i - 1], probes[i])) {
+        const Probe& below = probes[i - 1];
+        const Probe& above = probes[i];
+        if (!is_flip(below, above) && below.is_settled() == above.is_settled()) {
             continue;
         }
         boundary.has_more = boundary.flips.size() == most_flips;
-        if (boundary.has_more) {
-            continue;
-        }
-        if (const auto flip = narrowed(line, probes[i - 1], probes[i])) {
-            boundary.flips.push_back(*flip);
+        if (!boundary.has_more) {
+            // What is undecided extends to the settled amplitudes on either side of it.
+            boundary.flips.push_back({below.is_settled() ? below.amplitude : above.amplitude,
+                                      above.is_settled() ? above.amplitude : below.amplitude,
+                                      below.region, above.region});
         }
     }
-    boundary.complete = line.doubts() == 0;
     return boundary;
-}
-
-TileFields boundary_tile(const Scene& scene, const Plane& plane,
-                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
-                         DropRequested drop_requested)
-{
-    const auto points = std::size_t(tile.points());
-    std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
-    std::vector<std::uint8_t> below(points, boundary_code::no_flip);
-    std::vector<std::uint8_t> above(points, boundary_code::no_flip);
-    const auto rows = std::size_t(tile.amplitude_count);
-    const auto columns = std::size_t(tile.frequency_count);
-    for (std::size_t column = 0; column < columns; ++column) {
-        const BoundaryLine line{
-            .slenderness = plane.slenderness[tile.slenderness],
-            .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
-            .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
-        const Boundary boundary =
-            boundary_on(scene, line, amplitudes, kernel, rows, drop_requested);
-        const bool known = boundary.complete && !boundary.has_more;
-        for (std::size_t row = 0; row < rows; ++row) {
-            const std::size_t point = row * columns + column;
-            if (row < boundary.flips.size()) {
-                const Flip& flip = boundary.flips[row];
-                amplitude[point] = flip.amplitude();
-                below[point] = std::uint8_t(flip.region_below);
-                above[point] = std::uint8_t(flip.region_above);
-            } else if (!known) {
-                below[point] = boundary_code::in_doubt;
-                above[point] = boundary_code::in_doubt;
-            }
-        }
-        if (!known && boundary.flips.size() == rows) {
-            above[(rows - 1) * columns + column] = boundary_code::in_doubt;
-        }
-    }
-    TileFields fields;
-    fields.values = {std::move(amplitude), std::move(below), std::move(above)};
-    return fields;
 }
 
 } // namespace overturn

@@ -44,7 +44,9 @@ void use(const Job& job, const std::string& path)
     const std::string again = read_job(path).resolved;
     demand(again == job.resolved,
            fmt::format("the resolved job\n{}\nis read back as\n{}", job.resolved, again));
-    demand(boundary_of(job).plane.points() > 0, "a boundary has no points");
+    if (job.plane.amplitude.size() > 1) {
+        demand(boundary_of(job).plane.points() > 0, "a boundary has no points");
+    }
 }
 
 } // namespace

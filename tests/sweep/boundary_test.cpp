@@ -208,17 +208,74 @@ TEST(Boundary, StopsAtTheMostFlipsThatAreAskedFor)
     EXPECT_FALSE(boundary_on(scene, line, scan, widest_kernel(), all.flips.size()).has_more);
 }
 
-TEST(Boundary, IsNoneWhereVerdictsCannotBeSettled)
+/// The region at one amplitude of the line.
+Region region_at(const BoundaryLine& line, double amplitude)
+{
+    return boundary_on({}, line, {amplitude}, widest_kernel()).region_at_first;
+}
+
+/// Regions follow each other without a gap, and are those of the amplitudes beside the flip.
+void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
+{
+    const auto verdict = [](Region region) { return is_safe(region) - is_unsafe(region); };
+    Region before = boundary.region_at_first;
+    double reached = 0;
+    for (const Flip& flip : boundary.flips) {
+        EXPECT_EQ(verdict(flip.region_below), verdict(before));
+        EXPECT_NE(verdict(flip.region_above), verdict(flip.region_below));
+        EXPECT_LE(reached, flip.below);
+        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
+        if (flip.region_below != Region::undecided) {
+            EXPECT_EQ(region_at(line, flip.below), flip.region_below);
+        }
+        if (flip.region_above != Region::undecided) {
+            EXPECT_EQ(region_at(line, flip.above), flip.region_above);
+        }
+        before = flip.region_above;
+        reached = flip.above;
+    }
+}
+
+TEST(Boundary, IsUndecidedWhereVerdictsCannotBeSettledAndOnlyThere)
 {
     // Without loss a slow pulse lets the block bounce half a million times.
+    const BoundaryLine line{0.17, 1, 0.02};
     const Boundary boundary =
-        boundary_on({}, {papers_slenderness(), 1, 0.003}, {1, 1.0000001, 1.00001}, widest_kernel());
+        boundary_on({}, line, {0.9, 1.00001, 1.0001, 1.001, 1.01, 1.5, 2}, widest_kernel());
     EXPECT_FALSE(boundary.complete);
-    for (const Flip& flip : boundary.flips) {
-        EXPECT_NE(flip.region_below, Region::undecided);
-        EXPECT_NE(flip.region_above, Region::undecided);
-        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
-    }
+    EXPECT_EQ(boundary.region_at_first, Region::S);
+    ASSERT_GE(boundary.flips.size(), 2u);
+    EXPECT_EQ(boundary.flips.front().region_above, Region::undecided);
+    EXPECT_EQ(boundary.flips.back().region_below, Region::undecided);
+    EXPECT_EQ(boundary.flips.back().region_above, region_at(line, 2));
+    expect_whole_and_true(boundary, line);
+}
+
+TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
+{
+    const BoundaryLine line{0.17, 1, 0.003};
+    const Boundary below = boundary_on({}, line, {1.000001, 2}, widest_kernel());
+    EXPECT_EQ(below.region_at_first, Region::undecided);
+    ASSERT_EQ(below.flips.size(), 1u);
+    EXPECT_EQ(below.flips[0].amplitude(), 2);
+    expect_whole_and_true(below, line);
+    const Boundary above = boundary_on({}, line, {0.9, 1.000001}, widest_kernel());
+    EXPECT_EQ(above.region_at_first, Region::S);
+    ASSERT_EQ(above.flips.size(), 1u);
+    EXPECT_EQ(above.flips[0].region_above, Region::undecided);
+    expect_whole_and_true(above, line);
+}
+
+TEST(Boundary, TellsWhetherTheBlockOverturnsAtTheFirstAmplitude)
+{
+    const BoundaryLine line{paper_alpha, paper_r_max, 3};
+    const Boundary all = boundary_on({}, line, {6, 12}, widest_kernel());
+    EXPECT_TRUE(all.flips.empty());
+    EXPECT_EQ(all.region_at_first, Region::U0_minus);
+    const Boundary strip = boundary_on({}, line, {3, 3.62, 4}, widest_kernel());
+    ASSERT_EQ(strip.flips.size(), 2u);
+    EXPECT_EQ(strip.region_at_first, Region::U1_plus);
+    EXPECT_EQ(strip.flips[0].region_below, Region::U1_plus);
 }
 
 TEST(Boundary, LosesNothingIfMoreIsLookedAt)
@@ -263,14 +320,17 @@ TEST(BoundaryTile, HasALineInEachColumn)
     for (std::size_t row = 0; row < 8; ++row) {
         const std::size_t point = 2 * row; // of the first column; in the second nothing flips
         EXPECT_TRUE(std::isnan(amplitude[point + 1]));
-        EXPECT_EQ(below[point + 1], boundary_code::no_flip);
+        // Of a line without a flip, the first row tells the region.
+        EXPECT_EQ(below[point + 1], row == 0 ? std::uint8_t(Region::S) : no_flip);
+        EXPECT_EQ(above[point + 1], no_flip);
         if (row < 3) {
             EXPECT_EQ(amplitude[point], boundary.flips[row].amplitude());
             EXPECT_EQ(Region(below[point]), boundary.flips[row].region_below);
             EXPECT_EQ(Region(above[point]), boundary.flips[row].region_above);
         } else {
             EXPECT_TRUE(std::isnan(amplitude[point]));
-            EXPECT_EQ(above[point], boundary_code::no_flip);
+            EXPECT_EQ(below[point], no_flip);
+            EXPECT_EQ(above[point], no_flip);
         }
     }
 }
@@ -289,7 +349,8 @@ TEST(BoundaryTile, SaysWhereThereAreMoreFlipsThanRows)
     EXPECT_NEAR(std::get<std::vector<double>>(fields.values[0])[1], 3.590936, 6e-7);
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[0],
               std::uint8_t(Region::U0_plus));
-    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[1], boundary_code::in_doubt);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[1],
+              std::uint8_t(Region::undecided));
 }
 
 } // namespace

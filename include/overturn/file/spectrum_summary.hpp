@@ -43,6 +43,16 @@ struct SpectrumSummary {
 /// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
 SpectrumSummary summarize(const std::string& path);
 
+/// The computed lines of a boundary, and those among them without a minimum overturning amplitude.
+struct BoundaryLines {
+    std::int64_t computed = 0;
+    std::int64_t unsafe_at_first = 0; ///< overturn at the first amplitude looked at
+    std::int64_t undecided = 0;       ///< somewhere, or beyond the last crossing
+};
+
+/// Throws FileError as summarize() does.
+BoundaryLines count_lines(const std::string& path);
+
 /// Names of the coordinates whose size or values are not those of the job that the file says it is
 /// of. Throws FileError as summarize() does, and if that job cannot be read.
 std::vector<std::string> damaged_coordinates(const std::string& path);

@@ -49,6 +49,7 @@ Job read_job_text(std::string text, const std::string& name,
 
 /// The job that finds the boundaries of a job's spectrum. Its amplitudes become the scan, and the
 /// plane has crossings instead: the flips of a block at one frequency, counted from 0.
+/// Throws JobError if there is a single amplitude, or if no file could hold them.
 Job boundary_of(Job spectrum);
 
 /// How a job is cut into tiles.

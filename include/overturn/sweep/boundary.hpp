@@ -15,12 +15,13 @@
 
 namespace overturn {
 
-/// A verdict flips between two amplitudes whose own verdicts are settled.
+/// Where the verdict changes: between two amplitudes whose own verdicts are settled, and differ; or
+/// at a settled one, beyond which it is undecided, up to the next settled one.
 struct Flip {
-    double below; ///< [1]
-    double above; ///< [1]
-    Region region_below;
-    Region region_above;
+    double below;        ///< [1]
+    double above;        ///< [1]
+    Region region_below; ///< Region::undecided where verdicts could not be settled
+    Region region_above; ///< the same
 
     double amplitude() const { return below + (above - below) / 2; }
 };
@@ -40,9 +41,10 @@ struct BoundaryLine {
 };
 
 struct Boundary {
-    std::vector<Flip> flips; ///< in ascending order
-    bool complete = true;    ///< every verdict that was looked at could be settled
-    bool has_more = false;   ///< there are flips beyond the last one
+    Region region_at_first = Region::undecided; ///< at the first amplitude
+    std::vector<Flip> flips;                    ///< in ascending order
+    bool complete = true;  ///< every verdict that was looked at could be settled
+    bool has_more = false; ///< there are flips beyond the last one
 };
 
 /// The lowest flips, most_flips at most, between the first and the last of these ascending
@@ -58,16 +60,13 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
                      DropRequested drop_requested = nullptr);
 
-/// Values of region_below and region_above beyond those of regions: no flip is there; or nobody can
-/// tell, because a verdict stays in doubt or there are more flips than rows.
-namespace boundary_code {
+/// Value of region_below and region_above, beyond those of regions, where there is no flip.
 inline constexpr std::uint8_t no_flip = 253;
-inline constexpr std::uint8_t in_doubt = 254;
-} // namespace boundary_code
 
 /// The boundaries of a tile whose rows are the flips of a line, from the first on, and whose
-/// columns are frequencies. Values in the order of boundary_fields; not a number beyond the last
-/// flip.
+/// columns are frequencies. Values in the order of boundary_fields; not a number and no_flip beyond
+/// the last flip, but region_below of a line without any is the region at the first amplitude.
+/// Where there are more flips than rows, the last region_above is undecided.
 TileFields boundary_tile(const Scene& scene, const Plane& plane,
                          const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
                          DropRequested drop_requested = nullptr);
