@@ -8,12 +8,15 @@ import unittest
 import h5py
 import numpy as np
 import xarray
+from matplotlib import pyplot
+from matplotlib.colors import to_rgb
 
 from program import Scratch, checksum
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 FEW = ("--set", "plane.frequency.count=30", "--set", "plane.amplitude.count=60")
-CODE_OF_NO_FLIP = 253
+CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
+UNSAFE, SAFE, UNDECIDED = "#f4e3b0", "#8bc77f", "#f3b3d6"  # shades of plot_boundary
 
 
 class ABoundary(Scratch):
@@ -32,9 +35,10 @@ class ABoundary(Scratch):
         self.assertGreater(there.sum(), 60)
         steps = np.diff(flips, axis=2)
         self.assertTrue((steps[np.isfinite(steps)] > 0).all())
-        self.assertTrue((there == (below != CODE_OF_NO_FLIP)).all())
+        self.assertTrue((there == (above != CODE_OF_NO_FLIP)).all())
+        self.assertTrue((below[:, :, 0] <= 2).all())  # with or without a flip, it begins safely
+        self.assertTrue((below[:, :, 1:] == CODE_OF_NO_FLIP)[~there[:, :, 1:]].all())
         self.assertTrue(((below <= 2) != (above <= 2))[there].all())  # safe on one side alone
-        self.assertTrue((below[:, :, 0][there[:, :, 0]] <= 2).all())  # nothing overturns unlifted
 
     def test_is_where_the_spectrum_changes(self):
         self.boundary()
@@ -87,6 +91,46 @@ class ABoundary(Scratch):
         result = self.overturn("run", "small.toml", "-o", "boundary.h5", *FEW)
         self.assert_exit(result, 74, "is an overturning boundary")
 
+    def test_tells_where_the_first_amplitude_overturns_already(self):
+        strong = [*FEW, "--set", "plane.frequency.last=2", "--set", "plane.amplitude.first=6"]
+        words = "60 of 60 lines overturn at the first amplitude looked at"
+        self.assert_exit(self.overturn("boundary", "small.toml", "-o", "strong.h5", *strong), 0,
+                         f"strong.h5: {words}")
+        self.assert_exit(self.overturn("info", "strong.h5"), 0, f"lines {words}")
+        with h5py.File(self.folder / "strong.h5") as file:
+            self.assertFalse(np.isfinite(file["flip_amplitude"][:]).any())
+            first = file["region_below"][:, :, 0]
+            self.assertTrue(((first >= 3) & (first <= 8)).all())
+            self.assertIn(b"overturns at the first amplitude looked at",
+                          file["region_below"].attrs["comment"])
+        picture = self.drawn("strong.h5", "--restitution", "0")
+        self.assertIn(">overturns at the first amplitude looked at<", picture)
+        self.assertNotIn("minimum overturning amplitude", picture)
+        self.assertEqual(self.shades("strong.h5", "--restitution", "0"), {UNSAFE})
+
+    def test_tells_where_verdicts_are_undecided(self):
+        # Without loss a slow pulse lets the block bounce half a million times.
+        slow = [f"--set=plane.{axis}.values={values}" for axis, values in
+                (("frequency", [0.02]), ("restitution", [1]), ("amplitude", [1.000001, 1.2, 2]))]
+        result = self.overturn("boundary", "small.toml", "-o", "slow.h5", *slow,
+                               "--set", "plane.restitution.of=absolute",
+                               "--set", "plane.slenderness.values=[0.17]")
+        words = "1 of 1 lines have undecided amplitudes"
+        self.assert_exit(result, 0, f"slow.h5: {words}")
+        self.assert_exit(self.overturn("info", "slow.h5"), 0, f"lines {words}")
+        with h5py.File(self.folder / "slow.h5") as file:
+            column = (0, 0, slice(None), 0)
+            self.assertEqual(file["flip_amplitude"][column][0], 1.2)
+            self.assertEqual(file["region_below"][column][0], CODE_OF_UNDECIDED)
+            self.assertIn(file["region_above"][column][0], range(3, 9))
+        self.assertIn(">undecided, or more flips<", self.drawn("slow.h5"))
+        self.assertEqual(self.shades("slow.h5"), {UNDECIDED, UNSAFE})
+
+    def test_of_a_single_amplitude_is_refused(self):
+        result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.values=[3]")
+        self.assert_exit(result, 65, "plane.amplitude has one value, 3")
+        self.assertFalse((self.folder / "small_boundary.h5").exists())
+
     def test_is_told_by_info(self):
         self.boundary()
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, "crossing 64 values",
@@ -96,11 +140,33 @@ class ABoundary(Scratch):
         return subprocess.run([sys.executable, TOOLS / tool, *arguments], cwd=self.folder,
                               capture_output=True, text=True, timeout=60)
 
+    def drawn(self, *arguments):
+        """The picture as SVG."""
+        result = self.plot(*arguments, "-o", "picture.svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return (self.folder / "picture.svg").read_text()
+
+    def shades(self, *arguments):
+        """Those of the three shades that the picture has."""
+        result = self.plot(*arguments, "-o", "picture.png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        pixels = pyplot.imread(self.folder / "picture.png")[:, :, :3]
+        height, width = pixels.shape[:2]
+        inside = pixels[height // 4:-height // 8, width // 8:-width // 16]
+        return {shade for shade in (UNSAFE, SAFE, UNDECIDED)
+                if np.isclose(inside, to_rgb(shade), atol=1 / 255).all(axis=2).mean() > 0.01}
+
+    def test_of_an_older_file_that_tells_no_region_is_drawn_as_undecided(self):
+        self.boundary()
+        with h5py.File(self.folder / "boundary.h5", "r+") as file:
+            file["region_below"][:, :, 0] = np.where(np.isnan(file["flip_amplitude"][:, :, 0]),
+                                                     CODE_OF_NO_FLIP, file["region_below"][:, :, 0])
+        self.assertEqual(self.shades("boundary.h5", "--restitution", "0"),
+                         {UNSAFE, SAFE, UNDECIDED})
+
     def test_is_drawn_with_what_overturns(self):
         self.boundary()
-        result = self.plot("boundary.h5", "--restitution", "1", "-o", "boundary.svg")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        picture = (self.folder / "boundary.svg").read_text()
+        picture = self.drawn("boundary.h5", "--restitution", "1")
         for words in ("minimum overturning amplitude", "other flips", "overturns", "safe"):
             self.assertIn(f">{words}<", picture)
         result = self.plot("boundary.h5")
