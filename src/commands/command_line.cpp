@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "completion.hpp"
 #include "exit_code.hpp"
+#include "help_texts.hpp"
 #include "manual.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
@@ -38,68 +39,6 @@ std::string version_text()
                        program_version(), program_commit(), kernel_text(), mpi_library(),
                        hdf5_version());
 }
-
-constexpr const char* overview = R"(Examples:
-  overturn check jobs/smoke.toml
-  overturn run jobs/smoke.toml
-  mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5
-  overturn info smoke.h5
-  overturn verify smoke.h5
-  overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
-  overturn boundary jobs/smoke.toml
-
-Exit codes: 0 complete, 2 usage, 65 the job's content is wrong, 70 a fault of overturn,
-74 anything about the output, 85 stopped and resumable.)";
-
-constexpr const char* run_help = R"(Example:
-  mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
-
-The same command resumes an unfinished run, with any number of ranks. SIGUSR1, SIGTERM, SIGINT and
-SIGHUP stop it after the tiles in hand, with exit code 85.)";
-
-constexpr const char* boundary_help = R"(Example:
-  mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200
-  tools/plot_boundary figure_07a_boundary.h5
-
-For every slenderness, restitution and frequency, all amplitudes between the job's first and last at which
-safe turns to unsafe or back, in order, with the regions on both sides. The job's amplitudes are looked
-at first; where they tell of more between them, more closely. Each flip is between two settled verdicts
-1e-12 apart, whatever [numerics] says. Resumes an unfinished run, as overturn run does.)";
-
-constexpr const char* check_help = R"(Example:
-  overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
-
-constexpr const char* accuracy_help = R"(Example:
-  overturn accuracy jobs/figure_07a.toml -o accuracy.h5
-  tools/plot_accuracy accuracy.h5
-
-Runs both methods at tolerances from 1e-2 to 1e-14, and resolved, on a sample of the job's plane, on one
-core; the job's own [numerics] and fields do not matter. Its columns, which OUT.h5 has in more detail:
-  evaluations      of the acceleration (rk45), or of its series (taylor), per point
-  error            of the margin, against 50 digits; inf where a block fell that should not have, or
-                   the other way round
-  wrong verdicts   share of the points whose true verdict is known
-  undecided        points without a verdict
-  error > bound    share of the points whose error exceeds what the field "error" says
-  bound / error    its median)";
-
-constexpr const char* history_help = R"(Example:
-  overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
-  tools/plot_history history.h5
-
-Prints the region, and the events with the velocity before and after each and q after it (Eq. 12);
-angles in rad, time tau = p t. OUT.h5 has angle, velocity, acceleration, q and the ground's acceleration
-over time. The pulse is integrated as finely as doubles allow, whatever [numerics] says.)";
-
-constexpr const char* info_help = R"(Example:
-  overturn info smoke.h5)";
-
-constexpr const char* verify_help = R"(Example:
-  overturn verify smoke.h5
-
-Holds the coordinates against the job in the file, and each tile against the checksum that marks it as
-done. Exit code 0: all that is done is as it was written; 74: something is not. A run with the same job
-computes damaged tiles again.)";
 
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
@@ -144,35 +83,62 @@ struct Arguments {
     std::string verify;
 };
 
+/// What --help shows of a command.
+CommandWords words_of(const CLI::App& command)
+{
+    CommandWords words{command.get_name(), command.get_description(), command.get_footer(), {}, {}};
+    for (const CLI::Option* option : command.get_options()) {
+        OptionWords& shown = words.options.emplace_back();
+        for (const std::string& name : option->get_snames()) {
+            shown.names.push_back(fmt::format("-{}", name));
+        }
+        for (const std::string& name : option->get_lnames()) {
+            shown.names.push_back(fmt::format("--{}", name));
+        }
+        // What the value must fulfil stands behind the colon, and says more than its C++ type.
+        const std::string type = option->get_type_name();
+        shown.value = option->get_positional()          ? option->get_name(true)
+                      : option->get_expected_max() == 0 ? ""
+                                                        : type.substr(type.find(':') + 1);
+        shown.description = option->get_description();
+        shown.standard = option->get_default_str();
+        shown.required = option->get_required();
+    }
+    for (const CLI::App* subcommand : command.get_subcommands({})) {
+        words.subcommands.push_back(words_of(*subcommand));
+    }
+    return words;
+}
+
 } // namespace
 
 Command read_command_line(int argc, const char* const* argv)
 {
     CLI::App app{"Overturning spectra of rocking blocks."};
     app.require_subcommand(1);
-    app.footer(overview);
+    app.footer(help::overview);
     app.set_version_flag("--version", version_text);
     const auto arguments = std::make_shared<Arguments>();
 
     CLI::App* const run_command = app.add_subcommand(
         "run", "Compute a spectrum, alone or under mpirun; resume an unfinished one");
-    run_command->footer(run_help);
+    run_command->footer(help::run);
     add_run_arguments(*run_command, arguments->run, "JOB.h5");
 
     CLI::App* const boundary_command = app.add_subcommand(
         "boundary", "Find all amplitudes at which verdicts flip, alone or under mpirun");
-    boundary_command->footer(boundary_help);
+    boundary_command->footer(help::boundary);
     arguments->boundary.boundary = true;
     add_run_arguments(*boundary_command, arguments->boundary, "JOB_boundary.h5");
 
     CLI::App* const check_command = app.add_subcommand(
         "check", "Validate a job; tell its points, bytes and time; write nothing");
-    check_command->footer(check_help);
+    check_command->footer(help::check);
     add_job_arguments(*check_command, arguments->check);
 
     CLI::App* const accuracy_command =
         app.add_subcommand("accuracy", "Measure what accuracy costs in time on a job's plane");
-    accuracy_command->footer(accuracy_help);
+    accuracy_command->footer(help::accuracy);
     add_job_arguments(*accuracy_command, arguments->accuracy.job);
     accuracy_command->add_option("-o,--output", arguments->accuracy.output, "The result file")
         ->type_name("OUT.h5")
@@ -190,7 +156,7 @@ Command read_command_line(int argc, const char* const* argv)
 
     CLI::App* const history_command = app.add_subcommand(
         "history", "Follow one block, forced and free: angle, velocity, impacts over time");
-    history_command->footer(history_help);
+    history_command->footer(help::history);
     add_job_arguments(*history_command, arguments->history.job);
     history_command
         ->add_option("--at", arguments->history.at,
@@ -212,21 +178,23 @@ Command read_command_line(int argc, const char* const* argv)
         ->capture_default_str();
 
     CLI::App* const info_command = app.add_subcommand("info", "Tell what a result file holds");
-    info_command->footer(info_help);
+    info_command->footer(help::info);
     info_command->add_option("FILE", arguments->info, "The result file")->required();
 
     CLI::App* const verify_command =
         app.add_subcommand("verify", "Tell whether a result file is as it was written");
-    verify_command->footer(verify_help);
+    verify_command->footer(help::verify);
     verify_command->add_option("FILE", arguments->verify, "The result file")->required();
 
     // For the build, which installs what they print; --help does not tell of them.
     const std::string_view only = argc == 2 ? argv[1] : "";
     if (only == "--manual" || only == "--bash-completion") {
-        return {.execute = [text = only == "--manual" ? manual_page(app) : bash_completion(app)] {
-            fmt::print("{}", text);
-            return exit_code::complete;
-        }};
+        const CommandWords words = words_of(app);
+        return {
+            .execute = [text = only == "--manual" ? manual_page(words) : bash_completion(words)] {
+                fmt::print("{}", text);
+                return exit_code::complete;
+            }};
     }
     const auto is_meant = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(is_meant).empty()) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <regex>
+#include <algorithm>
 #include <set>
 
 namespace overturn {
@@ -29,35 +29,39 @@ _overturn()
 complete -F _overturn overturn
 )";
 
+/// What is between the braces of "{auto,double}", with spaces; of any other value nothing.
+std::string choices_of(std::string value)
+{
+    if (!value.starts_with('{')) {
+        return "";
+    }
+    std::replace(value.begin(), value.end(), ',', ' ');
+    return value.substr(1, value.size() - 2);
+}
+
 } // namespace
 
-std::string bash_completion(const CLI::App& app)
+std::string bash_completion(const CommandWords& program)
 {
-    const std::regex comma(",");
     std::string commands, by_command;
     std::set<std::string> by_option; // an option means the same to every subcommand
-    for (const CLI::App* command : app.get_subcommands({})) {
+    for (const CommandWords& command : program.subcommands) {
         std::string words, ending;
-        for (const CLI::Option* option : command->get_options()) {
-            const std::string names = option->get_name(false, true); // "-o,--output"
-            const std::string type = option->get_type_name();
-            if (option->get_positional()) {
-                ending = option->get_name(true) == "JOB" ? "toml" : "h5";
+        for (const OptionWords& option : command.options) {
+            if (option.names.empty()) {
+                ending = option.value == "JOB" ? "toml" : "h5";
                 continue;
             }
-            words += std::regex_replace(names, comma, " ") + " ";
-            if (option->get_expected_max() > 0) { // a value follows, perhaps one of {auto,double}
-                std::smatch choices;
-                std::regex_search(type, choices, std::regex("\\{(.*)\\}"));
-                by_option.insert(fmt::format("        *\\ {}) words='{}' ending='{}' ;;\n",
-                                             std::regex_replace(names, comma, "|*\\ "),
-                                             std::regex_replace(choices.str(1), comma, " "),
-                                             type.ends_with(".h5") ? "h5" : ""));
+            words += fmt::format("{} ", fmt::join(option.names, " "));
+            if (!option.value.empty()) {
+                by_option.insert(fmt::format(
+                    "        *\\ {}) words='{}' ending='{}' ;;\n", fmt::join(option.names, "|*\\ "),
+                    choices_of(option.value), option.value.ends_with(".h5") ? "h5" : ""));
             }
         }
-        commands += command->get_name() + " ";
-        by_command += fmt::format("        *\\ {}\\ *) words='{}' ending='{}' ;;\n",
-                                  command->get_name(), words, ending);
+        commands += command.name + " ";
+        by_command += fmt::format("        *\\ {}\\ *) words='{}' ending='{}' ;;\n", command.name,
+                                  words, ending);
     }
     return fmt::format(script, commands, fmt::join(by_option, ""), by_command);
 }

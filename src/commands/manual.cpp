@@ -110,52 +110,40 @@ std::string italic(const std::string& text)
 }
 
 /// "-o, --output OUT.h5"
-std::string heading_of(const CLI::Option& option)
+std::string heading_of(const OptionWords& option)
 {
-    if (option.get_positional()) {
-        return italic(option.get_name(true));
-    }
     std::string names;
-    for (const std::string& name : option.get_snames()) {
-        names += (names.empty() ? "" : ", ") + bold("-" + name);
+    for (const std::string& name : option.names) {
+        names += (names.empty() ? "" : ", ") + bold(name);
     }
-    for (const std::string& name : option.get_lnames()) {
-        names += (names.empty() ? "" : ", ") + bold("--" + name);
-    }
-    if (option.get_expected_max() == 0) { // a flag
-        return names;
-    }
-    // What the value must fulfil stands behind the colon, and says more than its C++ type.
-    const std::string type = option.get_type_name();
-    return names + " " + italic(type.substr(type.find(':') + 1));
+    return names + (names.empty() || option.value.empty() ? "" : " ") +
+           (option.value.empty() ? "" : italic(option.value));
 }
 
-std::string options_of(const CLI::App& command)
+std::string options_of(const CommandWords& command)
 {
     std::string result;
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string& standard = option->get_default_str();
-        result +=
-            fmt::format(".TP\n{}\n{}{}.\n", heading_of(*option), escaped(option->get_description()),
-                        standard.empty() ? "" : fmt::format(" (default: {})", standard));
+    for (const OptionWords& option : command.options) {
+        result += fmt::format(
+            ".TP\n{}\n{}{}.\n", heading_of(option), escaped(option.description),
+            option.standard.empty() ? "" : fmt::format(" (default: {})", option.standard));
     }
     return result;
 }
 
-std::string subcommand(const CLI::App& command)
+std::string subcommand(const CommandWords& command)
 {
     std::string arguments;
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_positional()) {
-            arguments += " " + heading_of(*option);
-        } else if (option->get_required()) {
-            arguments += " " + bold("-" + option->get_snames().at(0)) + " " +
-                         italic(option->get_type_name());
+    for (const OptionWords& option : command.options) {
+        if (option.names.empty()) {
+            arguments += " " + heading_of(option);
+        } else if (option.required) {
+            arguments += " " + bold(option.names[0]) + " " + italic(option.value);
         }
     }
-    return fmt::format(".SS \"overturn {}{}\"\n{}.\n{}.PP\n{}", escaped(command.get_name()),
-                       arguments, escaped(command.get_description()), options_of(command),
-                       paragraphs(command.get_footer()));
+    return fmt::format(".SS \"overturn {}{}\"\n{}.\n{}.PP\n{}", escaped(command.name), arguments,
+                       escaped(command.description), options_of(command),
+                       paragraphs(command.footer));
 }
 
 /// The paragraphs of the footer begin with what they are about: "Examples: ...".
@@ -175,7 +163,7 @@ std::string sections_of_footer(const std::string& footer)
 
 } // namespace
 
-std::string manual_page(const CLI::App& app)
+std::string manual_page(const CommandWords& program)
 {
     std::string page = fmt::format(".TH OVERTURN 1 {} \"overturn {}\" \"User Commands\"\n"
                                    ".SH NAME\noverturn \\- overturning spectra of rocking blocks\n"
@@ -184,11 +172,11 @@ std::string manual_page(const CLI::App& app)
                                    ".br\n\\fBoverturn\\fR \\fISUBCOMMAND\\fR \\fB\\-\\-help\\fR\n",
                                    date_of_words, program_version());
     page += section("Description", description);
-    page += ".SH OPTIONS\n" + options_of(app) + ".SH SUBCOMMANDS\n";
-    for (const CLI::App* command : app.get_subcommands({})) {
-        page += subcommand(*command);
+    page += ".SH OPTIONS\n" + options_of(program) + ".SH SUBCOMMANDS\n";
+    for (const CommandWords& command : program.subcommands) {
+        page += subcommand(command);
     }
-    return page + sections_of_footer(app.get_footer()) + section("Tools", tools) +
+    return page + sections_of_footer(program.footer) + section("Tools", tools) +
            section("Environment", environment) + section("Files", files) +
            ".SH SEE ALSO\n\\fBmpirun\\fR(1), \\fBh5dump\\fR(1)\n";
 }
