@@ -8,6 +8,7 @@
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
+#include "overturn/job/nearest_name.hpp"
 #include "overturn/sweep/kernel.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace overturn {
 
@@ -110,6 +112,17 @@ CommandWords words_of(const CLI::App& command)
     return words;
 }
 
+[[noreturn]] void refuse_subcommand(const CLI::App& app, const char* word)
+{
+    std::vector<std::string_view> names{"help"};
+    for (const CLI::App* command : app.get_subcommands({})) {
+        names.push_back(command->get_name());
+    }
+    const std::string_view meant = nearest_name(word, names);
+    throw UsageError(fmt::format("unknown subcommand \"{}\".{} Run with --help for a list.", word,
+                                 meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant)));
+}
+
 } // namespace
 
 Command read_command_line(int argc, const char* const* argv)
@@ -196,13 +209,17 @@ Command read_command_line(int argc, const char* const* argv)
                 return exit_code::complete;
             }};
     }
-    const auto is_meant = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-    if (argc > 1 && *argv[1] != '-' && app.get_subcommands(is_meant).empty()) {
-        throw UsageError(
-            fmt::format("unknown subcommand \"{}\". Run with --help for a list.", argv[1]));
+    std::vector<const char*> given(argv, argv + argc);
+    if (argc > 1 && given[1] == std::string_view("help")) { // "help run" is "run --help"
+        given.erase(given.begin() + 1);
+        given.push_back("--help");
+    }
+    const auto is_meant = [&](const CLI::App* command) { return command->get_name() == given[1]; };
+    if (given.size() > 1 && *given[1] != '-' && app.get_subcommands(is_meant).empty()) {
+        refuse_subcommand(app, given[1]);
     }
     try {
-        app.parse(argc, argv);
+        app.parse(int(given.size()), given.data());
     } catch (const CLI::Success& asked) { // for help or the version
         std::ostringstream answer;
         app.exit(asked, answer);

@@ -1,7 +1,7 @@
 #include "toml_reading.hpp"
 
-#include "nearest_name.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/job/nearest_name.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>

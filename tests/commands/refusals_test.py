@@ -19,8 +19,20 @@ class TheCommandLine(Scratch):
         result = self.overturn("--version")
         self.assert_exit(result, 0, "overturn ", "commit", "kernel", "MPI", "HDF5 1.")
 
-    def test_an_unknown_subcommand_is_a_usage_error(self):
-        self.assert_refused(2, ["rum", "--help"], "rum", "small.toml")
+    def test_help_is_a_subcommand_too(self):
+        for words in ((), ("run",)):
+            asked = self.overturn("help", *words)
+            self.assert_exit(asked, 0)
+            self.assertEqual(asked.stdout, self.overturn(*words, "--help").stdout)
+
+    def test_an_unknown_subcommand_is_told_with_what_was_meant(self):
+        self.assert_refused(2, ["rum", "Did you mean \"run\"?", "--help"], "rum", "small.toml")
+        self.assert_refused(2, ["Did you mean \"boundary\"?"], "help", "boundry")
+
+    def test_an_unknown_subcommand_that_is_like_no_other_is_a_usage_error(self):
+        result = self.overturn("compute", "small.toml")
+        self.assert_exit(result, 2, "compute", "--help")
+        self.assertNotIn("Did you mean", result.stderr)
 
     def test_no_subcommand_is_a_usage_error(self):
         self.assert_refused(2, ["subcommand", "--help"])

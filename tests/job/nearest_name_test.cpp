@@ -1,4 +1,4 @@
-#include "nearest_name.hpp"
+#include "overturn/job/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 
