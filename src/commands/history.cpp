@@ -22,18 +22,26 @@ namespace {
 constexpr std::array<std::string_view, 4> axis_names{"frequency", "amplitude", "restitution",
                                                      "slenderness"};
 
+std::string trimmed(std::string text)
+{
+    text.erase(0, text.find_first_not_of(' '));
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
 /// The --set argument that puts an axis to one value.
 std::string override_of(const std::string& at)
 {
-    const std::size_t equals = at.find('=');
-    const std::string name = at.substr(0, equals);
+    const std::size_t equals = std::min(at.find('='), at.size());
+    const std::string name = trimmed(at.substr(0, equals));
+    const std::string value = trimmed(at.substr(std::min(equals + 1, at.size())));
     const bool known = std::find(axis_names.begin(), axis_names.end(), name) != axis_names.end();
-    if (!known || equals == std::string::npos || equals + 1 == at.size()) {
+    if (!known || value.empty()) {
         throw UsageError(fmt::format("--at {}: a coordinate is one of {}, and has a value: "
                                      "--at frequency=3,amplitude=1.5",
                                      at, fmt::join(axis_names, ", ")));
     }
-    return fmt::format("plane.{}.values=[{}]", name, at.substr(equals + 1));
+    return fmt::format("plane.{}.values=[{}]", name, value);
 }
 
 Job read_job_of_one_point(const HistoryOptions& options)

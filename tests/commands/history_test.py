@@ -51,8 +51,14 @@ class AHistory(Scratch):
         self.assert_exit(result, 2, "150 values of plane.amplitude", "--at amplitude=0.5")
         self.assertFalse((self.folder / "history.h5").exists())
 
+    def test_coordinates_may_have_spaces_around_them(self):
+        spaced = "--at= frequency = 3, amplitude=1.3 ,restitution = 1 "
+        self.assert_exit(self.history(spaced), 0)
+        with h5py.File(self.folder / "history.h5") as file:
+            self.assertEqual(file.attrs["amplitude"], 1.3)
+
     def test_a_coordinate_that_is_none_is_refused(self):
-        for words in ("frequncy=3", "frequency", "frequency=", "=3"):
+        for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
             self.assert_exit(self.history("--at", words), 2, "a coordinate is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
 
