@@ -65,6 +65,23 @@ Job read_job_of_one_point(const HistoryOptions& options)
     return job;
 }
 
+/// A spectrum flags a point whose numbers overflow; a history would be that of no block.
+void expect_finite(const History& history, const PlanePoint& point)
+{
+    const bool finite = std::all_of(
+        history.samples.begin(), history.samples.end(), [](const HistorySample& sample) {
+            return std::isfinite(sample.angle) && std::isfinite(sample.velocity) &&
+                   std::isfinite(sample.acceleration) && std::isfinite(sample.q);
+        });
+    if (!finite) {
+        throw JobError(fmt::format(
+            "plane.amplitude = {}, with plane.frequency = {}, moves the block beyond the range of "
+            "double precision. Lower it. (In a spectrum such a point is undecided, with the flag "
+            "not_finite in status.)",
+            point.amplitude, point.frequency));
+    }
+}
+
 void print_event(const HistoryEvent& event)
 {
     // A rounding below the last digit shown would print as -0.
@@ -124,6 +141,7 @@ int history(const HistoryOptions& options)
         view.until = options.until;
     }
     const History history = history_of(job.scene, point, view);
+    expect_finite(history, point);
     print_outcome(history);
     print_events(history);
     write_history_file(options.output, job, history);

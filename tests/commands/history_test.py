@@ -62,6 +62,18 @@ class AHistory(Scratch):
             self.assert_exit(self.history("--at", words), 2, "a coordinate is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
 
+    def test_a_motion_beyond_the_range_of_numbers_is_refused(self):
+        result = self.history("--at", "frequency=3,amplitude=1e300,restitution=1")
+        self.assert_exit(result, 65, "plane.amplitude = 1e+300", "beyond the range")
+        self.assertNotIn("nan", result.stdout)
+        self.assertFalse((self.folder / "history.h5").exists())
+        # A spectrum keeps the point, and says what became of it.
+        one = ("--set=plane.frequency.values=[3]", "--set=plane.amplitude.values=[1.5, 1e300]")
+        self.assert_exit(self.overturn("run", "small.toml", *one), 0)
+        with h5py.File(self.folder / "small.h5") as file:
+            self.assertEqual(list(file["region"][0, 1, :, 0] == 254), [False, True])
+            self.assertEqual(list(file["status"][0, 1, :, 0]), [0, 4])
+
     def test_replaces_an_older_history_and_nothing_else(self):
         self.assert_exit(self.history(AT), 0)
         first = checksum(self.folder / "history.h5")
