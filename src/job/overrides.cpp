@@ -188,6 +188,27 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
     }
 }
 
+/// Makes room for a key of an axis that the job gives as a number: the number stays as its list of
+/// values, unless the key gives others.
+void make_room(toml::table& job, toml::table& laid, const Path& path)
+{
+    toml::table* plane = job["plane"].as_table();
+    toml::node* axis = plane == nullptr ? nullptr : plane->get(path[1]);
+    if (axis == nullptr || !axis->is_number()) {
+        return;
+    }
+    if (path[2] == "of" || path[2] == "spacing") {
+        toml::array values; // of moved nodes, which know where they came from
+        axis->visit([&](auto& number) {
+            if constexpr (toml::is_number<decltype(number)>) {
+                values.push_back(std::move(number));
+            }
+        });
+        laid["plane"][path[1]].as_table()->insert("values", std::move(values));
+    }
+    plane->erase(path[1]);
+}
+
 } // namespace
 
 void lay_override(toml::table& job, const std::string& argument)
@@ -205,6 +226,9 @@ void lay_override(toml::table& job, const std::string& argument)
     }
     toml::table laid = job_of(argument, path, value);
     drop_contradictions(job, path, value_at(laid, path, argument));
+    if (path[0] == "plane" && path.size() == 3) {
+        make_room(job, laid, path);
+    }
     lay(job, laid, path, argument);
 }
 

@@ -135,8 +135,12 @@ AxisRange read_range(const Entry& entry, const AxisRule& rule)
 
 } // namespace
 
-Axis read_axis(const Entry& entry, const AxisRule& rule)
+Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys)
 {
+    if (entry.node->is_number()) {
+        return Axis(AxisList{read_value(entry, rule)});
+    }
+    expect_table(entry, keys);
     const auto values = find(entry, "values");
     if (!values) {
         return Axis(read_range(entry, rule));

@@ -19,7 +19,8 @@ struct AxisRule {
 inline constexpr std::array<std::string_view, 5> axis_keys{"values", "first", "last", "count",
                                                            "spacing"};
 
-/// Reads { values = [...] } or { first, last, count, spacing }; the keys have been checked already.
-Axis read_axis(const Entry& entry, const AxisRule& rule);
+/// Reads a number, which is an axis of one value, or a table with no other keys than these:
+/// { values = [...] } or { first, last, count, spacing }.
+Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys = axis_keys);
 
 } // namespace overturn

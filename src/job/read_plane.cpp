@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   
                                                            "count",  "spacing", "of"};
 constexpr std::array<std::string_view, 2> block_keys{"half_width", "half_height"};
 
-constexpr std::string_view axis_advice = "Give { first, last, count } or { values = [...] }.";
+constexpr std::string_view axis_advice =
+    "Give a number, { first, last, count } or { values = [...] }.";
 
 constexpr double right_angle = std::numbers::pi / 2;
 
@@ -35,13 +36,6 @@ const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return valu
 const AxisRule slenderness_rule{"[1e-100, pi/2)",
                                 [](double value) { return value >= 1e-100 && value < right_angle; },
                                 "It is arctan(half width / half height) in radians."};
-
-Axis read_plain_axis(const Entry& plane, std::string_view name, const AxisRule& rule)
-{
-    const Entry entry = require(plane, name, axis_advice);
-    expect_table(entry, axis_keys);
-    return read_axis(entry, rule);
-}
 
 double read_size(const Entry& block, std::string_view name)
 {
@@ -132,17 +126,17 @@ Plane read_plane(const Entry& job, const std::vector<Field>& fields)
         job, "plane", "Add [plane] with frequency, amplitude, restitution and slenderness.");
     expect_table(entry, plane_keys);
     Plane plane;
-    plane.frequency = read_plain_axis(entry, "frequency", frequency_rule);
-    plane.amplitude = read_plain_axis(entry, "amplitude", amplitude_rule);
+    plane.frequency = read_axis(require(entry, "frequency", axis_advice), frequency_rule);
+    plane.amplitude = read_axis(require(entry, "amplitude", axis_advice), amplitude_rule);
 
     const Entry restitution = require(entry, "restitution", axis_advice);
-    expect_table(restitution, restitution_keys);
-    if (const auto of = find(restitution, "of")) {
+    const bool is_table = restitution.node->is_table();
+    if (const auto of = is_table ? find(restitution, "of") : std::nullopt) {
         plane.restitution_of = choice_of<RestitutionOf>(*of, restitution_of_names);
     }
     const bool is_share = plane.restitution_of == RestitutionOf::maximum;
-    plane.restitution =
-        read_axis(restitution, is_share ? restitution_share_rule : restitution_rule);
+    plane.restitution = read_axis(restitution, is_share ? restitution_share_rule : restitution_rule,
+                                  restitution_keys);
 
     const Entry slenderness = slenderness_entry(job, entry);
     if (slenderness.key == "block") {
@@ -151,7 +145,6 @@ Plane read_plane(const Entry& job, const std::vector<Field>& fields)
                                 .half_height = read_size(slenderness, "half_height")};
         plane.slenderness = Axis(AxisList{slenderness_of(slenderness, *plane.block)});
     } else {
-        expect_table(slenderness, axis_keys);
         plane.slenderness = read_axis(slenderness, slenderness_rule);
     }
     check_restitution(slenderness, restitution, plane);

@@ -47,6 +47,42 @@ TEST(AnOverride, MakesTablesThatTheFileDoesNotHave)
     EXPECT_EQ(job.fields, std::vector<Field>{Field::margin});
 }
 
+TEST(AnOverride, MayBeANumberForAWholeAxis)
+{
+    const Job job = job_with({"plane.restitution=0.9", "plane.frequency=3"});
+    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9) << "r itself: of = \"maximum\" is gone";
+    EXPECT_EQ(job.plane.frequency.values(), std::vector<double>{3});
+}
+
+TEST(AnOverride, LiesOverAnAxisThatIsANumber)
+{
+    const JobFile file(sound_job_with(7, "restitution = 0.9"));
+    const auto plane = [&](const std::string& setting) {
+        return read_job(file.path(), {setting}).plane;
+    };
+    const Plane share = plane("plane.restitution.of=maximum");
+    EXPECT_EQ(share.restitution_of, RestitutionOf::maximum);
+    EXPECT_EQ(share.restitution.values(), std::vector<double>{0.9});
+    EXPECT_EQ(plane("plane.restitution.values=[0.5, 0.6]").restitution.size(), 2);
+    EXPECT_EQ(read_job(file.path(), {"plane.restitution.first=0.5", "plane.restitution.last=0.6",
+                                     "plane.restitution.count=3"})
+                  .plane.restitution.size(),
+              3);
+}
+
+TEST(AnOverride, OfAnAxisThatIsANumberLeadsToTheNumberIfThatIsWrong)
+{
+    const JobFile file(sound_job_with(7, "restitution = -0.9"));
+    try {
+        read_job(file.path(), {"plane.restitution.of=maximum"});
+        FAIL() << "the job was accepted";
+    } catch (const JobError& error) {
+        EXPECT_EQ(
+            std::string(error.what()).find(file.path() + ":7:15: plane.restitution.values[0]"), 0u)
+            << error.what();
+    }
+}
+
 TEST(AnOverride, AcceptsABareWordAsAString)
 {
     EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).scene.pulse, PulseKind::one_cosine);
@@ -165,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::
     {"WithAnUnknownTable", "plan.frequency.count=3", {"unknown key \"plan\"", "\"plane\"?"}},
     {"WithAValueOutOfRange", "plane.frequency.first=-1", {"plane.frequency.first = -1 is outside (0, inf)"}},
     {"WithAWrongType", "plane.frequency.count=many", {"plane.frequency.count is the string \"many\"", "integer"}},
-    {"WithANumberForATable", "plane.frequency=3", {"plane.frequency is the integer 3", "a table"}},
+    {"WithANumberForATable", "scene=3", {"scene is the integer 3", "a table"}},
     {"WithAnUnknownPulse", "scene.pulse=one_sin", {"scene.pulse = \"one_sin\" is unknown", "\"one_sine\"?"}},
     {"WithAWindowForAPulseThatEnds", "scene.window=2.0", {"scene.window has no meaning"}},
     {"WithHalfABlock", "block.half_width=2", {"block.half_height is missing"}},

@@ -21,6 +21,25 @@ std::string refusal_of(const std::string& path)
     return "accepted";
 }
 
+TEST(ReadingAJob, TakesANumberForAnAxisOfOneValue)
+{
+    const JobFile file(R"([scene]
+pulse = "one_sine"
+[plane]
+frequency = 3
+amplitude = 1.5
+restitution = 0.9
+slenderness = 0.2
+)");
+    const Job job = read_job(file.path());
+    EXPECT_EQ(job.plane.points(), 1);
+    EXPECT_EQ(job.plane.frequency[0], 3);
+    EXPECT_EQ(job.plane.amplitude[0], 1.5);
+    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9);
+    EXPECT_EQ(job.plane.slenderness[0], 0.2);
+    EXPECT_NE(job.resolved.find("frequency = { values = [3.0] }"), std::string::npos);
+}
+
 TEST(ReadingAJob, GivesWhatTheFileSays)
 {
     const JobFile file(R"(title = "Antisymmetric"
