@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
+
 namespace overturn {
 
 namespace {
@@ -24,18 +26,27 @@ std::string axis_text(const AxisSummary& axis)
     return fmt::format("{} values from {} to {}{}", axis.size, axis.first, axis.last, unit);
 }
 
-void print_what_it_holds(const std::string& path)
+/// In the order of FileKind.
+constexpr std::array<const char*, 4> contents{"a spectrum", "where verdicts flip",
+                                              "the history of one block", "a study of accuracy"};
+
+void print_origin(const std::string& path, const FileOrigin& origin)
+{
+    if (!origin.title.empty()) {
+        fmt::print("{}\n\n", printable(origin.title));
+    }
+    print_row("file", fmt::format("{}, {}", path, human_bytes(double(origin.bytes))));
+    print_row("holds", contents[std::size_t(origin.kind)]);
+    print_row("made by", printable(fmt::format("overturn {} (commit {})", origin.program_version,
+                                               origin.program_commit)));
+}
+
+/// Of a spectrum or a boundary.
+void print_plane_and_tiles(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
     const std::vector<std::string> damaged = damaged_coordinates(path);
-    if (!summary.title.empty()) {
-        fmt::print("{}\n\n", printable(summary.title));
-    }
-    print_row("file", fmt::format("{}, {}", path, human_bytes(double(summary.bytes))));
-    const bool is_boundary = summary.product == Product::boundary;
-    print_row("holds", is_boundary ? "where verdicts flip" : "a spectrum");
-    print_row("made by", printable(fmt::format("overturn {} (commit {})", summary.program_version,
-                                               summary.program_commit)));
+    print_origin(path, summary);
     for (const AxisSummary& axis : summary.axes) {
         print_row(axis.name, axis_text(axis));
     }
@@ -45,6 +56,7 @@ void print_what_it_holds(const std::string& path)
     for (const FieldSummary& field : summary.fields) {
         print_row("field", fmt::format("{}, {}", field.name, field.type));
     }
+    const bool is_boundary = summary.product == Product::boundary;
     print_row("tiles", fmt::format("{} of {} done, {} x {} {} each", summary.tiles_done,
                                    summary.tiles, summary.amplitude_extent,
                                    summary.frequency_extent, is_boundary ? "flips" : "points"));
@@ -57,7 +69,17 @@ void print_what_it_holds(const std::string& path)
                                             "file and the --set arguments of the first run",
                                             is_boundary ? "boundary" : "run", path));
     }
-    fmt::print("\nThe job as resolved:\n\n{}", printable(summary.resolved_job));
+}
+
+void print_what_it_holds(const std::string& path)
+{
+    const FileOrigin origin = origin_of(path);
+    if (origin.kind == FileKind::spectrum || origin.kind == FileKind::boundary) {
+        print_plane_and_tiles(path);
+    } else {
+        print_origin(path, origin);
+    }
+    fmt::print("\nThe job as resolved:\n\n{}", printable(origin.resolved_job));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "overturn/file/accuracy_file.hpp"
 
+#include "layout.hpp"
 #include "whole_file.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-constexpr char kind[] = "accuracy study";
+constexpr const char* kind = layout::accuracy_kind;
 constexpr char setting[] = "setting";
 
 Handle open(hid_t file, const char* name)

@@ -1,5 +1,6 @@
 #include "overturn/file/history_file.hpp"
 
+#include "layout.hpp"
 #include "whole_file.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-constexpr char kind[] = "rocking history";
+constexpr const char* kind = layout::history_kind;
 
 /// What is told of a sample.
 struct Quantity {

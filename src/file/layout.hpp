@@ -13,8 +13,10 @@
 
 namespace overturn::layout {
 
-/// Global attribute `kind`: tells what a file holds, in the order of Product.
-inline constexpr std::array<const char*, 2> kinds{"overturning spectrum", "overturning boundary"};
+/// Global attribute `kind`: tells what a file holds, in the order of FileKind; the first two in
+/// that of Product.
+inline constexpr std::array<const char*, 4> kinds{"overturning spectrum", "overturning boundary",
+                                                  "rocking history", "accuracy study"};
 
 /// Dimensions of every field, slowest first; each has a coordinate variable of its name.
 using Dimensions = std::array<const char*, 4>;
@@ -26,6 +28,8 @@ inline constexpr const char* kind_of(Product product)
 {
     return kinds[std::size_t(product)];
 }
+inline constexpr const char* history_kind = kinds[2];
+inline constexpr const char* accuracy_kind = kinds[3];
 inline constexpr const Dimensions& dimensions_of(Product product)
 {
     return dimensions[std::size_t(product)];

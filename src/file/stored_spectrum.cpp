@@ -176,34 +176,37 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
     spectrum.checksums = read_checksums(dataset);
 }
 
-Product read_product(hid_t file, const std::string& path)
+/// A file of the kinds up to the last one; `wanted` tells what it should have been.
+StoredFile read_origin(const std::string& path, FileKind last, const char* wanted)
 {
-    const std::string kind = hdf5::read_text_attribute(file, "kind");
-    for (const Product product : {Product::spectrum, Product::boundary}) {
-        if (kind == layout::kind_of(product)) {
-            return product;
-        }
+    StoredFile stored;
+    stored.path = path;
+    stored.bytes = std::filesystem::file_size(path);
+    stored.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
+    const std::string kind = hdf5::read_text_attribute(stored.file, "kind");
+    stored.kind = FileKind(std::find(layout::kinds.begin(), layout::kinds.end(), kind) -
+                           layout::kinds.begin());
+    if (stored.kind > last) {
+        throw FileError(fmt::format("\"{}\" is an HDF5 file, but not a {} of overturn{}.", path,
+                                    wanted,
+                                    kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
     }
-    throw FileError(fmt::format("\"{}\" is an HDF5 file, but not a spectrum of overturn{}.", path,
-                                kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
+    stored.title = hdf5::read_text_attribute(stored.file, "title");
+    stored.program_version = hdf5::read_text_attribute(stored.file, "program_version");
+    stored.program_commit = hdf5::read_text_attribute(stored.file, "program_commit");
+    stored.resolved_job = read_text(stored.file, layout::job_resolved, stored.bytes);
+    return stored;
 }
 
-StoredSpectrum read(const std::string& path)
+StoredSpectrum read_spectrum(const std::string& path)
 {
     StoredSpectrum spectrum;
-    spectrum.path = path;
-    spectrum.bytes = std::filesystem::file_size(path);
-    spectrum.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
-    const hid_t file = spectrum.file;
-    spectrum.product = read_product(file, path);
-    spectrum.title = hdf5::read_text_attribute(file, "title");
-    spectrum.program_version = hdf5::read_text_attribute(file, "program_version");
-    spectrum.program_commit = hdf5::read_text_attribute(file, "program_commit");
-    spectrum.resolved_job = read_text(file, layout::job_resolved, spectrum.bytes);
+    static_cast<StoredFile&>(spectrum) = read_origin(path, FileKind::boundary, "spectrum");
+    spectrum.product = Product(spectrum.kind);
     for (const char* name : layout::dimensions_of(spectrum.product)) {
-        spectrum.axes.push_back(read_axis(file, name, spectrum.bytes));
+        spectrum.axes.push_back(read_axis(spectrum.file, name, spectrum.bytes));
     }
-    spectrum.fields = read_fields(file);
+    spectrum.fields = read_fields(spectrum.file);
     for (const Field field : spectrum.fields) {
         check_field(spectrum, field);
     }
@@ -277,7 +280,11 @@ std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const
     }
 }
 
-StoredSpectrum open_stored_spectrum(const std::string& path)
+namespace {
+
+/// What `read` makes of the file at the path; a file that it cannot read is refused by name.
+template <class Read>
+auto read_file(const std::string& path, const Read& read)
 {
     std::error_code reason;
     if (!std::filesystem::is_regular_file(path, reason)) {
@@ -292,13 +299,26 @@ StoredSpectrum open_stored_spectrum(const std::string& path)
     }
     try {
         check(is_hdf5);
-        return read(path);
+        return read();
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
             fmt::format("\"{}\" cannot be read or is damaged: {}.", path, error.what()));
     } catch (const std::bad_alloc&) {
         throw FileError(fmt::format("\"{}\" is damaged: a size in it is absurd.", path));
     }
+}
+
+} // namespace
+
+StoredSpectrum open_stored_spectrum(const std::string& path)
+{
+    return read_file(path, [&] { return read_spectrum(path); });
+}
+
+FileOrigin origin_of(const std::string& path)
+{
+    return read_file(
+        path, [&]() -> FileOrigin { return read_origin(path, FileKind::accuracy, "result"); });
 }
 
 } // namespace overturn

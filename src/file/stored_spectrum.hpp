@@ -4,6 +4,7 @@
 
 #include "hdf5_handles.hpp"
 
+#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/tile.hpp"
@@ -20,15 +21,14 @@ struct StoredAxis {
     std::vector<double> values; ///< in `units`
 };
 
-struct StoredSpectrum {
+/// A result file of any kind.
+struct StoredFile : FileOrigin {
     std::string path;
     hdf5::Handle file;
-    std::uint64_t bytes = 0;
+};
+
+struct StoredSpectrum : StoredFile {
     Product product = Product::spectrum;
-    std::string title;
-    std::string program_version;
-    std::string program_commit;
-    std::string resolved_job;
     std::vector<StoredAxis> axes; ///< slowest first
     std::vector<Field> fields;    ///< in the job's order
     std::int64_t amplitude_extent = 0;

@@ -16,11 +16,8 @@ SpectrumSummary summarize(const std::string& path)
 {
     const StoredSpectrum stored = open_stored_spectrum(path);
     SpectrumSummary summary;
+    static_cast<FileOrigin&>(summary) = stored;
     summary.product = stored.product;
-    summary.title = stored.title;
-    summary.program_version = stored.program_version;
-    summary.program_commit = stored.program_commit;
-    summary.resolved_job = stored.resolved_job;
     for (const StoredAxis& axis : stored.axes) {
         summary.axes.push_back({axis.name, std::int64_t(axis.values.size()), axis.values.front(),
                                 axis.values.back(), axis.units});
@@ -33,7 +30,6 @@ SpectrumSummary summarize(const std::string& path)
     summary.tiles = std::int64_t(stored.checksums.size());
     summary.tiles_done = summary.tiles - std::count(stored.checksums.begin(),
                                                     stored.checksums.end(), not_computed_checksum);
-    summary.bytes = stored.bytes;
     return summary;
 }
 

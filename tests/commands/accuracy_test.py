@@ -35,6 +35,11 @@ class AnAccuracyStudy(Scratch):
             self.assertEqual(file.attrs["points_in_50_digits"], 16)
             self.assertTrue((file["seconds_per_point"][:] > 0).all())
 
+    def test_is_told_by_info(self):
+        self.study()
+        self.assert_exit(self.overturn("info", "study.h5"), 0, "A small plane",
+                         "holds a study of accuracy", "pulse = \"one_sine\"")
+
     def test_no_resolved_verdict_is_wrong_and_the_loosest_are(self):
         self.study()
         with h5py.File(self.folder / "study.h5") as file:

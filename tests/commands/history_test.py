@@ -46,6 +46,13 @@ class AHistory(Scratch):
                 self.assertEqual(found.angle.dims, ("sample",))
                 self.assertEqual(found.event_time.dims, ("event",))
 
+    def test_is_told_by_info(self):
+        self.history(AT)
+        self.assert_exit(self.overturn("info", "history.h5"), 0, "A small plane",
+                         "holds the history of one block", "made by overturn",
+                         "amplitude = { values = [1.3] }")
+        self.assert_exit(self.overturn("verify", "history.h5"), 74, "it is a \"rocking history\"")
+
     def test_a_job_of_many_points_has_to_say_which(self):
         result = self.history("--at", "frequency=3")
         self.assert_exit(result, 2, "150 values of plane.amplitude", "--at amplitude=0.5")

@@ -33,6 +33,8 @@ Verdict use_as_result_file(const std::string& path)
         damaged_coordinates(path);
         damaged_tiles(path);
     });
+    is_answered([&] { origin_of(path); });
+    is_answered([&] { count_lines(path); });
     is_answered([&] { examine(path, job, tiling_of(job)); });
     return is_summarised && is_verified ? Verdict::accepted : Verdict::refused;
 }

@@ -24,20 +24,30 @@ struct FieldSummary {
     std::string type; ///< "uint8", "uint16", "uint32" or "float64"
 };
 
-/// What a result file says of itself.
-struct SpectrumSummary {
-    Product product = Product::spectrum;
+enum class FileKind { spectrum, boundary, history, accuracy };
+
+/// What a result file of any kind says of itself.
+struct FileOrigin {
+    FileKind kind = FileKind::spectrum;
     std::string title;
     std::string program_version;
     std::string program_commit;
     std::string resolved_job;
+    std::uint64_t bytes = 0; ///< of the file
+};
+
+/// Throws FileError if the file is missing, not a result of ours, or damaged.
+FileOrigin origin_of(const std::string& path);
+
+/// What a spectrum or a boundary says of itself.
+struct SpectrumSummary : FileOrigin {
+    Product product = Product::spectrum;
     std::vector<AxisSummary> axes;     ///< slowest first: the dimensions of every field
     std::vector<FieldSummary> fields;  ///< in the job's order
     std::int64_t amplitude_extent = 0; ///< of a tile [points]
     std::int64_t frequency_extent = 0; ///< of a tile [points]
     std::int64_t tiles = 0;
     std::int64_t tiles_done = 0;
-    std::uint64_t bytes = 0; ///< of the file
 };
 
 /// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
