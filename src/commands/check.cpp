@@ -51,7 +51,8 @@ void print_size(const Job& job)
 {
     const Tiling tiling(job.plane);
     const auto points = double(job.plane.points());
-    print_row("points", fmt::format("{} in {} tiles", human_count(points), tiling.size()));
+    print_row("points", fmt::format("{} in {} {}", human_count(points), tiling.size(),
+                                    noun_of(double(tiling.size()), "tiles")));
     for (const Field field : job.fields) {
         print_row("field", fmt::format("{}, {}", name_of(field),
                                        human_bytes(points * double(bytes_per_point(field)))));

@@ -92,15 +92,16 @@ std::string beginning(const Task& task, std::int64_t tiles_before)
 {
     std::string what =
         tiles_before == 0
-            ? fmt::format("{} {} in {} tiles", human_count(double(task.items())), task.item_name(),
-                          task.tiling.size())
+            ? fmt::format("{} {} in {} {}", human_count(double(task.items())),
+                          noun_of(double(task.items()), task.item_name()), task.tiling.size(),
+                          noun_of(double(task.tiling.size()), "tiles"))
             : fmt::format("going on, {} of {} tiles are there", tiles_before, task.tiling.size());
     if (!task.damaged.empty()) {
         what += fmt::format(", {} damaged {} computed again", task.damaged.size(),
                             task.damaged.size() == 1 ? "tile is" : "tiles are");
     }
-    return fmt::format("{}: {}; {} rank{}, kernel {}", task.path, what, task.session.size(),
-                       task.session.size() == 1 ? "" : "s", name_of(task.kernel));
+    return fmt::format("{}: {}; {} {}, kernel {}", task.path, what, task.session.size(),
+                       noun_of(task.session.size(), "ranks"), name_of(task.kernel));
 }
 
 /// What was done, and where the ranks' time went.
@@ -117,8 +118,8 @@ std::string ending(const Task& task, const FarmReport& report, double seconds)
     return fmt::format(
         "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % "
         "writing",
-        human_count(items), task.item_name(), human_duration(seconds), human_count(items / seconds),
-        task.item_name(), percent * computing, percent * writing);
+        human_count(items), noun_of(items, task.item_name()), human_duration(seconds),
+        human_count(items / seconds), task.item_name(), percent * computing, percent * writing);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,

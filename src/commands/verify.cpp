@@ -45,8 +45,9 @@ void print_whether_it_is_whole(const std::string& path)
             path, damaged.size(), summary.tiles_done, list_text(damaged),
             summary.product == Product::boundary ? "boundary" : "run", path));
     }
-    fmt::print("{}: {} of {} tiles are done, and all of them are as they were written\n", path,
-               summary.tiles_done, summary.tiles);
+    fmt::print("{}: {} of {} {} as {} written\n", path, summary.tiles_done, summary.tiles,
+               summary.tiles == 1 ? "tile is done, and is" : "tiles are done, and all of them are",
+               summary.tiles == 1 ? "it was" : "they were");
 }
 
 } // namespace

@@ -69,6 +69,12 @@ class AFinishedFile(Scratch):
             self.assert_exit(result, 0, "small.h5 is complete already")
             self.assertEqual(checksum(self.folder / "small.h5"), before)
 
+    def test_of_one_point_is_told_in_the_singular(self):
+        one = ("--set=plane.frequency=3", "--set=plane.amplitude=2", "--set=plane.restitution=0.9")
+        self.assert_exit(self.overturn("check", "small.toml", *one), 0, "points 1 in 1 tile")
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "one.h5", *one), 0,
+                         "one.h5: 1 point in 1 tile; 1 rank,", "computed 1 point in")
+
     def test_info_tells_what_it_holds(self):
         self.overturn("run", "small.toml")
         result = self.overturn("info", "small.h5")
@@ -312,7 +318,7 @@ class AnInterruptedRun(Scratch):
                         text=True) as process:
                     self.addCleanup(process.kill)
                     beginning = process.stdout.readline()
-                    self.assertIn("tiles", beginning)
+                    self.assertRegex(beginning, "in (1 tile|[0-9]+ tiles);")
                     process.send_signal(signal.SIGUSR1)
                     output, _ = process.communicate(timeout=PATIENCE / 2)
                     self.assertEqual(process.returncode, 85, output)

@@ -22,6 +22,13 @@ TEST(HumanUnits, CountsNeverShowFourDigitsBeforeAPrefix)
     EXPECT_EQ(human_count(99'960), "100 k");
 }
 
+TEST(HumanUnits, OneThingIsASingularNoun)
+{
+    EXPECT_EQ(noun_of(1, "tiles"), "tile");
+    EXPECT_EQ(noun_of(0, "tiles"), "tiles");
+    EXPECT_EQ(noun_of(21, "tiles"), "tiles");
+}
+
 TEST(HumanUnits, DurationsNameOneOrTwoUnits)
 {
     EXPECT_EQ(human_duration(0.314), "314 ms");
