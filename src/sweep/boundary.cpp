@@ -1,11 +1,11 @@
 #include "overturn/sweep/boundary.hpp"
 
+#include "probes.hpp"
 #include "resolve.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -21,21 +21,6 @@ constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .reso
 /// A verdict that stays undecided may take a second: after so many the scan is not refined any
 /// more.
 constexpr std::size_t most_undecided = 16;
-
-/// What becomes of a block at one amplitude.
-struct Probe {
-    double amplitude;
-    Region region;
-    double margin;
-    double impacts;
-    int halving = 0; ///< of the scan, that brought it in
-
-    bool is_settled() const { return is_safe(region) || is_unsafe(region); }
-    bool falls_to_plus() const
-    {
-        return region == Region::U0_plus || region == Region::U1_plus || region == Region::F_plus;
-    }
-};
 
 class Line {
 public:
@@ -78,16 +63,6 @@ private:
     DropRequested drop_requested_;
     std::vector<Probe> undecided_;
 };
-
-bool is_narrow(double below, double above)
-{
-    return above - below <= flip_width * above || std::nextafter(below, above) >= above;
-}
-
-double middle_of(const Probe& below, const Probe& above)
-{
-    return below.amplitude + (above.amplitude - below.amplitude) / 2;
-}
 
 /// Narrows a bracket of one flip, until a verdict within it cannot be settled. The margin changes
 /// its sign there, but may jump.
@@ -156,51 +131,6 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
     return found;
 }
 
-void sort_by_amplitude(std::vector<Probe>& probes)
-{
-    std::stable_sort(probes.begin(), probes.end(), [](const Probe& one, const Probe& other) {
-        return one.amplitude < other.amplitude;
-    });
-}
-
-/// Whether the margin may turn back towards 0 between three neighbours: it is far from a straight
-/// line, or they had unlike impacts and it changes by more than a 64th. Of a thousand flips at low
-/// frequencies, a 16th instead of a 64th loses two in a hundred; nothing at all finds the same ones
-/// in three times the time, because it halves all steps of a block that bounces to rest.
-bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
-{
-    const auto [nearest, farthest] =
-        std::minmax({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
-    const bool unlike = left.impacts != middle.impacts || middle.impacts != right.impacts;
-    if (unlike && farthest - nearest > nearest / 64) {
-        return true;
-    }
-    const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
-    const double straight = left.margin + share * (right.margin - left.margin);
-    return std::abs(middle.margin - straight) > nearest / 4;
-}
-
-/// Where the verdict changes between neighbours.
-bool is_flip(const Probe& below, const Probe& above)
-{
-    return is_safe(below.region) != is_safe(above.region);
-}
-
-/// Leaves out what is not settled, and what lies beyond the first flip too many.
-void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
-{
-    probes.erase(std::remove_if(probes.begin(), probes.end(),
-                                [](const Probe& probe) { return !probe.is_settled(); }),
-                 probes.end());
-    std::size_t flips = 0;
-    for (std::size_t i = 1; i < probes.size(); ++i) {
-        flips += is_flip(probes[i - 1], probes[i]);
-        if (flips > most_flips) {
-            probes.resize(i + 1);
-        }
-    }
-}
-
 /// Halves the steps of the scan where it is rough, and those again, down to finest_step.
 std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
                                           std::size_t most_flips)
@@ -239,18 +169,6 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
     return probes;
 }
 
-/// Whether the margin is nearest to 0 in the middle, and so near that it may reach 0 between its
-/// neighbours. A parabola falls below its lowest of three values by an eighth of their differences
-/// at most; beside a strip the margin bends more sharply: of a thousand flips, a limit of 4 instead
-/// of 32 loses six.
-bool may_reach_zero(const Probe& left, const Probe& middle, const Probe& right)
-{
-    const double nearest = std::abs(middle.margin);
-    const double before = std::abs(left.margin) - nearest;
-    const double after = std::abs(right.margin) - nearest;
-    return before >= 0 && after >= 0 && nearest < 32 * std::max(before, after);
-}
-
 /// Adds what two neighbours of one verdict tell of another between them.
 void find_what_hides_between(Line& line, std::vector<Probe>& probes)
 {
@@ -275,17 +193,6 @@ void find_what_hides_between(Line& line, std::vector<Probe>& probes)
     sort_by_amplitude(probes);
 }
 
-/// Adds what was left undecided, where nothing was settled later.
-void add_undecided(const Line& line, std::vector<Probe>& probes)
-{
-    probes.insert(probes.end(), line.undecided().begin(), line.undecided().end());
-    sort_by_amplitude(probes); // stable: of equal amplitudes the settled one stays first
-    const auto is_same = [](const Probe& one, const Probe& other) {
-        return one.amplitude == other.amplitude;
-    };
-    probes.erase(std::unique(probes.begin(), probes.end(), is_same), probes.end());
-}
-
 } // namespace
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
@@ -304,7 +211,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
     }
     probes.insert(probes.end(), closer.begin(), closer.end());
-    add_undecided(line, probes);
+    add_undecided(line.undecided(), probes);
 
     Boundary boundary;
     boundary.region_at_first = probes.front().region;
@@ -324,6 +231,40 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
     }
     return boundary;
+}
+
+TileFields boundary_tile(const Scene& scene, const Plane& plane,
+                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
+                         DropRequested drop_requested)
+{
+    const auto points = std::size_t(tile.points());
+    std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
+    std::vector<std::uint8_t> below(points, no_flip);
+    std::vector<std::uint8_t> above(points, no_flip);
+    const auto rows = std::size_t(tile.amplitude_count);
+    const auto columns = std::size_t(tile.frequency_count);
+    for (std::size_t column = 0; column < columns; ++column) {
+        const BoundaryLine line{
+            .slenderness = plane.slenderness[tile.slenderness],
+            .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
+            .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
+        const Boundary boundary =
+            boundary_on(scene, line, amplitudes, kernel, rows, drop_requested);
+        below[column] = std::uint8_t(boundary.region_at_first);
+        for (std::size_t row = 0; row < boundary.flips.size(); ++row) {
+            const Flip& flip = boundary.flips[row];
+            const std::size_t point = row * columns + column;
+            amplitude[point] = flip.amplitude();
+            below[point] = std::uint8_t(flip.region_below);
+            above[point] = std::uint8_t(flip.region_above);
+        }
+        if (boundary.has_more) {
+            above[(rows - 1) * columns + column] = std::uint8_t(Region::undecided);
+        }
+    }
+    TileFields fields;
+    fields.values = {std::move(amplitude), std::move(below), std::move(above)};
+    return fields;
 }
 
 } // namespace overturn
