@@ -28,7 +28,8 @@ inline constexpr const char* boundary = R"(Example:
 For every slenderness, restitution and frequency, all amplitudes between the job's first and last at which
 safe turns to unsafe or back, in order, with the regions on both sides. The job's amplitudes are looked
 at first; where they tell of more between them, more closely. Each flip is between two settled verdicts
-1e-12 apart, whatever [numerics] says. Resumes an unfinished run, as overturn run does.)";
+1e-12 apart, whatever [numerics] says. Where the first amplitude overturns the block already, there is no
+minimum overturning amplitude, and info says so. Resumes an unfinished run, as overturn run does.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
