@@ -1,8 +1,8 @@
-"""The page of tools/gallery in a browser: what is on it, and what it tells of a point.
+"""The page of tools/paper/gallery in a browser: what is on it, and what it tells of a point.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
-environment, and CHROMIUM, if it is not chromium on the PATH. PICTURES names the folder of a gallery
-at 60 x 60 points that gallery_test.py has left; without it one is made.
+Wants OVERTURN (the binary) in the environment, and CHROMIUM, if it is not chromium on the PATH.
+PICTURES names the folder of a gallery at 60 x 60 points that gallery_test.py has left; without it
+one is made.
 """
 
 import json
@@ -17,10 +17,11 @@ import unittest
 from PIL import Image
 
 from browser import Browser, Failure
-from gallery_test import FIGURES, GALLERY, OVERTURN
+from gallery_test import FIGURES, OVERTURN
 from page_words import COLOURS, LEFT_STANDING, POINTS, Spectrum
+from tool import TOOLS, run_tool
 
-CHECKOUT = GALLERY.parent.parent
+CHECKOUT = TOOLS.parent
 PANELS = "overturn:panels"
 HINT = "Move over the spectrum, tap it, or use the arrow keys."
 SPECTRA = {"07a": "7b_and_8", "14b": "15b"}  # and where they land
@@ -34,8 +35,8 @@ class TestThePage(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.pictures = pathlib.Path(os.environ.get("PICTURES", cls.folder / "pictures"))
         if "PICTURES" not in os.environ:
-            subprocess.run([GALLERY, "-o", cls.pictures, "--points", str(POINTS), "--page"],
-                           check=True, capture_output=True, timeout=280)
+            run_tool("paper/gallery", "-o", cls.pictures, "--points", str(POINTS), "--page",
+                     check=True, timeout=280)
         cls.spectra = {figure: Spectrum(figure, cls.folder) for figure in SPECTRA}
         cls.browser = Browser(1280, 1000)
         cls.addClassCleanup(cls.browser.close)

@@ -1,23 +1,20 @@
-"""tools/gallery makes every figure, and nothing but them.
+"""tools/paper/gallery makes every figure, and nothing but them.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
-environment. PICTURES names a folder to leave the gallery in, for the test of its page.
+Wants OVERTURN (the binary) in the environment. PICTURES names a folder to leave the gallery in, for the test of its page.
 """
 
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import numpy as np
+from tool import TOOLS, run_tool
 
 OVERTURN = os.environ["OVERTURN"]
-GALLERY = pathlib.Path(os.environ["PLOT_SPECTRUM"]).with_name("gallery")
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(GALLERY.parent))
+sys.path.insert(0, str(TOOLS / "paper"))
 from packed_spectrum import UNKNOWN, decimal_codes, planes  # noqa: E402
 
 FIGURES = ("02", "03", "04", "05", "07a", "07b_08", "09a", "09b", "10", "11a", "11b", "12a", "12b",
@@ -32,8 +29,8 @@ class InAFolder(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def gallery(self, *arguments, **environment):
-        return subprocess.run([GALLERY, *arguments], cwd=self.folder, timeout=280, text=True,
-                              capture_output=True, env=os.environ | environment)
+        return run_tool("paper/gallery", *arguments, cwd=self.folder, timeout=280,
+                        env=os.environ | environment)
 
 
 class TestTheGallery(InAFolder):

@@ -1,7 +1,6 @@
 """What tools/join_spectra writes is held against one run over all slendernesses, byte for byte.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
-environment.
+Wants OVERTURN (the binary) in the environment.
 """
 
 import os
@@ -13,9 +12,9 @@ import unittest
 import h5py
 import numpy as np
 import xarray
+from tool import run_tool
 
 OVERTURN = os.environ["OVERTURN"]
-TOOLS = pathlib.Path(os.environ["PLOT_SPECTRUM"]).parent
 
 # 2 x 2 x 3 tiles for each slenderness, some of them cut off at the far edges; every type of field.
 JOB = """
@@ -55,7 +54,7 @@ class Spectra(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def join(self, *arguments):
-        return self.run_here(TOOLS / "join_spectra", *arguments)
+        return run_tool("join_spectra", *arguments, cwd=self.folder)
 
     def assert_joins(self, *names):
         before = sorted(os.listdir(self.folder))
@@ -119,7 +118,8 @@ class TestTheWhole(Spectra):
         self.assertIn("is complete already", run.stdout)
         run = self.run_here(OVERTURN, "info", "joined.h5")
         self.assertIn("24 of 24 done", run.stdout)
-        run = self.run_here(TOOLS / "to_csv", "joined.h5", "--slenderness=1", "--restitution=0")
+        run = run_tool("to_csv", "joined.h5", "--slenderness=1", "--restitution=0",
+                       cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         with xarray.open_dataset(self.folder / "joined.h5") as spectrum:
             self.assertEqual(spectrum.region.sel(slenderness=0.2, restitution=0.7).shape,

@@ -1,19 +1,14 @@
-"""What the page of tools/gallery should tell of a point, from a spectrum that is computed anew."""
+"""What the page of tools/paper/gallery should tell of a point, from a spectrum that is computed anew."""
 
 import os
-import pathlib
 import subprocess
-import sys
 
 import h5py
+from tool import TOOLS  # first: it puts the package on the path
+from overturn.regions import LEFT_STANDING, REGIONS
 
-TOOLS = pathlib.Path(os.environ["PLOT_SPECTRUM"]).parent
 POINTS = 60
 COARSER = [f"--set=plane.{axis}.count={POINTS}" for axis in ("frequency", "amplitude")]
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(TOOLS))
-from regions import LEFT_STANDING, REGIONS  # noqa: E402
 
 COLOURS = {code: tuple(bytes.fromhex(colour[1:])) for code, (_, _, colour) in REGIONS.items()}
 

@@ -1,29 +1,24 @@
 """The pictures of tools/plot_landing, and the labels it shares with tools/plot_spectrum.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
-environment.
+Wants OVERTURN (the binary) in the environment.
 """
 
 import argparse
-import pathlib
 import subprocess
 import unittest
 
 import h5py
 import numpy as np
-import plot_spectrum_test  # first: it puts the folder of the tools on the path
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, PLOT_SPECTRUM, S, S_PLUS, U0_MINUS,
-                                Picture)
-from region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
-from spectrum_file import Axis
-
-PLOT_LANDING = pathlib.Path(PLOT_SPECTRUM).with_name("plot_landing")
+import plot_spectrum_test
+from plot_spectrum_test import F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_MINUS, Picture
+from tool import run_tool  # first: it puts the package on the path
+from overturn.region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
+from overturn.spectrum_file import Axis
 
 
 class LandingPicture(Picture):
     def plot(self, *arguments):
-        return subprocess.run([PLOT_LANDING, *arguments], cwd=self.folder, timeout=100,
-                              capture_output=True, text=True)
+        return run_tool("plot_landing", *arguments, cwd=self.folder)
 
     def landing(self, codes, angle, velocity):
         """A result file whose points end in given states."""
@@ -31,7 +26,6 @@ class LandingPicture(Picture):
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             file["angle"] = np.broadcast_to(np.float64(angle), file["region"].shape)
             file["velocity"] = np.broadcast_to(np.float64(velocity), file["region"].shape)
-
 
     def two_points(self, codes, angle, velocity):
         """Alone in a plane of blocks that overturned: a label would hide where they land."""

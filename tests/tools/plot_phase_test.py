@@ -1,20 +1,16 @@
-"""The portraits of tools/plot_phase: their colours against Eq. 20, their words read from SVG.
-
-Wants PLOT_SPECTRUM (that tool; the others are beside it) in the environment.
-"""
+"""The portraits of tools/plot_phase: their colours against Eq. 20, their words read from SVG."""
 
 import pathlib
 import re
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
 from matplotlib import colors, pyplot
-from plot_spectrum_test import PLOT_SPECTRUM, REGIONS  # puts the folder of the tools on the path
-from phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
+from tool import run_tool  # first: it puts the package on the path
+from overturn.phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
+from overturn.regions import REGIONS
 
-PLOT_PHASE = pathlib.Path(PLOT_SPECTRUM).with_name("plot_phase")
 ALPHA, R = 0.4, 0.6
 HIGHEST = 1.5
 
@@ -104,8 +100,7 @@ class TestAPortrait(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def plot(self, *arguments):
-        return subprocess.run([PLOT_PHASE, *arguments], cwd=self.folder, timeout=100,
-                              capture_output=True, text=True)
+        return run_tool("plot_phase", *arguments, cwd=self.folder)
 
     def text(self, portrait, *arguments):
         """All words in a line; a bar or a prime comes as a word of its own."""

@@ -1,39 +1,24 @@
 """The pictures of tools/plot_spectrum: their colours are counted, their words are read from SVG.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (the tool) in the environment.
+Wants OVERTURN (the binary) in the environment.
 """
 
-import importlib.machinery
-import importlib.util
 import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import h5py
 import numpy as np
 from matplotlib import colors, image
+from tool import run_tool  # first: it puts the package on the path
+from overturn.regions import REGIONS
 
 OVERTURN = os.environ["OVERTURN"]
-PLOT_SPECTRUM = os.environ["PLOT_SPECTRUM"]
 
 S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 4, 8, 254, 255
-
-
-def the_tool():
-    sys.dont_write_bytecode = True
-    sys.path.insert(0, str(pathlib.Path(PLOT_SPECTRUM).parent))
-    loader = importlib.machinery.SourceFileLoader("plot_spectrum", PLOT_SPECTRUM)
-    module = importlib.util.module_from_spec(
-        importlib.util.spec_from_loader("plot_spectrum", loader))
-    loader.exec_module(module)
-    return module
-
-
-REGIONS = the_tool().REGIONS
 
 
 class Picture(unittest.TestCase):
@@ -60,8 +45,7 @@ class Picture(unittest.TestCase):
             file["checksum"] = np.array([1, 0 if NOT_COMPUTED in codes else 2], np.uint64)
 
     def plot(self, *arguments):
-        return subprocess.run([PLOT_SPECTRUM, *arguments], cwd=self.folder, timeout=100,
-                              capture_output=True, text=True)
+        return run_tool("plot_spectrum", *arguments, cwd=self.folder)
 
     def picture(self, *arguments):
         run = self.plot("spectrum.h5", "-o", "picture.png", *arguments)

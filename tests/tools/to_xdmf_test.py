@@ -1,22 +1,19 @@
 """What tools/to_xdmf writes: its references are followed to the values, here and by ParaView.
 
-Wants OVERTURN (the binary) and PLOT_SPECTRUM (that tool; the others are beside it) in the
-environment, and for ParaView PVPYTHON, its Python.
+Wants OVERTURN (the binary) in the environment, and for ParaView PVPYTHON, its Python.
 """
 
 import json
 import os
-import pathlib
 import subprocess
 import unittest
 from xml.etree import ElementTree
 
 import h5py
 import numpy as np
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, PLOT_SPECTRUM, REGIONS, S,
-                                UNDECIDED, Picture)
-
-TO_XDMF = pathlib.Path(PLOT_SPECTRUM).with_name("to_xdmf")
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, REGIONS, S, UNDECIDED,
+                                Picture)
+from tool import run_tool
 
 JOB = """
     title = "A & B < \\"C\\""
@@ -63,8 +60,7 @@ class Described(Picture):
                        capture_output=True, timeout=100)
 
     def describe(self, *arguments):
-        return subprocess.run([TO_XDMF, *arguments], cwd=self.folder, timeout=100,
-                              capture_output=True, text=True)
+        return run_tool("to_xdmf", *arguments, cwd=self.folder)
 
     def described(self, *arguments, output="spectrum.xdmf2"):
         """The steps of what the tool wrote."""

@@ -1,7 +1,7 @@
 """Overturning spectra as the drawing tools read them: the planes of a file, cell by cell."""
 
 import numpy as np
-from result_file import USAGE, PlotError, open_result, text_attribute
+from overturn.result_file import USAGE, PlotError, open_result, text_attribute
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet"}

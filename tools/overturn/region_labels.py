@@ -4,7 +4,7 @@ import argparse
 import re
 
 import numpy as np
-from regions import CODES
+from overturn.regions import CODES
 
 PATTERN = re.compile(r"(?P<text>[^=]+)=(?P<region>[^@]+)@(?P<frequency>[^,]+),(?P<amplitude>.+)")
 MOST_CELLS = 400  # to a side: pieces are followed cell by cell

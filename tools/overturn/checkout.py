@@ -3,9 +3,9 @@
 import os
 import pathlib
 
-from result_file import USAGE, PlotError
+from overturn.result_file import USAGE, PlotError
 
-CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
+CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def find_overturn(told):

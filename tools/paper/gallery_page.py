@@ -15,8 +15,8 @@ import tomllib
 
 from packed_spectrum import FIELDS, LEAST_EXPONENT, STEPS, UNKNOWN, PackedSpectrum
 from PIL import Image
-from regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
-from result_file import PANELS
+from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
+from overturn.result_file import PANELS
 
 PARTS = pathlib.Path(__file__).resolve().parent / "page"
 LINE = 88  # characters of a command

@@ -9,7 +9,7 @@ import base64
 import zlib
 
 import numpy as np
-from spectrum_file import open_spectrum
+from overturn.spectrum_file import open_spectrum
 
 FIELDS = ("angle", "velocity", "margin")
 UNKNOWN = -32768

@@ -5,7 +5,7 @@ Lengths of time are in 1/p, so a velocity is d theta / d(p t) [rad], and q is ov
 
 import numpy as np
 from matplotlib import patheffects
-from regions import CODES, REGIONS
+from overturn.regions import CODES, REGIONS
 
 HALF_TURN = np.pi / 2  # a block that tilts so far lies
 BOUNDARY = {"color": "black", "linewidth": 0.9,  # seen on dark ground as well

@@ -1,6 +1,6 @@
 "use strict";
 // Shows the computed point under the pointer, in words and as a ring in every picture that has it.
-// How the bytes of a spectrum are laid out is told in tools/packed_spectrum.py.
+// How the bytes of a spectrum are laid out is told in tools/paper/packed_spectrum.py.
 
 const constants = JSON.parse(document.getElementById("constants").textContent);
 const hint = "Move over the spectrum, tap it, or use the arrow keys.";
