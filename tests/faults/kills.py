@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Kills overturn again and again, and looks whether anything is lost.
 
     kills.py [--kills N] [--seed S]

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """floors_hold.py SOURCE_DIR: includes point to the same floor or a lower one, rooms of floor 4 leave
 each other alone but for the job's data, only one room knows each of TOML, HDF5 and MPI, and headers may be
 included twice."""

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """kernels_share_nothing.py NM OBJECT...: a kernel compiled for AVX2 or AVX-512 must not define a
 function that the linker could pick for the rest of the program, which runs on processors without
 them: every weak function carries the name of an instruction set. Constants have no instructions, and

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Effects cost nothing unless asked for: the leanest scene, which asks for the region alone, pays for
 nothing else. Counts of instructions are exact and repeatable; each is held against what the same
 build takes by hand, or for something else, so that none depends on the compiler.

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """without_records.py RECORDS HEADER OUTPUT: the header of the forced stage, as if nothing could be
 recorded on the way: every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition
 names such a member of struct Records is cut out. Each must have one. Line numbers stay."""

@@ -242,6 +242,7 @@ def run(options):
         fail("--points must be at least 2 and --rounds at least 1")
     if not options.output.resolve().parent.is_dir():
         fail(f"{options.output}: there is no folder {options.output.resolve().parent}")
+    import scipy_rk45  # noqa: F401: if SciPy is missing, that is said before anything is built
     program = Program(build(options.build, "bench_peers"), options.points)
     about = program.ask("about")
     reference = check_reference(program)

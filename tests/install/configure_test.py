@@ -1,0 +1,41 @@
+"""What the configuration of the build refuses. CMAKE and CXX come from the environment."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+# In place of CMake's own; the configuration ends at the package that it looks for after HDF5.
+FIND_MODULES = {"MPI": "set(MPI_FOUND TRUE)",
+                "HDF5": "set(HDF5_FOUND TRUE)\nset(HDF5_IS_PARALLEL TRUE)",
+                "Boost": 'message(FATAL_ERROR "HDF5 was accepted")'}
+
+
+class AConfiguration(unittest.TestCase):
+    def with_hdf5(self, version):
+        """What CMake says where this HDF5 is found."""
+        with tempfile.TemporaryDirectory(prefix="overturn-test-") as folder:
+            for name, text in FIND_MODULES.items():
+                (pathlib.Path(folder) / f"Find{name}.cmake").write_text(text + "\n")
+            run = subprocess.run(
+                [os.environ["CMAKE"], "-S", SOURCE, "-B", f"{folder}/build", "-G", "Ninja",
+                 f"-DCMAKE_MODULE_PATH={folder}", f"-DHDF5_VERSION={version}",
+                 "-DCMAKE_CXX_COMPILER_WORKS=ON", "-DCMAKE_C_COMPILER_WORKS=ON"],
+                capture_output=True, text=True, timeout=100)
+        self.assertNotEqual(run.returncode, 0)
+        return " ".join(run.stderr.split())
+
+    def test_refuses_an_hdf5_that_cannot_turn_file_locking_off(self):
+        for version in ("1.10.0", "1.10.6", "1.12.0"):
+            self.assertIn(f"HDF5 {version} was found. overturn needs 1.10.7 or later, but not "
+                          "1.12.0", self.with_hdf5(version))
+
+    def test_accepts_those_that_can(self):
+        for version in ("1.10.7", "1.12.1", "1.14.3"):
+            self.assertIn("HDF5 was accepted", self.with_hdf5(version))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,62 @@
+"""Tools that are started by a Python which lacks their modules."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+import venv
+
+from tool import PATIENCE, TOOLS
+from overturn.interpreter import SYSTEM, system_has
+
+NAMES = sorted(path.relative_to(TOOLS) for path in (*TOOLS.iterdir(), *(TOOLS / "paper").iterdir())
+               if path.is_file() and b"python" in path.read_bytes().split(b"\n")[0])
+
+
+class TestAPythonWithoutTheModules(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        venv.create(cls.folder / "bare")
+        cls.programs = cls.folder / "bare" / "bin"
+
+    def run_here(self, *command):
+        path = f"{self.programs}{os.pathsep}{os.environ['PATH']}"
+        return subprocess.run(command, cwd=self.folder, timeout=PATIENCE, capture_output=True,
+                              text=True, env={**os.environ, "PATH": path})
+
+    def test_is_the_first_on_the_path_that_every_tool_asks_for(self):
+        self.assertIn(pathlib.Path("plot_spectrum"), NAMES)
+        self.assertIn(pathlib.Path("paper/gallery"), NAMES)
+        for name in NAMES:
+            self.assertEqual((TOOLS / name).read_text().splitlines()[0], "#!/usr/bin/env python3")
+
+    @unittest.skipUnless(all(map(system_has, ("h5py", "matplotlib"))), f"{SYSTEM} lacks them, too")
+    def test_is_left_for_the_systems_which_has_them_and_the_tool_says_so(self):
+        for name in NAMES:
+            run = self.run_here(TOOLS / name, "--help")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn(f"usage: {name.name} ", run.stdout)
+            if name.name != "bench":  # which imports them when it is told what to do
+                self.assertIn(f"{name.name}: {self.programs / 'python3'} cannot import ", run.stderr)
+                self.assertIn(f"; running in {SYSTEM} instead.", run.stderr)
+        run = self.run_here(TOOLS / "plot_phase", "regions", "-o", "a picture.png")
+        self.assertEqual((run.returncode, run.stdout), (0, "a picture.png\n"), run.stderr)
+
+    def test_ends_with_what_to_install_if_the_systems_lacks_them_too(self):
+        for system in (self.programs / "python3", self.folder / "nothing"):
+            code = (f"import sys; sys.path.insert(0, {str(TOOLS)!r}); sys.argv = ['a_tool']\n"
+                    f"from overturn import interpreter; interpreter.SYSTEM = {str(system)!r}\n"
+                    "try: import h5py\n"
+                    "except ImportError as error: interpreter.run_elsewhere(error)\n")
+            run = self.run_here(self.programs / "python3", "-c", code)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("a_tool: No module named 'h5py'", run.stderr)
+            self.assertIn("tools/install_dependencies plot", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
