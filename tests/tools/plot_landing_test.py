@@ -10,7 +10,8 @@ import unittest
 import h5py
 import numpy as np
 import plot_spectrum_test
-from plot_spectrum_test import F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_MINUS, Picture
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_MINUS, Picture,
+                                add_field)
 from tool import run_tool  # first: it puts the package on the path
 from overturn.region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
 from overturn.spectrum_file import Axis
@@ -24,8 +25,8 @@ class LandingPicture(Picture):
         """A result file whose points end in given states."""
         self.spectrum(codes)
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["angle"] = np.broadcast_to(np.float64(angle), file["region"].shape)
-            file["velocity"] = np.broadcast_to(np.float64(velocity), file["region"].shape)
+            for name, values in (("angle", angle), ("velocity", velocity)):
+                add_field(file, name, np.broadcast_to(np.float64(values), file["region"].shape), np.nan)
 
     def two_points(self, codes, angle, velocity):
         """Alone in a plane of blocks that overturned: a label would hide where they land."""

@@ -28,21 +28,23 @@ class Picture(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def spectrum(self, codes, frequency=None, amplitude=None, **attributes):
-        """A result file with the given codes; slenderness and restitution may be left out."""
+        """A result file with the given codes; slenderness and restitution may be left out. Each point
+        is a tile, which is not marked where it is not computed."""
         codes = np.array(codes, np.uint8)
         codes = codes.reshape((1,) * (4 - codes.ndim) + codes.shape)
         slendernesses, restitutions, rows, columns = codes.shape
         with h5py.File(self.folder / "spectrum.h5", "w") as file:
             file.attrs.update({"kind": "overturning spectrum", "title": "A title",
                                "pulse": "one_sine", "theory": "nonlinear", **attributes})
-            file["region"] = codes
+            add_field(file, "region", codes, NOT_COMPUTED)
             file["slenderness"] = np.linspace(0.1, 0.2, slendernesses)
             file["restitution"] = np.linspace(0.7, 1, restitutions)
             file["restitution"].attrs["of"] = "maximum"
             file["restitution_ratio"] = np.full((slendernesses, restitutions), 0.625)
             file["frequency"] = np.arange(1.0, columns + 1) if frequency is None else frequency
             file["amplitude"] = np.arange(1.0, rows + 1) if amplitude is None else amplitude
-            file["checksum"] = np.array([1, 0 if NOT_COMPUTED in codes else 2], np.uint64)
+            file["checksum"] = (codes != NOT_COMPUTED).astype(np.uint64).ravel()
+            file["checksum"].attrs.update({"amplitude_extent": 1, "frequency_extent": 1})
 
     def plot(self, *arguments):
         return run_tool("plot_spectrum", *arguments, cwd=self.folder)
@@ -56,6 +58,10 @@ class Picture(unittest.TestCase):
         run = self.plot("spectrum.h5", "-o", "picture.svg", *arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         return re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+
+
+def add_field(file, name, values, fill):
+    file.create_dataset(name, data=values, fillvalue=fill)
 
 
 def where(picture, code):

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import h5py
 import numpy as np
 from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, REGIONS, S, UNDECIDED,
-                                Picture)
+                                Picture, add_field)
 from tool import run_tool
 
 JOB = """
@@ -157,7 +157,7 @@ class TestTheReferences(Described):
     def test_a_file_without_the_region_is_described_too(self):
         self.spectrum([[S, F_MINUS]])
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["margin"] = np.array([0.5, np.nan]).reshape(1, 1, 1, 2)
+            add_field(file, "margin", np.array([0.5, np.nan]).reshape(1, 1, 1, 2), np.nan)
             del file["region"]
         step, = self.described("spectrum.h5")
         self.assertEqual(list(self.values(step)), ["margin"])

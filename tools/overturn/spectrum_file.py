@@ -1,6 +1,8 @@
 """Overturning spectra as the drawing tools read them: the planes of a file, cell by cell."""
 
 import numpy as np
+
+from overturn.fields import count_tiles, read_field
 from overturn.result_file import USAGE, PlotError, open_result, text_attribute
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -98,13 +100,13 @@ def rows_of_tiles(field):
     return [slice(first, first + height) for first in range(0, field.shape[2], height)]
 
 
-def read_cells(field, slenderness, restitution, rows, columns):
+def read_cells(file, name, pair, rows, columns):
     """What the field holds in given rows and columns."""
-    values = np.empty((len(rows), len(columns)), field.dtype)
-    for tiles in rows_of_tiles(field):
+    values = np.empty((len(rows), len(columns)), file[name].dtype)
+    for tiles in rows_of_tiles(file[name]):
         wanted = (rows >= tiles.start) & (rows < tiles.stop)
         if wanted.any():
-            block = field[slenderness, restitution, tiles, :]
+            block = read_field(file, name, pair, tiles)
             values[wanted] = block[np.ix_(rows[wanted] - tiles.start, columns)]
     return values
 
@@ -138,7 +140,7 @@ def subtitle(file, pairs):
         words.append("linear theory")
     if len(pairs) == 1:
         words.append(block_text(file, *pairs[0]))
-    tiles, done = len(file["checksum"]), np.count_nonzero(file["checksum"][:])
+    done, tiles = count_tiles(file)
     if done < tiles:
         words.append(f"unfinished: {done} of {tiles} tiles computed")
     return ",  ".join(words)

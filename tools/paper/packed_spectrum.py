@@ -9,6 +9,8 @@ import base64
 import zlib
 
 import numpy as np
+
+from overturn.fields import read_field
 from overturn.spectrum_file import open_spectrum
 
 FIELDS = ("angle", "velocity", "margin")
@@ -44,9 +46,9 @@ class PackedSpectrum:
 
     def __init__(self, path):
         with open_spectrum(path, ("region", *FIELDS)) as file:
-            region = file["region"][0, 0]
+            region = read_field(file, "region", (0, 0))
             parts = [np.asarray(file[axis], "<f8").tobytes() for axis in ("frequency", "amplitude")]
-            parts += [planes(decimal_codes(file[field][0, 0])) for field in FIELDS]
+            parts += [planes(decimal_codes(read_field(file, field, (0, 0)))) for field in FIELDS]
             self.source = file.attrs["source"].decode()
         self.rows, self.columns = region.shape
         self.text = base64.b64encode(zlib.compress(b"".join([*parts, region.tobytes()]))).decode()
