@@ -101,6 +101,12 @@ class AHistory(Scratch):
             self.assertIn(f">{words}<", picture)
         self.assertIn("safe (S)", picture)
 
+    def test_is_drawn_with_the_settings_that_are_not_told_below_the_title(self):
+        self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")
+        self.assertEqual(self.plot("history.h5", "-o", "history.svg").returncode, 0)
+        self.assertIn(">A small plane, with scene.pulse='half_sine'<",
+                      (self.folder / "history.svg").read_text().replace("&apos;", "'"))
+
     def test_a_spectrum_is_not_drawn_as_one(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         result = self.plot("spectrum.h5")

@@ -1,6 +1,7 @@
 """tools/paper/gallery makes every figure, and nothing but them.
 
-Wants OVERTURN (the binary) in the environment. PICTURES names a folder to leave the gallery in, for the test of its page.
+Wants OVERTURN (the binary) in the environment. PICTURES names a folder to leave the gallery in, for
+the test of its page.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""What the page of tools/paper/gallery should tell of a point, from a spectrum that is computed anew."""
+"""What the page of tools/paper/gallery should tell of a point, from a spectrum computed anew."""
 
 import os
 import subprocess

@@ -26,7 +26,8 @@ class LandingPicture(Picture):
         self.spectrum(codes)
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             for name, values in (("angle", angle), ("velocity", velocity)):
-                add_field(file, name, np.broadcast_to(np.float64(values), file["region"].shape), np.nan)
+                values = np.broadcast_to(np.float64(values), file["region"].shape)
+                add_field(file, name, values, np.nan)
 
     def two_points(self, codes, angle, velocity):
         """Alone in a plane of blocks that overturned: a label would hide where they land."""
@@ -187,7 +188,8 @@ class TestALandingRefused(LandingPicture):
     def test_of_several_spectra_asks_for_one(self):
         self.landing(np.zeros((1, 3, 2, 2)), 0.0, 0.0)
         self.refuses(2, "--restitution (0 to 2)", "spectrum.h5")
-        self.assertEqual(self.plot("spectrum.h5", "--restitution", "1").returncode, 0)
+        run = self.plot("spectrum.h5", "--restitution", "1")
+        self.assertEqual((run.returncode, run.stdout), (0, "spectrum_landing.png\n"), run.stderr)
 
     def test_of_a_label_shows_one_that_is_right(self):
         self.landing([[S]], 0.0, 0.0)

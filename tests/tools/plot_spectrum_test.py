@@ -15,6 +15,8 @@ import numpy as np
 from matplotlib import colors, image
 from tool import run_tool  # first: it puts the package on the path
 from overturn.regions import REGIONS
+from overturn.spectrum_file import Axis
+from overturn.ticks import log_ticks
 
 OVERTURN = os.environ["OVERTURN"]
 
@@ -28,8 +30,8 @@ class Picture(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def spectrum(self, codes, frequency=None, amplitude=None, **attributes):
-        """A result file with the given codes; slenderness and restitution may be left out. Each point
-        is a tile, which is not marked where it is not computed."""
+        """A result file with the given codes; slenderness and restitution may be left out. Each
+        point is a tile, which is not marked where it is not computed."""
         codes = np.array(codes, np.uint8)
         codes = codes.reshape((1,) * (4 - codes.ndim) + codes.shape)
         slendernesses, restitutions, rows, columns = codes.shape
@@ -93,8 +95,8 @@ class TestTheMap(Picture):
                                    atol=self.TOLERANCE)
 
     def test_a_short_stretch_of_equal_steps_is_not_taken_for_geometric(self):
-        self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1000.0, 1000.5, 1001.0])
-        self.assertIn("1001", self.words())  # on a logarithmic axis only 1000 has a label
+        self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0])).scale, "linear")
+        self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0])).scale, "log")
 
     def test_amplitude_grows_upward_and_frequency_to_the_right(self):
         self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]])
@@ -125,6 +127,26 @@ class TestTheMap(Picture):
             gap = min(map(lightness, lighter)) - max(map(lightness, darker))
             # About 2 is the least that an eye sees side by side; apart in a map it takes more.
             self.assertGreater(gap, 7, (lighter, darker))
+
+
+class TestTheTicks(Picture):
+    def test_of_a_logarithmic_axis_are_at_least_four(self):
+        self.spectrum(np.zeros((100, 1)), amplitude=np.geomspace(1.13, 11.3, 100))
+        for number in ("1.5", "2", "3", "5", "7", "10"):
+            self.assertIn(number, self.words())
+
+    def test_are_round_numbers_within_any_limits_and_not_too_many(self):
+        limits = ((1.13, 11.3), (0.5, 8), (1, 2), (9, 11), (0.1, 10), (0.03, 0.3), (1000, 1001),
+                  (1e-16, 1e-2), (1e-5, 1e5))
+        for low, high in limits:
+            ticks = log_ticks(low, high)
+            self.assertTrue((low * (1 - 1e-9) <= ticks).all())
+            self.assertTrue((ticks <= high * (1 + 1e-9)).all())
+            self.assertIn(len(ticks), range(4, 10), (low, high))
+            for tick in ticks:
+                # As many digits as tell the limits apart, and one more.
+                digits = max(2, int(np.ceil(-np.log10(np.log10(high / low)))) + 2)
+                self.assertAlmostEqual(float(f"{tick:.{digits - 1}e}") / tick, 1, places=12)
 
 
 class TestTheWords(Picture):
@@ -158,6 +180,14 @@ class TestTheWords(Picture):
     def test_a_title_may_hold_any_character(self):
         self.spectrum([[S]], title="from $1 to $2_x\nin Ω")
         self.assertIn("from $1 to $2_x in Ω", self.words())
+
+    def test_settings_are_told_with_the_title_cut_off_if_they_are_long(self):
+        self.spectrum([[S]])
+        settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            file["job_overrides"] = np.frombuffer(settings.encode(), np.uint8)
+        self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",
+                      [word.replace("&quot;", '"') for word in self.words()])
 
     def test_another_title_replaces_the_jobs(self):
         self.spectrum([[S]])

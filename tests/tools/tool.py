@@ -1,5 +1,5 @@
-"""The tools as the tests start them: with the interpreter of the tests, in a given folder. Importing
-this module makes their package `overturn` importable."""
+"""The tools as the tests start them: with the interpreter of the tests, in a given folder.
+Importing this module makes their package `overturn` importable."""
 
 import pathlib
 import subprocess

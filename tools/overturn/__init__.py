@@ -1,1 +1,1 @@
-"""What the tools share: result files, spectra, regions and phase space, as they read and draw them."""
+"""What the tools share: how they read and draw result files, spectra, regions and phase space."""

@@ -21,14 +21,14 @@ def count_tiles(file):
 
 
 def computed(file, field, outer, rows):
-    """Which points of some rows, at one place of the outer dimensions, lie in computed tiles. Tiles are
-    numbered in the order of the dimensions, the last of which counts fastest."""
+    """Which points of some rows, at one place of the outer dimensions, lie in computed tiles. Tiles
+    are numbered in the order of the dimensions, the last of which counts fastest."""
     *outer_shape, height, width = field.shape
     high, wide = tile_shape(file)
     up, across = -(-height // high), -(-width // wide)
     if len(file["checksum"]) != int(np.prod(outer_shape)) * up * across:
-        raise PlotError(f"\"{file.filename}\" is damaged: it has {len(file['checksum'])} checksums, "
-                        f"but not as many tiles.")
+        raise PlotError(f"\"{file.filename}\" is damaged: it has {len(file['checksum'])} "
+                        "checksums, but not as many tiles.")
     start, stop, _ = rows.indices(height)
     first, last = start // high, -(-stop // high)
     plane = int(np.ravel_multi_index(outer, outer_shape))

@@ -19,9 +19,9 @@ def system_has(module):
 
 
 def run_elsewhere(error, packages="plot"):
-    """Replaces this process, in which an import has failed, by the same tool in the system's Python;
-    if that would fail as well, ends with a message. `packages` are what install_dependencies is to
-    install."""
+    """Replaces this process, in which an import has failed, by the same tool in the system's
+    Python; if that would fail as well, ends with a message. `packages` are what
+    install_dependencies is to install."""
     tool = os.path.basename(os.path.realpath(sys.argv[0]))
     module = (error.name or "").split(".")[0]
     if module and sys.executable != SYSTEM and system_has(module):

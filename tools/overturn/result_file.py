@@ -3,7 +3,6 @@
 import json
 import pathlib
 import sys
-import textwrap
 
 import h5py
 
@@ -26,18 +25,27 @@ def text_attribute(holder, name):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
-def title_of(file):
-    """The job's title; with overrides, which may have made it wrong, those too."""
+def shortened(text, width):
+    """In a line of at most so many letters. A setting is often one long word."""
+    line = " ".join(text.split())
+    return line if len(line) <= width else line[:width - 1].rstrip() + "…"
+
+
+def title_of(file, told=()):
+    """The job's title; with overrides, which may have made it wrong, those too, but for the title's
+    own and for those of tables whose values are told beside it."""
     title = text_attribute(file, "title")
     if title and "job_overrides" in file:
         overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
-        title += ", with " + ", ".join(textwrap.shorten(words, 48) for words in overrides)
+        untold = [shortened(words, 48) for words in overrides
+                  if words.split("=")[0].split(".")[0].strip() not in ("title", *told)]
+        title += (", with " + ", ".join(untold)) * bool(untold)
     return title
 
 
 def plain(title, width=90):
     """A title that fits, and whose dollars start no mathematics."""
-    return textwrap.shorten(title, width, placeholder=" …").replace("$", r"\$")
+    return shortened(title, width).replace("$", r"\$")
 
 
 def open_result(path, kind, wanted):
