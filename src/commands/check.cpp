@@ -2,10 +2,10 @@
 #include "commands.hpp"
 #include "estimate.hpp"
 #include "exit_code.hpp"
+#include "human_units.hpp"
 #include "print_row.hpp"
 #include "printable.hpp"
 
-#include "overturn/farm/human_units.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 

@@ -69,7 +69,7 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
                      "loss of power; slower");
     command
         .add_option("--patience", options.patience,
-                    "End the run, resumable, if nothing is heard of a rank for so long [s]")
+                    "End the run, resumable, if a rank does not respond for so long [s]")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 }

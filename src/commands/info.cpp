@@ -1,11 +1,11 @@
 // What a result file holds, and how to go on with it if it is unfinished.
 #include "child_process.hpp"
 #include "commands.hpp"
+#include "human_units.hpp"
 #include "lines_text.hpp"
 #include "print_row.hpp"
 #include "printable.hpp"
 
-#include "overturn/farm/human_units.hpp"
 #include "overturn/file/spectrum_summary.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 
 #include "child_process.hpp"
 #include "exit_code.hpp"
+#include "human_units.hpp"
 #include "say.hpp"
 
-#include "overturn/farm/human_units.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"

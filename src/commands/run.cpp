@@ -2,14 +2,14 @@
 // compute each, write each.
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "human_units.hpp"
 #include "lines_text.hpp"
 #include "prepare_output.hpp"
+#include "progress.hpp"
 #include "say.hpp"
 
 #include "overturn/farm/farm.hpp"
-#include "overturn/farm/human_units.hpp"
 #include "overturn/farm/mpi_session.hpp"
-#include "overturn/farm/progress.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
@@ -172,10 +172,10 @@ void write_record(const Task& task, const std::vector<std::string>& hosts, const
     }
 }
 
-/// Ends all ranks if one is not heard of any more.
-FarmReport compute_or_tell_who_is_silent(const Task& task, const std::vector<std::string>& hosts,
-                                         const std::vector<std::int64_t>& missing,
-                                         SpectrumFile& file)
+/// Ends all ranks if one does not respond.
+FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<std::string>& hosts,
+                                           const std::vector<std::int64_t>& missing,
+                                           SpectrumFile& file)
 {
     try {
         return compute_tiles(task, missing, file);
@@ -184,9 +184,9 @@ FarmReport compute_or_tell_who_is_silent(const Task& task, const std::vector<std
             hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank)]);
         task.session.abort(
             exit_code::stopped,
-            fmt::format("nothing was heard of rank {}{} for {} s: it was stopped, its disk hangs, "
-                        "or its host cannot be reached. What was computed is kept; run the same "
-                        "command again to resume.",
+            fmt::format("rank {}{} has not responded for {} s: it was stopped, its disk hangs, or "
+                        "its host cannot be reached. The tiles that are done are kept; run the "
+                        "same command again to resume.",
                         silent.rank, host, silent.silence.count()));
     }
 }
@@ -206,7 +206,7 @@ int compute_what_is_missing(const Task& task)
         missing = file.missing_tiles();
         say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
     }
-    const FarmReport report = compute_or_tell_who_is_silent(task, hosts, missing, file);
+    const FarmReport report = compute_or_name_the_silent_rank(task, hosts, missing, file);
     file.close();
 
     const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();

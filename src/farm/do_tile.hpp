@@ -1,4 +1,4 @@
-// One tile, computed and written, with the time that it took.
+// Computes and writes one tile, and measures both times.
 #pragma once
 
 #include "overturn/farm/farm.hpp"
@@ -15,10 +15,10 @@ inline void do_tile(std::int64_t number, const TileWork& tile_work,
 {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const bool is_there = tile_work.compute(number, drop_requested);
+    const bool was_computed = tile_work.compute(number, drop_requested);
     const auto computed = Clock::now();
     share.compute_seconds += std::chrono::duration<double>(computed - start).count();
-    if (!is_there) {
+    if (!was_computed) {
         return;
     }
     tile_work.write(number);

@@ -11,7 +11,7 @@ namespace overturn {
 
 namespace {
 
-/// Workers come here first and wait without taking a core, here and in from_rank_0.
+/// Workers arrive before rank 0; here and in from_rank_0 they wait without occupying a core.
 std::vector<RankShare> gather_on_rank_0(const MpiSession& session, const RankShare& share)
 {
     std::vector<RankShare> shares(session.rank() == 0 ? std::size_t(session.size()) : 0);
@@ -22,7 +22,7 @@ std::vector<RankShare> gather_on_rank_0(const MpiSession& session, const RankSha
     return shares;
 }
 
-/// Rank 0's two numbers, on all ranks.
+/// Returns rank 0's two numbers on all ranks.
 std::array<std::int64_t, 2> from_rank_0(const MpiSession& session,
                                         std::array<std::int64_t, 2> values)
 {
@@ -35,9 +35,9 @@ std::array<std::int64_t, 2> from_rank_0(const MpiSession& session,
 
 } // namespace
 
-SilentRank::SilentRank(int silent_rank, std::chrono::seconds for_so_long)
-    : std::runtime_error("nothing was heard of rank " + std::to_string(silent_rank)),
-      rank(silent_rank), silence(for_so_long)
+SilentRank::SilentRank(int silent_rank, std::chrono::seconds duration)
+    : std::runtime_error("rank " + std::to_string(silent_rank) + " has not responded"),
+      rank(silent_rank), silence(duration)
 {}
 
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,

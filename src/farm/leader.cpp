@@ -2,7 +2,7 @@
 
 #include "do_tile.hpp"
 #include "wait_for.hpp"
-#include "words.hpp"
+#include "worker_message.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -11,11 +11,12 @@ namespace overturn {
 
 namespace {
 
-/// While rank 0 computes a tile, workers wait no longer than this for an answer; looking for their
-/// words takes a thousandth of it.
-constexpr std::chrono::milliseconds between_answers{10};
+/// While rank 0 computes a tile, workers wait no longer than this for an answer. Probing for their
+/// messages takes a thousandth of it.
+constexpr std::chrono::milliseconds answer_interval{10};
 
-/// Beyond that it was not the answer that took long: rank 0 was not running, or a line was opened.
+/// An answer that seems to take longer does not: rank 0 was not running, or MPI opened a
+/// connection.
 constexpr double longest_answer = 1e-4; // [s]
 
 } // namespace
@@ -25,76 +26,77 @@ Leader::Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles
                const StopRequest& stop, std::chrono::seconds patience)
     : communicator_(session.communicator()), dealer_(tiles, session.size()), tile_work_(tile_work),
       on_progress_(on_progress), stop_(stop), patience_(patience),
-      workers_(std::size_t(session.size())), still_busy_(session.size() - 1)
+      workers_(std::size_t(session.size())), busy_workers_(session.size() - 1)
 {}
 
 RankShare Leader::lead()
 {
-    Occasionally attention(between_answers);
+    Occasionally communication(answer_interval);
     const std::function<bool()> drop_requested = [&] {
-        if (attention.is_due()) {
-            attend();
+        if (communication.is_due()) {
+            communicate();
         }
         return stop_.overdue();
     };
     while (true) {
-        attend();
+        communicate();
         const TileRange own = dealer_.deal_one();
         if (!own.empty()) {
             do_tile(own.begin, tile_work_, drop_requested, share_);
-        } else if (still_busy_ > 0) {
-            std::this_thread::sleep_for(between_looks);
+        } else if (busy_workers_ > 0) {
+            std::this_thread::sleep_for(polling_interval);
         } else {
-            dismiss_all();
+            end_work();
             return share_;
         }
     }
 }
 
-void Leader::attend()
+void Leader::communicate()
 {
     if (stop_.requested()) {
         dealer_.stop();
     }
-    hear_all();
-    if (roll_call_.is_due()) {
-        call_the_roll();
+    receive_all();
+    if (timeout_check_.is_due()) {
+        check_timeouts();
     }
     on_progress_(share_.tiles + done_by_workers_);
 }
 
-// In Open MPI 4.1 a look that finds nothing fetches what has come, and only the next one sees
-// it. With single looks, workers on tiles as long as rank 0's waited half of the time.
-void Leader::hear_all()
+// In Open MPI 4.1 a probe that finds nothing fetches what has arrived, and only the next probe
+// reports it. With single probes, workers on tiles as long as rank 0's waited half of the time.
+void Leader::receive_all()
 {
-    for (int empty_looks = 0; empty_looks < 2; ++empty_looks) {
+    for (int empty_probes = 0; empty_probes < 2; ++empty_probes) {
         MPI_Status status;
         int waiting = 0;
-        MPI_Iprobe(MPI_ANY_SOURCE, word_tag, communicator_, &waiting, &status);
+        MPI_Iprobe(MPI_ANY_SOURCE, worker_message_tag, communicator_, &waiting, &status);
         if (waiting) {
-            hear(status.MPI_SOURCE);
-            empty_looks = -1;
+            receive_from(status.MPI_SOURCE);
+            empty_probes = -1;
         }
     }
 }
 
-void Leader::hear(int rank)
+void Leader::receive_from(int rank)
 {
     const auto start = Clock::now();
-    Word word;
-    MPI_Recv(&word, word_length, MPI_INT64_T, rank, word_tag, communicator_, MPI_STATUS_IGNORE);
+    WorkerMessage message;
+    MPI_Recv(&message, worker_message_length, MPI_INT64_T, rank, worker_message_tag, communicator_,
+             MPI_STATUS_IGNORE);
     Worker& worker = workers_[std::size_t(rank)];
-    worker.heard = start;
-    done_by_workers_ += word.tiles_done;
-    seconds_of_workers_ += 1e-9 * double(word.busy_nanoseconds);
-    if (word.stop) {
+    worker.last_message = start;
+    done_by_workers_ += message.tiles_done;
+    busy_seconds_of_workers_ += 1e-9 * double(message.busy_nanoseconds);
+    if (message.stop) {
         dealer_.stop();
     }
     const bool was_done = worker.is_done();
-    worker.waits = worker.waits || word.asking;
-    worker.idle = word.idle; // of no meaning if it does not wait: an answer is on its way
-    still_busy_ += int(was_done) - int(worker.is_done());
-    if (word.asking) {
+    worker.waits = worker.waits || message.requests_range;
+    worker.idle = message.idle; // counts only while it waits: otherwise an answer is on its way
+    busy_workers_ += int(was_done) - int(worker.is_done());
+    if (message.requests_range) {
         const TileRange range = dealer_.deal(limits());
         if (!range.empty()) {
             answer(rank, range);
@@ -109,18 +111,18 @@ void Leader::answer(int rank, const TileRange& range)
 {
     MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, communicator_);
     Worker& worker = workers_[std::size_t(rank)];
-    still_busy_ += int(worker.is_done());
+    busy_workers_ += int(worker.is_done());
     worker.waits = false;
 }
 
-void Leader::dismiss_all()
+void Leader::end_work()
 {
     for (int rank = 1; rank < int(workers_.size()); ++rank) {
-        answer(rank, dismissal);
+        answer(rank, end_of_work);
     }
 }
 
-/// From what answers and tiles have taken so far.
+/// From the times that answers and tiles have taken so far.
 RangeLimits Leader::limits() const
 {
     const std::int64_t done = share_.tiles + done_by_workers_;
@@ -128,22 +130,22 @@ RangeLimits Leader::limits() const
         return {};
     }
     return range_limits(int(workers_.size()), dealing_.seconds / double(dealing_.requests),
-                        (busy_seconds(share_) + seconds_of_workers_) / double(done));
+                        (busy_seconds(share_) + busy_seconds_of_workers_) / double(done));
 }
 
-/// Misses the workers of which nothing was heard for too long, and lets those that are done show
-/// themselves. After a while in which rank 0 itself did not listen, because it was stopped or its
-/// disk hung, all get as long again: the same may have happened to them.
-void Leader::call_the_roll()
+/// Throws if a worker has sent nothing for too long, and makes those that are done send a message.
+/// If rank 0 itself was suspended, or its disk hung, the time starts again for all workers: the
+/// same may have happened to them.
+void Leader::check_timeouts()
 {
     const auto now = Clock::now();
-    const bool was_away = now - last_roll_call_ > std::chrono::milliseconds(patience_) / 2;
-    last_roll_call_ = now;
+    const bool was_suspended = now - last_timeout_check_ > std::chrono::milliseconds(patience_) / 2;
+    last_timeout_check_ = now;
     for (int rank = 1; rank < int(workers_.size()); ++rank) {
         Worker& worker = workers_[std::size_t(rank)];
-        if (was_away) {
-            worker.heard = now;
-        } else if (now - worker.heard > patience_) {
+        if (was_suspended) {
+            worker.last_message = now;
+        } else if (now - worker.last_message > patience_) {
             throw SilentRank(rank, patience_);
         }
         if (worker.is_done()) {

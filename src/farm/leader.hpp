@@ -1,4 +1,4 @@
-// The first rank of a farm: it hands out ranges of tiles, and computes in between.
+// Rank 0 of a farm: it hands out ranges of tiles, and computes tiles in between.
 #pragma once
 
 #include "occasionally.hpp"
@@ -8,8 +8,8 @@
 
 namespace overturn {
 
-/// Rank 0: answers every request that has come, then does one tile of its own, until nothing is
-/// left and no worker has anything to do.
+/// Answers every request that has arrived, then computes one tile, until no tile is left and all
+/// workers are done.
 class Leader {
 public:
     Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
@@ -25,19 +25,19 @@ private:
     using Clock = std::chrono::steady_clock;
 
     struct Worker {
-        Clock::time_point heard = Clock::now();
-        bool waits = false; ///< for an answer
-        bool idle = false;  ///< and has nothing else to do
+        Clock::time_point last_message = Clock::now();
+        bool waits = false; ///< for an answer to its request
+        bool idle = false;  ///< has no tile left to compute
 
         bool is_done() const { return waits && idle; }
     };
 
-    void attend();
-    void hear_all();
-    void hear(int rank);
+    void communicate();
+    void receive_all();
+    void receive_from(int rank);
     void answer(int rank, const TileRange& range);
-    void call_the_roll();
-    void dismiss_all();
+    void check_timeouts();
+    void end_work();
     RangeLimits limits() const;
 
     MPI_Comm communicator_;
@@ -46,13 +46,13 @@ private:
     const std::function<void(std::int64_t)>& on_progress_;
     const StopRequest& stop_;
     std::chrono::seconds patience_;
-    std::vector<Worker> workers_; ///< by rank; the first is rank 0 itself, and not asked for
-    int still_busy_;              ///< workers that are not done
-    Occasionally roll_call_{std::chrono::milliseconds(patience_) / 20};
-    Clock::time_point last_roll_call_ = Clock::now();
+    std::vector<Worker> workers_; ///< by rank; the first, rank 0 itself, is unused
+    int busy_workers_;            ///< those that are not done
+    Occasionally timeout_check_{std::chrono::milliseconds(patience_) / 20};
+    Clock::time_point last_timeout_check_ = Clock::now();
     RankShare share_;
     std::int64_t done_by_workers_ = 0;
-    double seconds_of_workers_ = 0; ///< that they took for them
+    double busy_seconds_of_workers_ = 0;
     DealingShare dealing_;
 };
 

@@ -12,10 +12,10 @@ namespace overturn {
 
 namespace {
 
-/// What launchers set for each rank: mpirun of Open MPI, anything with PMIx, anything with PMI.
+/// The rank, as set by mpirun of Open MPI, by launchers with PMIx, and by those with PMI.
 constexpr const char* rank_variables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
 
-/// How many ranks they started; the last one is srun's, whether MPI knows of it or not.
+/// The number of ranks that they started; srun sets the last one for every MPI.
 constexpr const char* size_variables[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE",
                                           "SLURM_STEP_NUM_TASKS"};
 
@@ -30,16 +30,16 @@ const char* first_of(const char* const (&variables)[count])
     return nullptr;
 }
 
-/// A rank alone talks to nobody. Told so, Open MPI 4.1 starts in 0.01 s instead of 0.33 s: it forks
-/// no daemon and opens no network. Settings of the user go first.
+/// A single rank sends no messages. With these settings Open MPI 4.1 starts in 0.01 s instead of
+/// 0.33 s: it forks no daemon and opens no network. The user's settings have priority.
 void prepare_for_one_rank()
 {
     constexpr int keep = 0;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
-    // Ranks alone of several runs would share a session folder, make it while another run takes it
-    // away at its end, and fail. Nobody here puts anything there.
+    // Otherwise several such runs share a session folder, and one fails if it creates the folder
+    // while another removes it. Nothing is stored there.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
 }
 
@@ -52,7 +52,7 @@ void leave_files_of_others_alone()
     setenv("OMPI_MCA_sharedfp", "^lockedfile,individual", replace);
 }
 
-/// Whether Open MPI's mpirun started all ranks on this host.
+/// Whether mpirun of Open MPI started all ranks on this host.
 bool all_ranks_are_here()
 {
     const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
@@ -60,19 +60,19 @@ bool all_ranks_are_here()
     return here != nullptr && all != nullptr && std::string_view(here) == all;
 }
 
-/// Ranks on one host talk through its memory. Told so, Open MPI 4.1 starts in 0.1 s instead of
-/// 0.3 s: it opens no network. Settings of the user go first.
+/// Ranks on one host communicate through its memory. With these settings Open MPI 4.1 starts in
+/// 0.1 s instead of 0.3 s: it opens no network. The user's settings have priority.
 void prepare_for_one_host()
 {
-#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION == 4 // "vader" has another name elsewhere
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION == 4 // elsewhere "vader" has another name
     constexpr int keep = 0;
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self,vader", keep);
 #endif
 }
 
-/// A launcher of another MPI starts ranks that do not know of each other: each would compute
-/// everything.
+/// A message if the launcher belongs to another MPI: each process would be the only rank, and
+/// compute everything.
 std::string launch_fault(int size)
 {
     const char* started = first_of(size_variables);
@@ -128,7 +128,7 @@ int MpiSession::from_rank_0(int value) const
 {
     MPI_Request arriving = MPI_REQUEST_NULL;
     MPI_Ibcast(&value, 1, MPI_INT, 0, communicator_, &arriving);
-    wait_for(arriving); // rank 0 may have gigabytes to look through first
+    wait_for(arriving); // rank 0 may have to read gigabytes first
     return value;
 }
 
@@ -165,7 +165,7 @@ void MpiSession::abort(int exit_code, const std::string& message) const
 std::string mpi_library()
 {
     char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
-    int length = 0; // Open MPI counts the closing zero, others do not
+    int length = 0; // some MPI libraries count the terminating zero
     MPI_Get_library_version(text, &length);
     const std::string whole(text);
     return whole.substr(0, whole.find_first_of(",\n"));

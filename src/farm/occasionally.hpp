@@ -1,4 +1,4 @@
-// Something to be done every so often, asked for as often as one likes.
+// Limits how often something is done in a loop.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ class Occasionally {
 public:
     explicit Occasionally(Clock::duration interval) : interval_(interval) {}
 
-    /// True once per interval, if it is asked as often.
+    /// True at most once per interval.
     bool is_due()
     {
         const auto now = Clock::now();

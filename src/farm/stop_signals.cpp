@@ -8,16 +8,16 @@ namespace overturn {
 
 namespace {
 
-volatile std::sig_atomic_t stop_flag = 0; // the only thing that a signal handler may write
-std::optional<std::chrono::steady_clock::time_point> noticed;
-constexpr std::chrono::milliseconds patience{500};
+volatile std::sig_atomic_t stop_flag = 0; // the type that a signal handler may write
+std::optional<std::chrono::steady_clock::time_point> first_call; // of overdue() after a signal
+constexpr std::chrono::milliseconds time_for_a_tile{500};
 
-extern "C" void raise_stop_flag(int)
+extern "C" void set_stop_flag(int)
 {
     stop_flag = 1;
 }
 
-constexpr int listened_to[] = {SIGUSR1, SIGTERM, SIGINT, SIGHUP};
+constexpr int stop_signals[] = {SIGUSR1, SIGTERM, SIGINT, SIGHUP};
 
 bool is_ignored(int signal)
 {
@@ -25,7 +25,7 @@ bool is_ignored(int signal)
     return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void listen(int signal, void (*handler)(int), int flags)
+void handle(int signal, void (*handler)(int), int flags)
 {
     struct sigaction action = {};
     action.sa_handler = handler;
@@ -39,20 +39,20 @@ void listen(int signal, void (*handler)(int), int flags)
 StopSignals::StopSignals()
 {
     stop_flag = 0;
-    noticed.reset();
-    for (const int signal : listened_to) {
+    first_call.reset();
+    for (const int signal : stop_signals) {
         if (signal == SIGHUP && is_ignored(signal)) {
             continue; // by nohup
         }
-        // Restart: a write of a tile must not fail because a signal came.
-        listen(signal, raise_stop_flag, SA_RESTART | (signal == SIGINT ? int(SA_RESETHAND) : 0));
+        // Restart: a signal must not make the write of a tile fail.
+        handle(signal, set_stop_flag, SA_RESTART | (signal == SIGINT ? int(SA_RESETHAND) : 0));
     }
 }
 
 StopSignals::~StopSignals()
 {
-    for (const int signal : listened_to) {
-        listen(signal, SIG_DFL, 0);
+    for (const int signal : stop_signals) {
+        handle(signal, SIG_DFL, 0);
     }
 }
 
@@ -67,10 +67,10 @@ bool StopSignals::overdue()
         return false;
     }
     const auto now = std::chrono::steady_clock::now();
-    if (!noticed) {
-        noticed = now;
+    if (!first_call) {
+        first_call = now;
     }
-    return now - *noticed >= patience;
+    return now - *first_call >= time_for_a_tile;
 }
 
 } // namespace overturn

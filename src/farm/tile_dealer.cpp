@@ -8,9 +8,9 @@ namespace overturn {
 
 namespace {
 
-/// A rank gets at most 1/16 of its fair share of what is left: costly tiles are neighbours, and a
-/// range of nothing else may take ten times the average. (At 1/4, 200 tiles with a costly tenth in
-/// front kept one of three ranks busy 1.7 times as long as another.)
+/// A range is at most 1/16 of a rank's fair share of what is left: costly tiles are neighbours, and
+/// a range of them may take ten times the average. (With 1/4, and 200 tiles of which the first
+/// tenth is costly, one of three ranks was busy 1.7 times as long as another.)
 constexpr std::size_t ranges_per_share = 16;
 
 constexpr double longest_range = 0.1;      // [s]
@@ -20,7 +20,7 @@ constexpr double share_of_answering = 0.5; // of rank 0's time
 
 RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile)
 {
-    constexpr double far_enough = 1e6; // tiles: neither measure may be trusted beyond
+    constexpr double far_enough = 1e6; // tiles: the measured times do not justify more
     RangeLimits limits;
     if (!(seconds_of_tile > 0)) {
         return limits;
@@ -40,8 +40,7 @@ TileDealer::TileDealer(std::vector<std::int64_t> tiles, int ranks)
 
 TileRange TileDealer::deal(const RangeLimits& limits)
 {
-    // However long ranges should be: with more than half of its fair share a rank would be the
-    // last.
+    // Never more than half of a fair share: the other ranks would wait for this one at the end.
     const std::size_t left = tiles_.size() - next_;
     const std::size_t least = std::min(limits.least, left / (2 * ranks_));
     const std::size_t share = left / (ranges_per_share * ranks_);

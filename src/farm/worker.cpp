@@ -3,7 +3,7 @@
 #include "do_tile.hpp"
 #include "occasionally.hpp"
 #include "wait_for.hpp"
-#include "words.hpp"
+#include "worker_message.hpp"
 
 #include <thread>
 
@@ -13,50 +13,51 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A worker gives so many signs of life within the time after which it is missed: some may be late.
-constexpr int signs_in_patience = 10;
+/// A worker sends this many messages within the timeout, so that some of them may be late.
+constexpr int messages_in_patience = 10;
 
-/// A worker's line to rank 0. Asking does not wait; the answer may come while the rank computes.
-class LineToRank0 {
+/// The messages to and from rank 0. An answer may arrive while the worker computes.
+class Rank0 {
 public:
-    LineToRank0(MPI_Comm communicator, std::chrono::seconds patience)
+    Rank0(MPI_Comm communicator, std::chrono::seconds patience)
         : communicator_(communicator), patience_(patience)
     {}
 
-    void ask(Word word)
+    void request_range(WorkerMessage message)
     {
         MPI_Irecv(&range_, range_length, MPI_INT64_T, 0, range_tag, communicator_, &receiving_);
-        word.asking = 1;
-        say(word);
+        message.requests_range = 1;
+        send(message);
     }
-    bool has_answer()
+    bool has_answered()
     {
         int arrived = 0;
         MPI_Test(&receiving_, &arrived, MPI_STATUS_IGNORE);
         return arrived != 0;
     }
-    /// Time in which this rank itself was stopped does not count.
+    /// Waits for it. Time in which this rank itself was suspended does not count.
     TileRange answer()
     {
         auto start = Clock::now();
-        auto last_look = start;
-        while (!has_answer()) {
+        auto last_test = start;
+        while (!has_answered()) {
             const auto now = Clock::now();
-            if (now - last_look > std::chrono::milliseconds(patience_) / 4) {
+            if (now - last_test > std::chrono::milliseconds(patience_) / 4) {
                 start = now;
             }
-            last_look = now;
+            last_test = now;
             if (now - start > patience_) {
                 throw SilentRank(0, patience_);
             }
-            std::this_thread::sleep_for(between_looks);
+            std::this_thread::sleep_for(polling_interval);
         }
         return range_;
     }
-    // Small messages leave at once: MPI_Send does not wait for rank 0 to look.
-    void say(const Word& word) const
+    // MPI sends small messages at once: MPI_Send does not wait until rank 0 receives.
+    void send(const WorkerMessage& message) const
     {
-        MPI_Send(&word, word_length, MPI_INT64_T, 0, word_tag, communicator_);
+        MPI_Send(&message, worker_message_length, MPI_INT64_T, 0, worker_message_tag,
+                 communicator_);
     }
 
 private:
@@ -72,36 +73,36 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
                std::chrono::seconds patience)
 {
     RankShare share;
-    RankShare told;
-    const auto news = [&](bool idle) {
-        const double seconds = busy_seconds(share) - busy_seconds(told);
-        const Word word{.idle = idle,
-                        .stop = stop.requested(),
-                        .tiles_done = share.tiles - told.tiles,
-                        .busy_nanoseconds = std::int64_t(1e9 * seconds)};
-        told = share;
-        return word;
+    RankShare reported;
+    const auto report = [&](bool idle) {
+        const double seconds = busy_seconds(share) - busy_seconds(reported);
+        const WorkerMessage message{.idle = idle,
+                                    .stop = stop.requested(),
+                                    .tiles_done = share.tiles - reported.tiles,
+                                    .busy_nanoseconds = std::int64_t(1e9 * seconds)};
+        reported = share;
+        return message;
     };
-    LineToRank0 rank_0(session.communicator(), patience);
-    Occasionally sign_of_life(std::chrono::milliseconds(patience) / signs_in_patience);
+    Rank0 rank_0(session.communicator(), patience);
+    Occasionally regular_report(std::chrono::milliseconds(patience) / messages_in_patience);
     const std::function<bool()> drop_requested = [&] {
-        if (sign_of_life.is_due()) {
-            rank_0.say(news(false));
+        if (regular_report.is_due()) {
+            rank_0.send(report(false));
         }
         return stop.overdue();
     };
-    rank_0.ask(news(true));
+    rank_0.request_range(report(true));
     while (true) {
         const TileRange range = rank_0.answer();
-        if (is_dismissal(range)) {
+        if (is_end_of_work(range)) {
             return share;
         }
-        rank_0.ask(news(range.empty())); // one range ahead
+        rank_0.request_range(report(range.empty())); // one range ahead
         for (auto number = range.begin; number < range.end && !stop.requested(); ++number) {
             do_tile(number, tile_work, drop_requested, share);
         }
-        if (!range.empty() && !rank_0.has_answer()) {
-            rank_0.say(news(true));
+        if (!range.empty() && !rank_0.has_answered()) {
+            rank_0.send(report(true));
         }
     }
 }

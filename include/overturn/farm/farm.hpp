@@ -1,6 +1,6 @@
-// The farm: rank 0 hands out ranges of tile numbers and computes too, answering requests in
-// between; the other ranks ask one range ahead, so that nobody waits. What travels: a worker's
-// words (tiles done, stop; asking, alive or leaving) and ranges. Tiles themselves never do.
+// The farm: rank 0 hands out ranges of tile numbers, and computes tiles between the requests. The
+// other ranks request one range ahead, so that no rank waits. Messages hold ranges and the workers'
+// state (tiles done, asked to stop), never values of tiles.
 #pragma once
 
 #include "overturn/farm/mpi_session.hpp"
@@ -13,57 +13,56 @@
 
 namespace overturn {
 
-/// What is done with a tile, by its number, on one rank after the other.
+/// What a rank does with a tile, given its number.
 struct TileWork {
-    /// Asks every second or more often whether the tile is to be dropped: that keeps the messages
-    /// going. False if it was.
+    /// Calls drop_requested every second or more often, since messages are handled there, and drops
+    /// the tile if that is true. Returns false if it was dropped.
     std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
     std::function<void(std::int64_t number)> write;
 };
 
-/// How a rank is asked to stop. Both stay true once they are.
+/// How a rank learns that it is to stop. Both stay true once they are.
 struct StopRequest {
-    std::function<bool()> requested; ///< finish the tile in hand, and leave
-    std::function<bool()> overdue;   ///< drop it
+    std::function<bool()> requested; ///< finish the current tile, and leave
+    std::function<bool()> overdue;   ///< drop the current tile
 };
 
-/// Of a rank nothing was heard for too long: it was stopped, hangs on its disk, or is cut off.
+/// A rank has not responded for too long: it was suspended, its disk hangs, or its host is cut off.
 class SilentRank : public std::runtime_error {
 public:
-    SilentRank(int silent_rank, std::chrono::seconds for_so_long);
+    SilentRank(int silent_rank, std::chrono::seconds duration);
 
     int rank;
     std::chrono::seconds silence;
 };
 
-/// What one rank did. Time that is in neither was spent waiting, or on messages.
+/// What one rank did. It spent the rest of its time on messages and waiting.
 struct RankShare {
     std::int64_t tiles = 0;
     double compute_seconds = 0;
     double write_seconds = 0;
 };
 
-/// What handing out the tiles took.
+/// The cost of handing out the tiles.
 struct DealingShare {
     std::int64_t requests = 0; ///< answered by rank 0
-    double seconds = 0;        ///< that it took for them
+    double seconds = 0;        ///< spent on the answers
 };
 
 struct FarmReport {
-    std::int64_t tiles = 0;       ///< done by all ranks together
+    std::int64_t tiles = 0;       ///< done by all ranks
     bool stopped = false;         ///< tiles are left because a rank was asked to stop
     std::vector<RankShare> ranks; ///< rank 0 only: one per rank
     DealingShare dealing;         ///< rank 0 only
 };
 
-/// Computes and writes each of the tiles once, on some rank; all ranks call it and leave it
-/// together.
+/// Computes and writes each of the tiles once, on some rank. Collective.
 ///
-/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done), on
-/// rank 0, is called now and then. A rank that is asked to stop finishes or drops the tile in hand
-/// and leaves, the others what they were given before rank 0 heard of it. An exception leaves
-/// farm_out on its rank alone, so the caller must abort the session: it is SilentRank where rank 0
-/// hears nothing of a worker for `patience`, or a worker nothing of rank 0.
+/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done) is
+/// called on rank 0 at intervals. A rank that is asked to stop finishes or drops its current tile;
+/// the others finish the ranges that they were given before rank 0 learnt of the stop. An exception
+/// leaves farm_out on one rank only, so the caller must abort the session. It is SilentRank if
+/// rank 0 receives nothing from a worker for `patience`, or a worker nothing from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                     const TileWork& tile_work,
                     const std::function<void(std::int64_t done)>& on_progress,

@@ -1,5 +1,5 @@
-// A rank's membership in a run under MPI: from MPI_Init to MPI_Finalize.
-// Started by a launcher (mpirun, srun) or alone; alone it is one rank of one.
+// The MPI session of this process, from MPI_Init to MPI_Finalize. A process that no launcher
+// (mpirun, srun) has started is the only rank.
 #pragma once
 
 #include <mpi.h>
@@ -10,7 +10,7 @@
 
 namespace overturn {
 
-/// The number that a launcher gave this process, without initialising MPI; 0 without a launcher.
+/// The rank that a launcher gave this process, without initialising MPI; 0 without a launcher.
 int launched_rank();
 
 /// The ranks cannot work together, because of how they were started.
@@ -19,8 +19,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Initialises MPI and leaves it again; where MPI is initialised already, joins in and leaves it
-/// so.
+/// Initialises and finalises MPI, unless MPI is initialised already.
 class MpiSession {
 public:
     /// Throws LaunchError.
@@ -33,11 +32,11 @@ public:
     int size() const { return size_; }
     MPI_Comm communicator() const { return communicator_; }
 
-    /// What rank 0 holds, on all ranks; all must call it.
+    /// Returns the value of rank 0 on all ranks. Collective.
     int from_rank_0(int value) const;
     std::string from_rank_0(std::string text) const;
 
-    /// The host of each rank, on rank 0; nothing elsewhere; all must call it.
+    /// The host of each rank, on rank 0; empty elsewhere. Collective.
     std::vector<std::string> host_names() const;
 
     /// Prints `rank 7: message` and stops all ranks; the launcher returns the exit code.
@@ -46,7 +45,7 @@ public:
 private:
     void leave();
 
-    MPI_Comm communicator_ = MPI_COMM_NULL; ///< the world's ranks, with messages of their own
+    MPI_Comm communicator_ = MPI_COMM_NULL; ///< a duplicate of the world
     bool finalizes_ = true;
     int rank_ = 0;
     int size_ = 1;

@@ -1,12 +1,12 @@
-// The polite ways to stop a run: SIGUSR1 (a batch system's warning), SIGTERM, SIGINT and SIGHUP
-// (the terminal is gone) raise a flag; the ranks finish the tile in hand, if it takes no longer
-// than half a second. A second SIGINT ends the process at once.
+// The signals that stop a run: SIGUSR1 (the warning of a batch system), SIGTERM, SIGINT and SIGHUP
+// (the terminal was closed) set a flag, and the ranks finish the current tile if that takes no
+// longer than half a second. A second SIGINT ends the process at once.
 #pragma once
 
 namespace overturn {
 
-/// Listens for the signals from construction to destruction; not for SIGHUP where the process was
-/// started to ignore it, as by nohup. One at a time.
+/// Handles the signals from construction to destruction, but not SIGHUP if the process was started
+/// with SIGHUP ignored, as by nohup. One object at a time.
 class StopSignals {
 public:
     StopSignals();
@@ -14,11 +14,11 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    /// Whether a signal came since construction.
+    /// Whether a signal was received since construction.
     static bool requested();
 
-    /// Whether a signal came, and half a second has passed since this was asked first after it:
-    /// what is in hand had better be dropped.
+    /// Whether a signal was received, and half a second has passed since the first call after it:
+    /// the current tile is to be dropped.
     static bool overdue();
 };
 

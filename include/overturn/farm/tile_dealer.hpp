@@ -1,5 +1,5 @@
-// Which tiles go next: ranges of consecutive tile numbers out of a list, in its order.
-// Guided: a share of what is left, so that ranges shrink as the end comes near. No messages here.
+// Divides a list of tile numbers into ranges of consecutive numbers, in the order of the list.
+// Guided scheduling: a range is a share of what is left, so ranges shrink towards the end.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,29 @@ struct TileRange {
     bool empty() const { return begin == end; }
 };
 
-/// How many tiles a range has, while there are enough.
+/// The number of tiles in a range, while enough are left.
 struct RangeLimits {
     std::size_t least = 1;
     std::size_t most = 16;
 };
 
-/// With many ranks and quick tiles rank 0 could do nothing but answer: ranges are so long that it
-/// does so for half of its time. While many tiles are left they take a tenth of a second: longer
-/// ones would save nothing, and ranks that hear of a stop from rank 0 alone would hear of it later.
+/// With many ranks and quick tiles, rank 0 could do nothing but answer requests: ranges are made so
+/// long that answers take half of its time. While many tiles are left, a range takes a tenth of a
+/// second: longer ones save nothing, and delay a stop that a worker learns of from rank 0.
 RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile);
 
 class TileDealer {
 public:
-    /// The tile numbers to deal, strictly ascending, and the ranks that will ask for them.
+    /// tiles: numbers, strictly ascending.
     TileDealer(std::vector<std::int64_t> tiles, int ranks);
 
-    /// The next range; empty when there is nothing left.
+    /// The next range; empty if no tile is left.
     TileRange deal(const RangeLimits& limits = {});
 
-    /// The next tile alone; empty when there is nothing left.
+    /// The next tile as a range; empty if no tile is left.
     TileRange deal_one() { return take(1); }
 
-    /// Deals nothing from now on.
+    /// Leaves no tile.
     void stop() { next_ = tiles_.size(); }
 
 private:

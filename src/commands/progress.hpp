@@ -1,4 +1,5 @@
-// How far a run is: one line redrawn in place on a terminal, a log line now and then elsewhere.
+// The progress of a run: on a terminal one line redrawn in place, elsewhere a log line at
+// intervals.
 #pragma once
 
 #include <chrono>
@@ -8,10 +9,10 @@
 
 namespace overturn {
 
-/// A moment of a run. What an earlier run did that is being resumed is `before`.
+/// A moment of a run, which may resume an earlier one.
 struct Moment {
-    std::int64_t before = 0; ///< done before this run
-    std::int64_t done = 0;   ///< with what was before
+    std::int64_t before = 0; ///< done by earlier runs
+    std::int64_t done = 0;   ///< by all runs
     std::int64_t all = 0;
     double seconds = 0; ///< since this run began [s]
     const char* items = "points";
@@ -22,18 +23,18 @@ std::string progress_text(const Moment& moment);
 
 class Progress {
 public:
-    /// Writes to the stream; `terminal` says whether a line there can be redrawn. items: what is
-    /// counted, in the plural.
+    /// terminal: whether a line of the stream can be redrawn. items: what is counted, in the
+    /// plural.
     Progress(std::int64_t before, std::int64_t all, std::FILE* stream, bool terminal,
              const char* items = "points");
     /// On standard error.
     Progress(std::int64_t before, std::int64_t all, const char* items);
-    /// Ends the line.
+    /// Ends a line that was redrawn.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Shows what is done, what was before included, if it is time to.
+    /// Shows what all runs have done, if the interval since the last line has passed.
     void update(std::int64_t done);
 
 private:

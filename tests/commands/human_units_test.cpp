@@ -1,4 +1,4 @@
-#include "overturn/farm/human_units.hpp"
+#include "commands/human_units.hpp"
 
 #include <gtest/gtest.h>
 

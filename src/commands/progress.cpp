@@ -1,6 +1,6 @@
-#include "overturn/farm/progress.hpp"
+#include "progress.hpp"
 
-#include "overturn/farm/human_units.hpp"
+#include "human_units.hpp"
 
 #include <fmt/format.h>
 
@@ -83,7 +83,7 @@ void Progress::show(const Moment& moment)
     } else {
         std::fputs(fmt::format("{}\n", text).c_str(), stream_);
     }
-    std::fflush(stream_); // if nobody reads it any more, the run goes on
+    std::fflush(stream_); // a failure is ignored: the reader may be gone
 }
 
 } // namespace overturn

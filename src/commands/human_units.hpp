@@ -1,4 +1,4 @@
-// Numbers as people say them.
+// Counts, durations and sizes for people to read.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "overturn/farm/human_units.hpp"
+#include "human_units.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "overturn/farm/progress.hpp"
+#include "commands/progress.hpp"
 
 #include <gtest/gtest.h>
 
