@@ -14,6 +14,7 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
@@ -191,11 +192,48 @@ FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<s
     }
 }
 
+/// All ranks must write to one file. Otherwise rank 0 names a rank that would not. Returns the
+/// verdict on all ranks.
+int check_shared_file(const Task& task, const std::string& path,
+                      const std::vector<std::string>& hosts)
+{
+    const auto others = ranks_with_another_file(path, task.session.communicator());
+    int verdict = go_on;
+    if (!others.empty()) {
+        verdict = complain(FileError(
+            fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host {}); "
+                        "{} of {} ranks "
+                        "differ from rank 0. Choose a folder with -o that all hosts share.",
+                        path, others.front(), hosts[std::size_t(others.front())], hosts.front(),
+                        others.size(), task.session.size())));
+    }
+    return task.session.from_rank_0(verdict);
+}
+
+/// The number of tiles without a mark in the file, which decides whether it is complete. On rank 0.
+std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
+{
+    const SpectrumSummary stored = summarize(task.path);
+    const std::int64_t missing = stored.tiles - stored.tiles_done;
+    if (missing > 0 && !report.stopped) {
+        throw FileError(fmt::format("all tiles were computed, but \"{}\" lacks {} of {}: something "
+                                    "else has written to it. Run the same command again to resume.",
+                                    task.path, missing, stored.tiles));
+    }
+    return missing;
+}
+
 int compute_what_is_missing(const Task& task)
 {
-    SpectrumFile file(task.path, task.session.communicator(), task.job,
-                      task.options.durable ? Durability::on_disk : Durability::written);
     const std::vector<std::string> hosts = task.session.host_names();
+    // Of rank 0: others may have been started in other folders.
+    const std::string path =
+        task.session.from_rank_0(std::filesystem::absolute(task.path).string());
+    if (const int verdict = check_shared_file(task, path, hosts); verdict != go_on) {
+        return verdict;
+    }
+    SpectrumFile file(path, task.session.communicator(), task.job,
+                      task.options.durable ? Durability::on_disk : Durability::written);
     std::vector<std::int64_t> missing;
     if (task.leads()) {
         for (const std::int64_t number : task.damaged) {
@@ -211,20 +249,20 @@ int compute_what_is_missing(const Task& task)
 
     const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
     write_record(task, hosts, report, seconds);
+    int code = exit_code::complete;
     if (task.leads()) {
+        const std::int64_t still_missing = count_missing_tiles(task, report);
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
-        if (task.job.product == Product::boundary && !report.stopped) {
+        if (still_missing > 0) {
+            code = complain(Stopped(
+                fmt::format("; {} of {} tiles are missing", still_missing, task.tiling.size())));
+        } else if (task.job.product == Product::boundary) {
             if (const std::string lines = lines_text(count_lines(task.path)); !lines.empty()) {
                 say(fmt::format("{}: {}", task.path, lines));
             }
         }
-        if (report.stopped) {
-            complain(Stopped(fmt::format("; {} of {} tiles are missing",
-                                         std::int64_t(missing.size()) - report.tiles,
-                                         task.tiling.size())));
-        }
     }
-    return report.stopped ? exit_code::stopped : exit_code::complete;
+    return task.session.from_rank_0(code);
 }
 
 } // namespace

@@ -39,6 +39,7 @@ inline constexpr char scan[] = "scan_amplitude";
 inline constexpr char pulse_period[] = "pulse_period";
 inline constexpr char peak_ground_acceleration[] = "peak_ground_acceleration";
 inline constexpr char restitution_ratio[] = "restitution_ratio";
+inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
 inline constexpr char amplitude_extent[] = "amplitude_extent";

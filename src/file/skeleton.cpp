@@ -94,13 +94,27 @@ Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
     return dataset;
 }
 
-void add_checksums(hid_t file, const Tiling& tiling)
+Handle early_allocated()
 {
-    const Handle creation = dataset_creation();
+    Handle creation = dataset_creation();
     check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
     check(H5Pset_fill_time(creation, H5D_FILL_TIME_ALLOC));
+    return creation;
+}
+
+void add_run_token(hid_t file)
+{
     const Handle dataset =
-        create_dataset(file, layout::checksum, H5T_STD_U64LE, {hsize_t(tiling.size())}, creation);
+        create_dataset(file, layout::run_token, H5T_STD_U64LE, {}, early_allocated());
+    write_attribute(
+        dataset, "long_name",
+        "random number by which the ranks of a run that starts compare their files, or 0");
+}
+
+void add_checksums(hid_t file, const Tiling& tiling)
+{
+    const Handle dataset = create_dataset(file, layout::checksum, H5T_STD_U64LE,
+                                          {hsize_t(tiling.size())}, early_allocated());
     attach_dimensions(file, dataset, std::array{layout::tile});
     write_attribute(dataset, "long_name", "checksum of the tile, 0 where it is not computed yet");
     write_attribute(dataset, "algorithm",
@@ -124,6 +138,7 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
         write_attribute(file, "tolerance", job.numerics.tolerance);
         write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
     }
+    add_run_token(file); // first, so that a limit of file sizes does not exclude it
     const std::vector<Coordinate> coordinates = coordinates_of(job);
     add_coordinates(file, coordinates);
     const Handle restitution(H5Dopen2(file, "restitution", H5P_DEFAULT), H5Dclose);

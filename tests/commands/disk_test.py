@@ -30,9 +30,9 @@ class OnFaultyDisk(Scratch):
         if ranks is None:
             return self.overturn(*arguments, shell_setup=preload)
         return subprocess.run(
-            [*under_mpi(ranks), *(word for name in settings for word in ("-x", name)), OVERTURN,
-             *arguments], cwd=self.folder, timeout=PATIENCE, capture_output=True, text=True,
-            env=ENVIRONMENT | {name: str(value) for name, value in settings.items()})  # fmt: skip
+            [*under_mpi(ranks), OVERTURN, *arguments], cwd=self.folder, timeout=PATIENCE,
+            capture_output=True, text=True,
+            env=ENVIRONMENT | {name: str(value) for name, value in settings.items()})
 
 
 class ADiskThatFails(OnFaultyDisk):

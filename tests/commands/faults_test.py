@@ -78,6 +78,35 @@ class ADamagedFile(Scratch):
         self.assert_exit(result, 0, "20 of 24 tiles are there, 1 damaged tile is")
         self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
+    def test_is_mended_if_a_killed_run_has_left_its_random_number(self):
+        for ranks in (None, 2):
+            with h5py.File(self.folder / "whole.h5", "r+") as file:
+                file["checksum"][3] = 0
+                file["run_token"][()] = 123
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks), 0)
+            self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
+
+    def test_is_not_complete_if_a_mark_disappears_while_the_run_lasts(self):
+        for ranks in (None, 2):
+            (self.folder / "long.h5").unlink(missing_ok=True)
+            with subprocess.Popen(
+                    [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "long.toml"],
+                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                    stderr=subprocess.STDOUT, text=True) as process:
+                self.addCleanup(process.kill)
+                self.assertIn("tiles", process.stdout.readline())
+                with h5py.File(self.folder / "long.h5", locking=False) as file:
+                    place = file["checksum"].id.get_offset()
+                with (self.folder / "long.h5").open("r+b") as file:
+                    mark = bytes(8)
+                    while mark == bytes(8):
+                        mark = os.pread(file.fileno(), 8, place)
+                    os.pwrite(file.fileno(), bytes(8), place)
+                output, _ = process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 74, output)
+            self.assertIn('"long.h5" lacks 1 of 147', output)
+            self.assertNotIn("computed 602", output)
+
     def test_is_refused_by_verify_if_it_lacks_its_end(self):
         path = self.folder / "whole.h5"
         os.truncate(path, path.stat().st_size - 5000)

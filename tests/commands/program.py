@@ -27,6 +27,7 @@ ENVIRONMENT = {
     **os.environ,
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
 }
 
 JOB = """
@@ -57,7 +58,7 @@ def checksum(path):
 
 
 def under_mpi(ranks):
-    return [MPIEXEC, "--oversubscribe", "-n", str(ranks)]
+    return [MPIEXEC, "-n", str(ranks)]
 
 
 def children_of(pid):
@@ -67,14 +68,16 @@ def children_of(pid):
 
 
 def ranks_of(pid):
-    """The processes of mpirun's ranks, in their order: it does not always start them in that."""
-    ranks = {}
-    for number in children_of(pid):
-        for variable in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0"):
-            name, _, value = variable.partition("=")
-            if name == "OMPI_COMM_WORLD_RANK":
-                ranks[int(value)] = number
-    return [ranks[rank] for rank in sorted(ranks)]
+    """The processes of the launcher's ranks, in order of rank."""
+
+    def numbered(parent):
+        for child in children_of(parent):
+            variables = pathlib.Path(f"/proc/{child}/environ").read_text().split("\0")
+            found = [int(value) for name, _, value in (each.partition("=") for each in variables)
+                     if name in ("OMPI_COMM_WORLD_RANK", "PMI_RANK")]
+            yield from ((found[0], child),) if found else numbered(child)
+
+    return [child for _, child in sorted(numbered(pid))]
 
 
 def words(text):

@@ -1,10 +1,11 @@
 """What overturn refuses, with which words and exit code; and what it teaches."""
 
 import os
+import socket
 import subprocess
 import unittest
 
-from program import ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum
+from program import ENVIRONMENT, JOB, MPIEXEC, OVERTURN, PATIENCE, SMALL, Scratch, checksum
 
 A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7"]
 
@@ -219,9 +220,53 @@ class UnderMpirun(Scratch):
 
     def test_ranks_that_read_different_jobs_do_not_mix_them(self):
         # As when a folder is not shared between two hosts: one copy of the job is older.
-        setup = 'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'
+        setup = 'if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'
         result = self.overturn("run", "small.toml", "-o", "out.h5", ranks=2, shell_setup=setup)
         self.assert_exit(result, 65, "rank 1: long.toml is another job here than on rank 0")
+
+
+class RanksInDifferentFolders(Scratch):
+    """One rank in each of the folders X and Y. The result of another job in Y is to stay."""
+
+    def setUp(self):
+        super().setUp()
+        for name in "XY":
+            (self.folder / name).mkdir()
+            (self.folder / name / "small.toml").write_text(SMALL)
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "Y/out.h5"), 0)
+        self.theirs = checksum(self.folder / "Y" / "out.h5")
+
+    def run_in_both(self, output):
+        command = []
+        for name in "XY":
+            command += [*(":" for _ in command[:1]), "-n", "1", "-wdir", self.folder / name, OVERTURN,
+                        "run", "small.toml", "-o", output, "--set", "numerics.tolerance=1e-7"]
+        return subprocess.run([MPIEXEC, *command], env=ENVIRONMENT, timeout=PATIENCE,
+                              capture_output=True, text=True)
+
+    def test_write_to_the_folder_of_rank_0(self):
+        self.assert_exit(self.run_in_both("out.h5"), 0)
+        self.assert_exit(self.overturn("verify", "X/out.h5"), 0, "24 of 24 tiles are done")
+        self.assertEqual(checksum(self.folder / "Y" / "out.h5"), self.theirs)
+
+    def test_are_refused_if_a_path_names_different_files(self):
+        # An absolute path that depends on the process stands for a folder of one host.
+        output = "/proc/self/cwd/out.h5"
+        host = socket.gethostname()
+        message = (f'"{output}" is not the same file on rank 1 (host {host}) as on rank 0 (host {host}); '
+                   "1 of 2 ranks differ from rank 0. Choose a folder with -o that all hosts share.")
+        self.assert_exit(self.run_in_both(output), 74, message)
+        self.assert_exit(self.overturn("verify", "X/out.h5"), 0, "0 of 24 tiles are done")
+        self.assertEqual(checksum(self.folder / "Y" / "out.h5"), self.theirs)
+        (self.folder / "Y" / "out.h5").unlink()
+        self.assert_exit(self.run_in_both(output), 74, message)
+
+    def test_leave_a_file_that_resumes(self):
+        self.assert_exit(self.run_in_both("/proc/self/cwd/out.h5"), 74)
+        whole = self.run_in_both("whole.h5")
+        self.assert_exit(whole, 0)
+        self.assert_exit(self.run_in_both("out.h5"), 0)
+        self.assertEqual(checksum(self.folder / "X" / "out.h5"), checksum(self.folder / "X" / "whole.h5"))
 
 
 if __name__ == "__main__":

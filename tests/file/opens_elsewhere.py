@@ -1,12 +1,11 @@
 """Result files as others read them: xarray with both engines, h5py, netCDF4, ncdump.
 
-Takes the program write_sample from the environment variable WRITE_SAMPLE and mpirun with its flags
-from MPIRUN. Every warning is an error.
+Takes the program write_sample from the environment variable WRITE_SAMPLE and mpirun from MPIEXEC.
+Every warning is an error.
 """
 
 import json
 import os
-import shlex
 import signal
 import subprocess
 import tempfile
@@ -24,7 +23,7 @@ FIELDS = ["region", "angle", "velocity", "margin", "impacts", "status"]
 
 
 def write_sample(*arguments, ranks=2):
-    command = [*shlex.split(os.environ["MPIRUN"]), "-n", str(ranks), os.environ["WRITE_SAMPLE"]]
+    command = [os.environ["MPIEXEC"], "-n", str(ranks), os.environ["WRITE_SAMPLE"]]
     return subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=100)
 
 

@@ -162,6 +162,29 @@ TEST_F(SpectrumFileOnRanks, CannotBeOpenedWhereItIsNot)
     }
 }
 
+TEST_F(SpectrumFileOnRanks, IsComparedOverTheRanksWithoutAChange)
+{
+    create(folder / "a.h5");
+    const std::string before = bytes_of(folder / "a.h5");
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_THAT(ranks_with_another_file(folder / "a.h5", MPI_COMM_WORLD), IsEmpty());
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_TRUE(bytes_of(folder / "a.h5") == before);
+}
+
+TEST_F(SpectrumFileOnRanks, IsNotTheSameIfARankHasAnEqualCopyOrNone)
+{
+    for (const char* name : {"copy.h5", "nowhere.h5"}) {
+        MPI_Barrier(MPI_COMM_WORLD); // the ranks may still read what is made again here
+        create(folder / "a.h5");
+        create(folder / "copy.h5");
+        const bool differs = rank > 0 && rank == ranks - 1;
+        const auto found =
+            ranks_with_another_file(folder / (differs ? name : "a.h5"), MPI_COMM_WORLD);
+        EXPECT_EQ(found, rank == 0 && ranks > 1 ? std::vector{ranks - 1} : std::vector<int>());
+    }
+}
+
 // A limit on the size of files stands in for a full disk. The file is left open, as a failing rank
 // leaves it; MPI_COMM_SELF keeps the other ranks out of it.
 TEST_F(SpectrumFileOnRanks, NamesTheTileAndTheReasonWhenAWriteFails)

@@ -41,7 +41,7 @@ class AnInstallation(unittest.TestCase):
         cls.overturn = cls.prefix / "bin" / "overturn"
         (cls.folder / "job.toml").write_text(JOB)
         cls.spectrum = cls.folder / "spectrum.h5"
-        run(os.environ["MPIEXEC"], "--oversubscribe", "-n", "2", cls.overturn, "run",
+        run(os.environ["MPIEXEC"], "-n", "2", cls.overturn, "run",
             cls.folder / "job.toml", "-o", cls.spectrum)
 
     def test_the_program_tells_its_version(self):

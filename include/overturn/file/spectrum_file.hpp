@@ -43,6 +43,11 @@ void create_spectrum_file(
     const std::string& path, const Job& job, const Tiling& tiling,
     const BetweenTiles& between_tiles = [] {});
 
+/// The ranks for which the path names another file than for rank 0, or none, ascending; on rank 0,
+/// empty elsewhere. Collective, before the file is opened. Rank 0 stores a random number in the
+/// file, which the others read, and then 0 as before. Throws FileError on rank 0 if it cannot.
+std::vector<int> ranks_with_another_file(const std::string& path, MPI_Comm communicator);
+
 /// When a tile counts as done: once its values are in the file, which outlasts the death of any
 /// process; or once they are on the disk, which outlasts a loss of power as well.
 enum class Durability { written, on_disk };
