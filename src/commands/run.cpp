@@ -74,6 +74,11 @@ Job read_job_of(const RunOptions& options)
     return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
+std::string absolute(const std::string& path)
+{
+    return std::filesystem::absolute(path).string();
+}
+
 Kernel kernel_of(const RunOptions& options)
 {
     if (options.kernel == "auto") {
@@ -227,8 +232,7 @@ int compute_what_is_missing(const Task& task)
 {
     const std::vector<std::string> hosts = task.session.host_names();
     // Of rank 0: others may have been started in other folders.
-    const std::string path =
-        task.session.from_rank_0(std::filesystem::absolute(task.path).string());
+    const std::string path = task.session.from_rank_0(absolute(task.path));
     if (const int verdict = check_shared_file(task, path, hosts); verdict != go_on) {
         return verdict;
     }
@@ -292,6 +296,7 @@ int run(const RunOptions& options)
         complain_if_it_fails([&] {
             kernel_of(options); // throws if it does not run here
             job = read_job_of(options);
+            demand_path_for_mpi(absolute(path));
             verdict = examine_in_child(*job, path);
         });
     }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <unistd.h>
 
 namespace overturn {
 
@@ -84,6 +86,13 @@ std::string launch_fault(int size)
            ". Use the mpirun of the MPI that this program was built with, or srun --mpi=pmix.";
 }
 
+volatile std::sig_atomic_t exit_code_of_abort = 0;
+
+extern "C" void exit_now(int)
+{
+    _exit(exit_code_of_abort);
+}
+
 } // namespace
 
 int launched_rank()
@@ -104,8 +113,13 @@ MpiSession::MpiSession()
         } else if (all_ranks_are_here()) {
             prepare_for_one_host();
         }
+        // MPICH takes SIGUSR1 as news of a failed rank, and asks a launcher, for which a process
+        // that was started without one waits forever. Here the signal means a stop.
+        struct sigaction before = {};
+        sigaction(SIGUSR1, nullptr, &before);
         int provided = MPI_THREAD_SINGLE;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SINGLE, &provided);
+        sigaction(SIGUSR1, &before, nullptr);
     }
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator_);
     MPI_Comm_rank(communicator_, &rank_);
@@ -158,8 +172,14 @@ void MpiSession::abort(int exit_code, const std::string& message) const
 {
     std::fprintf(stderr, "rank %d: %s\n", rank_, message.c_str());
     std::fflush(nullptr);
+    // MPI_Abort of MPICH 4.0 waits forever for a rank that is suspended; the launcher ends all
+    // ranks once one has exited.
+    constexpr unsigned grace = 5; // [s]
+    exit_code_of_abort = exit_code;
+    std::signal(SIGALRM, exit_now);
+    alarm(grace);
     MPI_Abort(communicator_, exit_code);
-    std::abort(); // MPI_Abort does not return, but does not say so
+    std::abort(); // MPI_Abort does not return, but is not declared so
 }
 
 std::string mpi_library()

@@ -1,4 +1,4 @@
-// Whether all ranks have the same file under one path.
+// Whether all ranks can open a file by its path, and have the same file under it.
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "system_reason.hpp"
@@ -58,6 +58,18 @@ bool holds(const std::string& path, const Token& token)
 }
 
 } // namespace
+
+void demand_path_for_mpi([[maybe_unused]] const std::string& path)
+{
+#ifndef OMPI_MAJOR_VERSION // MPICH and its relatives read files by ROMIO
+    if (path.find(':') != std::string::npos) {
+        throw FileError(
+            fmt::format("\"{}\" has a colon, and this MPI library takes what precedes it "
+                        "for a type of file system. Choose another path with -o.",
+                        path));
+    }
+#endif
+}
 
 std::vector<int> ranks_with_another_file(const std::string& path, MPI_Comm communicator)
 {

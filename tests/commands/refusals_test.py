@@ -218,6 +218,15 @@ class UnderMpirun(Scratch):
     def test_a_bad_output_ends_all_ranks(self):
         self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/o.h5", ranks=3)
 
+    def test_a_colon_in_the_name_names_no_file_system(self):
+        for ranks in (None, 2):
+            if "MPICH" in self.overturn("--version").stdout:
+                self.assert_refused(74, ['ufs:small.h5" has a colon'], "run", "small.toml", "-o",
+                                    "ufs:small.h5", ranks=ranks)
+            else:
+                self.assert_exit(self.overturn("run", "small.toml", "-o", "ufs:small.h5", ranks=ranks), 0)
+                self.assert_exit(self.overturn("verify", "ufs:small.h5"), 0, "24 of 24 tiles are done")
+
     def test_ranks_that_read_different_jobs_do_not_mix_them(self):
         # As when a folder is not shared between two hosts: one copy of the job is older.
         setup = 'if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'

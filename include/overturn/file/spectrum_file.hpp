@@ -43,6 +43,9 @@ void create_spectrum_file(
     const std::string& path, const Job& job, const Tiling& tiling,
     const BetweenTiles& between_tiles = [] {});
 
+/// Throws FileError if MPI would not open the file of this absolute path.
+void demand_path_for_mpi(const std::string& path);
+
 /// The ranks for which the path names another file than for rank 0, or none, ascending; on rank 0,
 /// empty elsewhere. Collective, before the file is opened. Rank 0 stores a random number in the
 /// file, which the others read, and then 0 as before. Throws FileError on rank 0 if it cannot.
