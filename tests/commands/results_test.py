@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import xarray
 
-from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, ranks_of,
+from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, is_mpich, ranks_of,
                      under_mpi, words)
 
 TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
@@ -243,7 +243,7 @@ class AnInterruptedRun(Scratch):
         process = self.start(ranks=3)
         process.send_signal(signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 85, output)
+        self.assert_stopped(process.returncode, output, ranks=3)
         self.assertIn("stopped by a signal", output)
         self.assertIn("Run the same command again to resume", output)
         self.assert_resumes(ranks=2)
@@ -252,7 +252,7 @@ class AnInterruptedRun(Scratch):
         process = self.start(ranks=3)
         os.kill(ranks_of(process.pid)[-1], signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 85, output)
+        self.assert_stopped(process.returncode, output, ranks=3)
         self.assert_resumes(ranks=5)
 
     def test_stops_alone_on_each_polite_signal(self):
@@ -264,12 +264,13 @@ class AnInterruptedRun(Scratch):
             self.assertEqual(process.returncode, 85, output)
         self.assert_resumes(ranks=None)
 
+    @unittest.skipIf(is_mpich(), "UCX, on which it is built, handles SIGHUP before main() begins")
     def test_goes_on_without_a_terminal_if_it_was_started_so(self):
         ignored = "trap '' HUP; (sleep 1; kill -HUP $$) & true"
         self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
 
     def test_goes_on_when_nobody_reads_what_it_says(self):
-        for ranks in (None, 2):
+        for ranks in (None,) if is_mpich() else (None, 2):  # its launcher ends by SIGPIPE
             with subprocess.Popen(
                     [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "small.toml"],
                     cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
@@ -297,7 +298,7 @@ class AnInterruptedRun(Scratch):
                 sent = time.monotonic()
                 output, _ = process.communicate(timeout=PATIENCE / 2)
                 self.assertLess(time.monotonic() - sent, 2)
-            self.assertEqual(process.returncode, 85, output)
+            self.assert_stopped(process.returncode, output, ranks)
             self.assertIn("before the file was made", output)
             self.assertEqual(self.files(), before)
 
@@ -321,7 +322,7 @@ class AnInterruptedRun(Scratch):
                     self.assertRegex(beginning, "in (1 tile|[0-9]+ tiles);")
                     process.send_signal(signal.SIGUSR1)
                     output, _ = process.communicate(timeout=PATIENCE / 2)
-                    self.assertEqual(process.returncode, 85, output)
+                    self.assert_stopped(process.returncode, output, ranks)
                     self.assertRegex(output, "stopped by a signal; ([0-9]+) of \\1 tiles are missing")
 
     def test_resumes_after_the_death_of_mpirun(self):

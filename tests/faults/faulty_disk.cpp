@@ -38,7 +38,8 @@ bool is_the_file(int descriptor)
 
 bool is_faulty_rank()
 {
-    return number_from("OMPI_COMM_WORLD_RANK", 0) == number_from("FAULTY_RANK", 0);
+    return number_from("OMPI_COMM_WORLD_RANK", number_from("PMI_RANK", 0)) ==
+           number_from("FAULTY_RANK", 0);
 }
 
 struct Count {
