@@ -197,22 +197,11 @@ FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<s
     }
 }
 
-/// All ranks must write to one file. Otherwise rank 0 names a rank that would not. Returns the
-/// verdict on all ranks.
-int check_shared_file(const Task& task, const std::string& path,
-                      const std::vector<std::string>& hosts)
+FileError another_file(const std::string& path, int rank, const std::vector<std::string>& hosts)
 {
-    const auto others = ranks_with_another_file(path, task.session.communicator());
-    int verdict = go_on;
-    if (!others.empty()) {
-        verdict = complain(FileError(
-            fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host {}); "
-                        "{} of {} ranks "
-                        "differ from rank 0. Choose a folder with -o that all hosts share.",
-                        path, others.front(), hosts[std::size_t(others.front())], hosts.front(),
-                        others.size(), task.session.size())));
-    }
-    return task.session.from_rank_0(verdict);
+    return FileError(fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 "
+                                 "(host {}). Choose a folder with -o that all hosts share.",
+                                 path, rank, hosts[std::size_t(rank)], hosts.front()));
 }
 
 /// The number of tiles without a mark in the file, which decides whether it is complete. On rank 0.
@@ -233,8 +222,8 @@ int compute_what_is_missing(const Task& task)
     const std::vector<std::string> hosts = task.session.host_names();
     // Of rank 0: others may have been started in other folders.
     const std::string path = task.session.from_rank_0(absolute(task.path));
-    if (const int verdict = check_shared_file(task, path, hosts); verdict != go_on) {
-        return verdict;
+    if (const auto other = rank_with_another_file(path, task.session.communicator())) {
+        return task.leads() ? complain(another_file(path, *other, hosts)) : exit_code::output;
     }
     SpectrumFile file(path, task.session.communicator(), task.job,
                       task.options.durable ? Durability::on_disk : Durability::written);

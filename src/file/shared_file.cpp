@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <fcntl.h>
+#include <fstream>
 #include <random>
-#include <unistd.h>
 
 namespace overturn {
 
@@ -35,26 +34,26 @@ std::int64_t place_of_token(const std::string& path)
     return std::int64_t(place);
 }
 
-bool write(const std::string& path, const Token& token)
+void write(const std::string& path, const Token& token)
 {
-    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return false;
+    errno = 0;
+    std::fstream stream(path, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(token.place);
+    stream.write(reinterpret_cast<const char*>(&token.number), sizeof token.number);
+    stream.close(); // over NFS other hosts see it then
+    if (!stream) {
+        throw FileError(
+            fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
     }
-    const bool written = pwrite(descriptor, &token.number, sizeof token.number, token.place) ==
-                         ssize_t(sizeof token.number);
-    return close(descriptor) == 0 && written; // over NFS other hosts see it once it is closed
 }
 
 bool holds(const std::string& path, const Token& token)
 {
-    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     std::uint64_t found = 0;
-    const bool read = pread(descriptor, &found, sizeof found, token.place) == ssize_t(sizeof found);
-    if (descriptor >= 0) {
-        close(descriptor);
-    }
-    return read && found == token.number;
+    std::ifstream stream(path, std::ios::binary);
+    stream.seekg(token.place);
+    stream.read(reinterpret_cast<char*>(&found), sizeof found);
+    return stream && found == token.number;
 }
 
 } // namespace
@@ -71,19 +70,13 @@ void demand_path_for_mpi([[maybe_unused]] const std::string& path)
 #endif
 }
 
-std::vector<int> ranks_with_another_file(const std::string& path, MPI_Comm communicator)
+std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator)
 {
     int rank = 0;
     int ranks = 1;
     MPI_Comm_rank(communicator, &rank);
     MPI_Comm_size(communicator, &ranks);
     Token token;
-    const auto demand = [&](bool success) {
-        if (!success) {
-            throw FileError(
-                fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
-        }
-    };
     if (rank == 0) {
         try {
             std::random_device random;
@@ -91,22 +84,17 @@ std::vector<int> ranks_with_another_file(const std::string& path, MPI_Comm commu
         } catch (const hdf5::Hdf5Error& error) {
             throw FileError(fmt::format("cannot open \"{}\": {}.", path, error.what()));
         }
-        demand(write(path, token));
+        write(path, token);
     }
     MPI_Bcast(&token, int(sizeof token), MPI_BYTE, 0, communicator);
-    const int is_same = rank == 0 || holds(path, token);
-    std::vector<int> same(std::size_t(rank == 0 ? ranks : 0));
-    MPI_Gather(&is_same, 1, MPI_INT, same.data(), 1, MPI_INT, 0, communicator);
-    std::vector<int> others;
+    const int other = holds(path, token) ? ranks : rank;
+    int first = ranks;
+    MPI_Reduce(&other, &first, 1, MPI_INT, MPI_MIN, 0, communicator);
     if (rank == 0) {
-        demand(write(path, {.number = 0, .place = token.place}));
-        for (int other = 0; other < ranks; ++other) {
-            if (!same[std::size_t(other)]) {
-                others.push_back(other);
-            }
-        }
+        write(path, {.number = 0, .place = token.place});
     }
-    return others;
+    MPI_Bcast(&first, 1, MPI_INT, 0, communicator);
+    return first < ranks ? std::optional(first) : std::nullopt;
 }
 
 } // namespace overturn

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,10 @@ void create_spectrum_file(
 /// Throws FileError if MPI would not open the file of this absolute path.
 void demand_path_for_mpi(const std::string& path);
 
-/// The ranks for which the path names another file than for rank 0, or none, ascending; on rank 0,
-/// empty elsewhere. Collective, before the file is opened. Rank 0 stores a random number in the
-/// file, which the others read, and then 0 as before. Throws FileError on rank 0 if it cannot.
-std::vector<int> ranks_with_another_file(const std::string& path, MPI_Comm communicator);
+/// The first rank for which the path names another file than for rank 0, or none; the same on all
+/// ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, which
+/// all ranks read, and then 0 as before. Throws FileError on rank 0 if it cannot.
+std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator);
 
 /// When a tile counts as done: once its values are in the file, which outlasts the death of any
 /// process; or once they are on the disk, which outlasts a loss of power as well.
