@@ -36,12 +36,12 @@ std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
     const double restitution = plane.restitution_ratio(tile.slenderness, tile.restitution);
     const std::vector<double> frequencies =
         plane.frequency.values(tile.frequency_begin, tile.frequency_begin + tile.frequency_count);
-    std::vector<PlanePoint> points;
-    points.reserve(std::size_t(tile.points()));
+    std::vector<PlanePoint> points(std::size_t(tile.points()));
+    auto point = points.begin();
     for (std::int64_t row = 0; row < tile.amplitude_count; ++row) {
         const double amplitude = plane.amplitude[tile.amplitude_begin + row];
         for (const double frequency : frequencies) {
-            points.push_back({slenderness, restitution, amplitude, frequency});
+            *point++ = {slenderness, restitution, amplitude, frequency};
         }
     }
     return points;
@@ -49,19 +49,23 @@ std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
 
 Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
                const std::vector<PlanePoint>& points)
+    : of_point(points.size())
 {
-    of_point.reserve(points.size());
-    const PlanePoint* before = nullptr;
-    for (const PlanePoint& point : points) {
-        if (before == nullptr || point.amplitude != before->amplitude ||
-            point.slenderness != before->slenderness) {
-            const double threshold = with_theory(theory, [&]<Theory known>() {
-                return uplift_acceleration<known>(point.slenderness);
-            });
-            pushes.push_back({point.amplitude * threshold, uplift_phases(motion, point.amplitude)});
+    const auto have_one_push = [](const PlanePoint& one, const PlanePoint& other) {
+        return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
+    };
+    for (std::size_t first = 0; first < points.size();) {
+        const double threshold = with_theory(theory, [&]<Theory known>() {
+            return uplift_acceleration<known>(points[first].slenderness);
+        });
+        const auto number = int(pushes.size());
+        const double amplitude = points[first].amplitude;
+        pushes.push_back({amplitude * threshold, uplift_phases(motion, amplitude)});
+        std::size_t next = first;
+        for (; next < points.size() && have_one_push(points[first], points[next]); ++next) {
+            of_point[next] = number;
         }
-        of_point.push_back(int(pushes.size()) - 1);
-        before = &point;
+        first = next;
     }
 }
 

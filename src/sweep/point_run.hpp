@@ -30,7 +30,7 @@ struct Ends {
 /// The points of a tile, row by row, frequency fastest.
 std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile);
 
-/// Each push once, as long as neighbours share it.
+/// Each push once, as long as neighbours share it; in the order of the points.
 struct Pushes {
     Pushes(const GroundMotion<double>& motion, Theory theory,
            const std::vector<PlanePoint>& points);

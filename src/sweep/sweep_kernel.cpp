@@ -75,46 +75,62 @@ template <Theory theory, Records records>
 /// four gain no more.
 constexpr int packs_in_turns = 2;
 
-/// value(i) of each point i from `first` on. Lanes beyond the last point repeat it.
-template <class Value>
-T gathered(const KernelTask& task, int first, const Value& value)
-{
-    double values[lanes];
-    for (int i = 0; i < lanes; ++i) {
-        const int last = task.chosen_count - 1;
-        values[i] = value(point_at(task, first + i < last ? first + i : last));
+/// The points of the lanes of one pack. Lanes beyond the last point repeat it.
+struct PackPoints {
+    PackPoints(const KernelTask& given, int first) : task(given)
+    {
+        for (int i = 0; i < lanes; ++i) {
+            const int last = task.chosen_count - 1;
+            point[i] = point_at(task, first + i < last ? first + i : last);
+            spare[i] = first + i > last ? std::numeric_limits<double>::infinity() : 0;
+        }
     }
-    return load<T>(values);
-}
 
-Block<T> blocks_from(const KernelTask& task, int first)
-{
-    return {gathered(task, first, [&](int i) { return task.points[i].slenderness; }),
-            gathered(task, first, [&](int i) { return task.points[i].restitution; })};
-}
+    template <class Value>
+    T gathered(const Value& value) const
+    {
+        double values[lanes];
+        for (int i = 0; i < lanes; ++i) {
+            values[i] = value(point[i]);
+        }
+        return load<T>(values);
+    }
 
-/// The ground never lifts the blocks in the lanes beyond the last point; so a pack without points
-/// of its own is done at once.
-Excitation<T> excitation_from(const KernelTask& task, int first)
-{
-    const auto push = [&](int i) -> const Push& { return task.pushes[task.push_of_point[i]]; };
-    Excitation<T> excitation{
-        .motion = task.motion,
-        .acceleration = gathered(task, first, [&](int i) { return push(i).acceleration; }),
-        .frequency = gathered(task, first, [&](int i) { return task.points[i].frequency; }),
-        .uplifts = {}};
-    double number[lanes];
-    for (int i = 0; i < lanes; ++i) {
-        number[i] = first + i;
+    Block<T> blocks() const
+    {
+        return {gathered([&](int i) { return task.points[i].slenderness; }),
+                gathered([&](int i) { return task.points[i].restitution; })};
     }
-    const mask_t<T> spare = load<T>(number) >= T(double(task.chosen_count));
-    for (int lobe = 0; lobe < most_lobes; ++lobe) {
-        const T uplift = gathered(task, first, [&](int i) { return push(i).uplifts[lobe]; });
-        excitation.uplifts[lobe] =
-            select<T>(spare, T(std::numeric_limits<double>::infinity()), uplift);
+
+    /// The ground never lifts the blocks in spare lanes; so a pack of nothing else is done at once.
+    Excitation<T> excitation() const
+    {
+        const auto push_of = [&](int i) -> const Push& {
+            return task.pushes[task.push_of_point[i]];
+        };
+        const Push& first = push_of(point[0]);
+        const bool share_push = &first == &push_of(point[lanes - 1]); // the lanes between as well
+        const auto of_push = [&](const auto& value) -> T {
+            return share_push ? T(value(first))
+                              : gathered([&](int i) { return value(push_of(i)); });
+        };
+        Excitation<T> excitation{
+            .motion = task.motion,
+            .acceleration = of_push([](const Push& push) { return push.acceleration; }),
+            .frequency = gathered([&](int i) { return task.points[i].frequency; }),
+            .uplifts = {}};
+        const T never_in_spare = load<T>(spare);
+        for (int lobe = 0; lobe < most_lobes; ++lobe) {
+            const T uplift = of_push([&](const Push& push) { return push.uplifts[lobe]; });
+            excitation.uplifts[lobe] = uplift + never_in_spare;
+        }
+        return excitation;
     }
-    return excitation;
-}
+
+    const KernelTask& task;
+    int point[lanes];
+    double spare[lanes]; ///< infinite in spare lanes
+};
 
 /// Steps of a pack between two looks at whether the points are to be dropped: some milliseconds. A
 /// pack may take a million.
@@ -125,8 +141,8 @@ void sweep(const KernelTask& task, const PointEnds& ends)
 {
     using Stage = ForcedStage<OVERTURN_METHOD, theory, records, T>;
     const auto stage_from = [&](int first) {
-        return Stage(blocks_from(task, first), excitation_from(task, first), task.tolerance,
-                     task.on_unknown_error);
+        const PackPoints points(task, first);
+        return Stage(points.blocks(), points.excitation(), task.tolerance, task.on_unknown_error);
     };
     int turns = turns_between_looks;
     for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {

@@ -22,13 +22,13 @@ struct Push {
 struct KernelTask {
     const GroundMotion<double>& motion;
     const PlanePoint* points;
-    const int* push_of_point; ///< its number in `pushes`
+    const int* push_of_point; ///< its number in `pushes`, ascending
     const Push* pushes;
     double tolerance; ///< see Numerics
     Records records;
     OnUnknownError on_unknown_error;
 
-    const int* chosen; ///< which points to compute; nullptr: the first chosen_count
+    const int* chosen; ///< which points to compute, ascending; nullptr: the first chosen_count
     int chosen_count;
 
     bool (*drop_requested)(const void* context); ///< asked now and then: leave the rest alone?

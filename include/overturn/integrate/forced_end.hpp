@@ -40,7 +40,8 @@ T region_code_of(const ForcedEnd<T>& end, const Block<T>& block)
 }
 
 template <Theory theory, Number T>
-requires(lanes_v<T> == 1) Region region_of(const ForcedEnd<T>& end, const Block<T>& block)
+    requires(lanes_v<T> == 1)
+Region region_of(const ForcedEnd<T>& end, const Block<T>& block)
 {
     return Region(int(region_code_of<theory>(end, block)));
 }

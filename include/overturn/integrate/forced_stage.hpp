@@ -31,8 +31,8 @@ public:
     ForcedStage(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance,
                 OnUnknownError on_unknown_error = OnUnknownError::go_on)
         : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
-          stepper_(block, excitation, tolerance), now_{T(excitation.motion.begin), zero_, zero_,
-                                                       T(S(1))},
+          stepper_(block, excitation, tolerance),
+          now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
           lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
           on_unknown_error_(on_unknown_error)
     {

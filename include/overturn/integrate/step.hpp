@@ -62,11 +62,9 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
             sum = fma(T(value_of<S, row[j]>()), x[j], sum);
         }
     };
-    [&]<std::size_t... j>(std::index_sequence<j...>)
-    {
+    [&]<std::size_t... j>(std::index_sequence<j...>) {
         (add.template operator()<j + 1>(), ...);
-    }
-    (std::make_index_sequence<count - 1>());
+    }(std::make_index_sequence<count - 1>());
     return sum;
 }
 
@@ -85,11 +83,9 @@ Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration&
         rate[i] = fma(h, weighted_sum<Table::stage[i], i>(pull), start.rate);
         pull[i] = acceleration(i, position);
     };
-    [&]<std::size_t... i>(std::index_sequence<i...>)
-    {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
         (run_stage.template operator()<i + 1>(), ...);
-    }
-    (std::make_index_sequence<Table::stages - 1>());
+    }(std::make_index_sequence<Table::stages - 1>());
 
     return {.end = {position, rate[6], pull[6]},
             .position_error = h * weighted_sum<Table::error, 7>(rate),

@@ -15,6 +15,7 @@ struct GroundMotion {
     S begin; ///< phases at which the ground starts and stops to move [rad]
     S end;
     S kink;                          ///< where two smooth pieces meet [rad]; `begin`: nowhere
+    S bends;                         ///< 1, or 0 of a pulse that is linear on its pieces
     std::array<S, most_lobes> peaks; ///< phases of the extrema [rad]; infinite beyond the last
 
     /// The end of the smooth piece that holds the phase [rad]: no step may cross it.
@@ -35,14 +36,24 @@ struct GroundMotion {
         });
     }
 
-    /// Taylor coefficients at a phase, see pulse_series(), of f on the smooth piece that begins or
-    /// continues at the phase `on`. [rad]
+    /// The first `count` Taylor coefficients in t of scale f(phase + rate t), on the smooth piece
+    /// that begins or continues at the phase `on`; scale [1], phases [rad], rate [rad per unit of
+    /// t].
     template <int count, Number T>
     Coefficients<count, T> series(const T& scale, const T& phase, const T& rate, const T& on) const
     {
-        return with_pulse(pulse, [&]<class Pulse>() {
-            return pulse_series<Pulse, count>(scale, phase, rate, on);
-        });
+        Coefficients<count, T> f;
+        if (has_window(pulse)) {
+            f = with_wavelet(pulse, [&]<class Wavelet>() {
+                return wavelet_series<Wavelet, count>(scale, phase, rate);
+            });
+        } else {
+            const Coefficients<2, T> start = with_pulse(pulse, [&]<class Pulse>() {
+                return value_and_slope<Pulse>(scale, phase, rate, on);
+            });
+            f = harmonic_series<count>(start, T(rate * T(bends)));
+        }
+        return f;
     }
     template <int count, Number T>
     Coefficients<count, T> series(const T& scale, const T& phase, const T& rate) const
@@ -63,6 +74,7 @@ GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
                            .begin = has_window(pulse) ? S(-end) : S(0),
                            .end = end,
                            .kink = has_window(pulse) ? S(-end) : S(0),
+                           .bends = S(traits_of(pulse).is_linear ? 0 : 1),
                            .peaks = {}};
     motion.peaks.fill(std::numeric_limits<S>::infinity());
     with_pulse(pulse, [&]<class Pulse>() {

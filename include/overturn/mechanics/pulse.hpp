@@ -240,6 +240,14 @@ struct AntisymmetricRicker : SmoothPulse {
     }
 };
 
+/// Calls visit.template operator()<Wavelet>() for the formula of this kind of wavelet.
+template <class Visitor>
+auto with_wavelet(PulseKind kind, const Visitor& visit)
+{
+    return kind == PulseKind::symmetric_ricker ? visit.template operator()<SymmetricRicker>()
+                                               : visit.template operator()<AntisymmetricRicker>();
+}
+
 /// Calls visit.template operator()<Pulse>() for the formula of this kind of pulse.
 template <class Visitor>
 auto with_pulse(PulseKind kind, const Visitor& visit)

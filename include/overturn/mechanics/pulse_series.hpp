@@ -10,13 +10,13 @@ namespace overturn {
 template <int count, Number T>
 using Coefficients = std::array<T, std::size_t(count)>;
 
-/// The solution of f'' = -rate^2 f with f and f' at t = 0.
+/// The solution of f'' = -rate^2 f that starts with f and f' at t = 0.
 template <int count, Number T>
-Coefficients<count, T> harmonic_series(const T& value, const T& slope, const T& rate)
+Coefficients<count, T> harmonic_series(const Coefficients<2, T>& start, const T& rate)
 {
     using S = scalar_t<T>;
     const T curvature = -(rate * rate);
-    Coefficients<count, T> f{value, slope};
+    Coefficients<count, T> f{start[0], start[1]};
     unrolled<count - 2>(
         [&]<int k>() { f[k + 2] = f[k] * (curvature * T(S(1) / ((k + 1) * (k + 2)))); });
     return f;
@@ -52,39 +52,47 @@ std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, 
     return f;
 }
 
-/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f the pulse on the smooth
+/// f and its slope in t, times the scale, at t = 0 of f(phase + rate t), f the pulse on the smooth
 /// piece that begins or continues at the phase `on`; scale [1], phases [rad], rate [rad per unit of
-/// t].
-template <class Pulse, int count, Number T>
-Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rate,
-                                    [[maybe_unused]] const T& on)
+/// t]. Not of a wavelet: there f'' = -rate^2 f, or f'' = 0 where the pulse is linear.
+template <class Pulse, Number T>
+Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate,
+                                   [[maybe_unused]] const T& on)
 {
-    using arithmetic::fma;
-    using std::sqrt;
     using S = scalar_t<T>;
     if constexpr (std::same_as<Pulse, Rectangular>) {
-        Coefficients<count, T> f;
-        f.fill(T(S(0)));
-        f[0] = scale;
-        return f;
+        return {scale, T(S(0))};
     } else if constexpr (std::same_as<Pulse, Triangular>) {
         const T slope(2 / pi<S>());
         const mask_t<T> rises = on < T(Triangular::kink<S>());
         const T x = phase * slope;
         const T steep = scale * rate * slope;
-        Coefficients<count, T> f;
-        f.fill(T(S(0)));
-        f[0] = scale * select<T>(rises, x, T(S(2)) - x);
-        f[1] = select<T>(rises, steep, -steep);
-        return f;
-    } else if constexpr (std::same_as<Pulse, SymmetricRicker>) {
+        return {scale * select<T>(rises, x, T(S(2)) - x), select<T>(rises, steep, -steep)};
+    } else {
+        const auto [sine, cosine] = sine_and_cosine_of_period(phase);
+        if constexpr (std::same_as<Pulse, OneCosine>) {
+            return {scale * cosine, -(scale * rate * sine)};
+        } else {
+            return {scale * sine, scale * rate * cosine};
+        }
+    }
+}
+
+/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f a wavelet.
+template <class Wavelet, int count, Number T>
+Coefficients<count, T> wavelet_series(const T& scale, const T& phase, const T& rate)
+{
+    using arithmetic::fma;
+    using std::sqrt;
+    using S = scalar_t<T>;
+    if constexpr (std::same_as<Wavelet, SymmetricRicker>) {
         // z = phase / sqrt 2 has x^2 = z^2 / 2; 1 - 2 x^2 = 1 - z^2.
         const T to_z(sqrt(S(2)) / 2);
         const T z = phase * to_z;
         const T slope = rate * to_z;
         const std::array<T, 3> p{fma(-z, z, T(S(1))), z * slope * T(S(-2)), -(slope * slope)};
         return product(p, gaussian_series<count>(scale, z, slope));
-    } else if constexpr (std::same_as<Pulse, AntisymmetricRicker>) {
+    } else {
         // z (z^2 - 3) about z: 3 (z^2 - 1) slope t + 3 z slope^2 t^2 + slope^3 t^3 on top.
         const T to_z(sqrt(S(3)) / 3);
         const T z = phase * to_z;
@@ -94,13 +102,6 @@ Coefficients<count, T> pulse_series(const T& scale, const T& phase, const T& rat
         const std::array<T, 4> p{z * (square - three), three * slope * (square - T(S(1))),
                                  three * z * slope * slope, slope * slope * slope};
         return product(p, gaussian_series<count>(T(scale * T(S(50) / 69)), z, slope));
-    } else {
-        const auto [sine, cosine] = sine_and_cosine_of_period(phase);
-        if constexpr (std::same_as<Pulse, OneCosine>) {
-            return harmonic_series<count>(T(scale * cosine), T(-(scale * rate * sine)), rate);
-        } else {
-            return harmonic_series<count>(T(scale * sine), T(scale * rate * cosine), rate);
-        }
     }
 }
 

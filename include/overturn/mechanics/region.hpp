@@ -135,7 +135,8 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
 }
 
 template <Theory theory, Number T>
-requires(lanes_v<T> == 1) Region region_after_pulse(const State<T>& state, const Block<T>& block)
+    requires(lanes_v<T> == 1)
+Region region_after_pulse(const State<T>& state, const Block<T>& block)
 {
     return Region(int(region_code_after_pulse<theory>(state, block)));
 }

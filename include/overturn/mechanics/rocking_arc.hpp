@@ -34,7 +34,8 @@ namespace overturn {
 ///
 /// On the separatrix, q = 0, tan(y/4) grows or shrinks like exp(tau). Times in 1/p.
 template <Theory theory, Number T>
-requires(lanes_v<T> == 1) class RockingArc {
+    requires(lanes_v<T> == 1)
+class RockingArc {
 public:
     /// begin: a tilt from 0 to pi/2. q: as above, for this state; near the separatrix it holds
     /// digits that the state's own do not, see conserved_q().

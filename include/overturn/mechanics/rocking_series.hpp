@@ -38,10 +38,9 @@ constexpr void newest_last(const Body& body)
 /// y = tilt - alpha. Products become sums over coefficients; unit^2 goes into s and c.
 /// The newest terms of each sum come last: the next coefficient waits for nothing else.
 template <Theory theory, int order, Number T, std::size_t count>
-requires(count >= order) RockingSeries<order, T> rocking_series(const T& tilt, const T& rate,
-                                                                const T& slenderness,
-                                                                const std::array<T, count>& push,
-                                                                const T& unit)
+    requires(count >= order)
+RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& slenderness,
+                                       const std::array<T, count>& push, const T& unit)
 {
     using arithmetic::fma;
     using S = scalar_t<T>;
