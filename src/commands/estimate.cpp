@@ -27,12 +27,12 @@ std::int64_t spread_index(std::int64_t i, int axis, std::int64_t size)
 Tile sample_tile(const Plane& plane, std::int64_t i)
 {
     Tile tile;
-    tile.slenderness = spread_index(i, 0, plane.slenderness.size());
-    tile.restitution = spread_index(i, 1, plane.restitution.size());
-    tile.amplitude_begin = spread_index(i, 2, plane.amplitude.size());
-    tile.amplitude_count = 1;
-    tile.frequency_count = std::min(sample_length, plane.frequency.size());
-    tile.frequency_begin = spread_index(i, 3, plane.frequency.size() - tile.frequency_count + 1);
+    tile.outer = {spread_index(i, 0, plane.slenderness.size()),
+                  spread_index(i, 1, plane.restitution.size())};
+    tile.row_begin = spread_index(i, 2, plane.amplitude.size());
+    tile.row_count = 1;
+    tile.column_count = std::min(sample_length, plane.frequency.size());
+    tile.column_begin = spread_index(i, 3, plane.frequency.size() - tile.column_count + 1);
     return tile;
 }
 

@@ -57,9 +57,10 @@ void print_plane_and_tiles(const std::string& path)
         print_row("field", fmt::format("{}, {}", field.name, field.type));
     }
     const bool is_boundary = summary.product == Product::boundary;
-    print_row("tiles", fmt::format("{} of {} done, {} x {} {} each", summary.tiles_done,
-                                   summary.tiles, summary.amplitude_extent,
-                                   summary.frequency_extent, is_boundary ? "flips" : "points"));
+    print_row("tiles",
+              fmt::format("{} of {} done, {} {} each", summary.tiles_done, summary.tiles,
+                          fmt::join(summary.tile_shape.end() - 2, summary.tile_shape.end(), " x "),
+                          is_boundary ? "flips" : "points"));
     if (const std::string lines = is_boundary ? lines_text(count_lines(path)) : "";
         !lines.empty()) {
         print_row("lines", lines);

@@ -66,9 +66,19 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::uint
     write(object, name, H5T_STD_U32LE, H5T_NATIVE_UINT32, list(values.size()), values.data());
 }
 
+void write_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values)
+{
+    write(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, list(values.size()), values.data());
+}
+
+bool has_attribute(hid_t object, const char* name)
+{
+    return check(H5Aexists(object, name)) > 0;
+}
+
 std::string read_text_attribute(hid_t object, const char* name)
 {
-    if (check(H5Aexists(object, name)) == 0) {
+    if (!has_attribute(object, name)) {
         return {};
     }
     const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
@@ -85,14 +95,24 @@ std::string read_text_attribute(hid_t object, const char* name)
 
 std::int64_t read_integer_attribute(hid_t object, const char* name)
 {
-    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-    const Handle space(H5Aget_space(attribute), H5Sclose);
-    if (check(H5Sget_simple_extent_npoints(space)) != 1) {
+    const std::vector<std::int64_t> values = read_integers_attribute(object, name);
+    if (values.size() != 1) {
         throw Hdf5Error("the attribute " + std::string(name) + " is not a number");
     }
-    std::int64_t value = 0;
-    check(H5Aread(attribute, H5T_NATIVE_INT64, &value));
-    return value;
+    return values[0];
+}
+
+std::vector<std::int64_t> read_integers_attribute(hid_t object, const char* name)
+{
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = check(H5Sget_simple_extent_npoints(space));
+    if (count > H5S_MAX_RANK) {
+        throw Hdf5Error("the attribute " + std::string(name) + " is too long");
+    }
+    std::vector<std::int64_t> values(static_cast<std::size_t>(count));
+    check(H5Aread(attribute, H5T_NATIVE_INT64, values.data()));
+    return values;
 }
 
 } // namespace overturn::hdf5

@@ -18,11 +18,15 @@ void write_attribute(hid_t object, const char* name, std::int64_t value);
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint8_t>& values);
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint16_t>& values);
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint32_t>& values);
+void write_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values);
 
 /// Empty if there is no such attribute or if it is not a text of ours.
 std::string read_text_attribute(hid_t object, const char* name);
 
-/// Throws Hdf5Error if there is no such attribute or if it is not a number.
+bool has_attribute(hid_t object, const char* name);
+
+/// Throws Hdf5Error if there is no such attribute or if it is not a number, or a list of numbers.
 std::int64_t read_integer_attribute(hid_t object, const char* name);
+std::vector<std::int64_t> read_integers_attribute(hid_t object, const char* name);
 
 } // namespace overturn::hdf5

@@ -12,8 +12,10 @@ constexpr double exact = 0;
 constexpr double of_one_function = 4; // each library is within two of the true value
 constexpr double of_several = 100;    // largest_restitution multiplies those of its sine
 
-Coordinate dimension(const char* name, const Axis& axis, const char* long_name, const char* units)
+Coordinate coordinate_of(const Dimension& dimension)
 {
+    const auto& [name, axis_of_job, long_name, units] = dimension;
+    const Axis& axis = *axis_of_job;
     const auto* range = std::get_if<AxisRange>(&axis.definition());
     const bool is_log = range != nullptr && range->spacing == Spacing::log;
     const double roundings = is_log ? of_one_function : exact;
@@ -76,39 +78,46 @@ Coordinate peak_ground_acceleration(const Job& job)
 
 } // namespace
 
+std::vector<Dimension> dimensions_of(const Job& job)
+{
+    const Plane& plane = job.plane;
+    const Dimension rows = job.product == Product::boundary
+                               ? Dimension{"crossing", &plane.amplitude,
+                                           "flips of the verdict along the amplitude, from 0", "1"}
+                               : Dimension{"amplitude", &plane.amplitude,
+                                           job.scene.theory == Theory::linear
+                                               ? "peak ground acceleration, over g alpha"
+                                               : "peak ground acceleration, over g tan(alpha)",
+                                           "1"};
+    return {{"slenderness", &plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
+            {"restitution", &plane.restitution,
+             plane.restitution_of == RestitutionOf::maximum
+                 ? "energy ratio at an impact, over the largest one of the block"
+                 : "energy ratio at an impact",
+             "1"},
+            rows,
+            {"frequency", &plane.frequency,
+             "pulse frequency, over the block's frequency parameter p", "1"}};
+}
+
 std::vector<Coordinate> coordinates_of(const Job& job)
 {
     const Plane& plane = job.plane;
-    const bool is_spectrum = job.product == Product::spectrum;
     std::vector<Coordinate> all;
-    all.push_back(dimension("slenderness", plane.slenderness,
-                            "slenderness of the block, arctan(b/h)", "rad"));
-    if (plane.block) { // the arctangent of its size
-        all.back().roundings = of_one_function;
+    for (const Dimension& dimension : dimensions_of(job)) {
+        all.push_back(coordinate_of(dimension));
     }
-    all.push_back(dimension("restitution", plane.restitution,
-                            plane.restitution_of == RestitutionOf::maximum
-                                ? "energy ratio at an impact, over the largest one of the block"
-                                : "energy ratio at an impact",
-                            "1"));
-    if (is_spectrum) {
-        all.push_back(dimension("amplitude", plane.amplitude,
-                                job.scene.theory == Theory::linear
-                                    ? "peak ground acceleration, over g alpha"
-                                    : "peak ground acceleration, over g tan(alpha)",
-                                "1"));
-    } else {
-        all.push_back(dimension("crossing", plane.amplitude,
-                                "flips of the verdict along the amplitude, from 0", "1"));
-        all.push_back(dimension(layout::scan, job.scan,
-                                "amplitudes that were looked at to find the flips", "1"));
+    if (plane.block) { // its slenderness is the arctangent of its size
+        all.front().roundings = of_one_function;
     }
-    all.push_back(dimension("frequency", plane.frequency,
-                            "pulse frequency, over the block's frequency parameter p", "1"));
+    if (job.product == Product::boundary) {
+        all.push_back(coordinate_of(
+            {layout::scan, &job.scan, "amplitudes that were looked at to find the flips", "1"}));
+    }
     all.push_back(restitution_ratio(plane));
     if (plane.block) {
         all.push_back(pulse_period(plane));
-        if (is_spectrum) { // a boundary has no amplitudes but the flips
+        if (job.product == Product::spectrum) { // a boundary has no amplitudes but the flips
             all.push_back(peak_ground_acceleration(job));
         }
     }

@@ -24,6 +24,17 @@ struct Coordinate {
     bool is_dimension() const { return dimensions.front() == name; }
 };
 
+/// A dimension of every field; it has a coordinate variable of its name.
+struct Dimension {
+    const char* name;
+    const Axis* axis;
+    const char* long_name;
+    const char* units;
+};
+
+/// Slowest first. They point into the job.
+std::vector<Dimension> dimensions_of(const Job& job);
+
 /// In the order of the file: dimensions first.
 std::vector<Coordinate> coordinates_of(const Job& job);
 

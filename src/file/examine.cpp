@@ -82,6 +82,12 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
         throw FileError(fmt::format("\"{}\" holds another job: {}Choose another name with -o.",
                                     path, first_difference(stored.resolved_job, job.resolved)));
     }
+    if (stored.format != layout::newest_format) {
+        throw FileError(
+            fmt::format("\"{}\" has the format of an earlier version ({}), which can be "
+                        "read but not resumed. Choose another name with -o.",
+                        path, stored.format));
+    }
     if (stored.program_version != program_version() || stored.program_commit != program_commit()) {
         throw FileError(fmt::format(
             "\"{}\" was computed by overturn {} (commit {}), and this is overturn {} (commit {}), "
@@ -90,8 +96,7 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
             path, stored.program_version, stored.program_commit, program_version(),
             program_commit()));
     }
-    if (stored.amplitude_extent != tiling.amplitude_extent() ||
-        stored.frequency_extent != tiling.frequency_extent() || stored.fields != job.fields ||
+    if (stored.tile_shape != tiling.tile_shape() || stored.fields != job.fields ||
         stored.checksums.size() != std::size_t(tiling.size())) {
         throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles are not those of its "
                                     "job. Remove it, or choose another name with -o.",

@@ -18,11 +18,10 @@ namespace overturn::layout {
 inline constexpr std::array<const char*, 4> kinds{"overturning spectrum", "overturning boundary",
                                                   "rocking history", "accuracy study"};
 
-/// Dimensions of every field, slowest first; each has a coordinate variable of its name.
-using Dimensions = std::array<const char*, 4>;
-inline constexpr std::array<Dimensions, 2> dimensions{
-    Dimensions{"slenderness", "restitution", "amplitude", "frequency"},
-    Dimensions{"slenderness", "restitution", "crossing", "frequency"}};
+/// Global attribute: what a reader must know of. Files without it are of version 1: they had four
+/// dimensions and the attributes amplitude_extent and frequency_extent.
+inline constexpr char format_version[] = "format_version";
+inline constexpr std::int64_t newest_format = 2;
 
 inline constexpr const char* kind_of(Product product)
 {
@@ -30,10 +29,6 @@ inline constexpr const char* kind_of(Product product)
 }
 inline constexpr const char* history_kind = kinds[2];
 inline constexpr const char* accuracy_kind = kinds[3];
-inline constexpr const Dimensions& dimensions_of(Product product)
-{
-    return dimensions[std::size_t(product)];
-}
 
 inline constexpr char scan[] = "scan_amplitude";
 inline constexpr char pulse_period[] = "pulse_period";
@@ -42,8 +37,8 @@ inline constexpr char restitution_ratio[] = "restitution_ratio";
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
-inline constexpr char amplitude_extent[] = "amplitude_extent";
-inline constexpr char frequency_extent[] = "frequency_extent";
+inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
+inline constexpr char tile_shape[] = "tile_shape";
 inline constexpr char job_given[] = "job_given";
 inline constexpr char job_overrides[] = "job_overrides";
 inline constexpr char job_resolved[] = "job_resolved";

@@ -34,14 +34,15 @@ Handle dataset_creation()
     return creation;
 }
 
-Handle create_dataset(hid_t file, const char* name, hid_t type, const Shape& shape, hid_t creation)
+Handle create_dataset(hid_t file, const char* name, hid_t type, const DatasetShape& shape,
+                      hid_t creation)
 {
     const Handle space(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose);
     return Handle(H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                   H5Dclose);
 }
 
-void add_numbers(hid_t file, const char* name, const Shape& shape,
+void add_numbers(hid_t file, const char* name, const DatasetShape& shape,
                  const std::vector<double>& values, const char* long_name, const char* units)
 {
     const Handle dataset = create_dataset(file, name, H5T_IEEE_F64LE, shape, dataset_creation());
@@ -85,6 +86,7 @@ void add_text(hid_t file, const std::string& name, const std::string& text, cons
 void write_origin(hid_t file, const Job& job, const char* kind)
 {
     write_attribute(file, "Conventions", "CF-1.8");
+    write_attribute(file, layout::format_version, layout::newest_format);
     write_attribute(file, "title", job.title);
     write_attribute(file, "kind", kind);
     write_attribute(file, "source", fmt::format("overturn {}", program_version()));

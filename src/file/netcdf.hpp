@@ -14,15 +14,15 @@
 
 namespace overturn::netcdf {
 
-using Shape = std::vector<hsize_t>;
+using DatasetShape = std::vector<hsize_t>;
 
 hdf5::Handle file_creation();
 hdf5::Handle dataset_creation();
-hdf5::Handle create_dataset(hid_t file, const char* name, hid_t type, const Shape& shape,
+hdf5::Handle create_dataset(hid_t file, const char* name, hid_t type, const DatasetShape& shape,
                             hid_t creation);
 
 /// Values over dimensions that are not attached yet.
-void add_numbers(hid_t file, const char* name, const Shape& shape,
+void add_numbers(hid_t file, const char* name, const DatasetShape& shape,
                  const std::vector<double>& values, const char* long_name, const char* units);
 
 /// Makes the named variable the coordinate of the dimension of its name.

@@ -15,6 +15,7 @@
 #include "overturn/file/spectrum_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -43,6 +44,15 @@ void add_coordinates(hid_t file, const std::vector<Coordinate>& coordinates)
     }
 }
 
+std::vector<const char*> names_of(const std::vector<Dimension>& dimensions)
+{
+    std::vector<const char*> names;
+    for (const Dimension& dimension : dimensions) {
+        names.push_back(dimension.name);
+    }
+    return names;
+}
+
 /// In the words of CF, of the variables that have them beside their dimensions.
 std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
 {
@@ -62,7 +72,7 @@ void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& p
 {
     // What the system has not yet brought to the disk stays little: no wait for it takes long.
     constexpr std::int64_t most_in_memory = 1 << 25; // [bytes]
-    const std::int64_t points = tiling.amplitude_extent() * tiling.frequency_extent();
+    const std::int64_t points = tiling.points_of_tile();
     const std::int64_t bytes = points * std::int64_t(bytes_per_point(field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
     const FieldValues values = not_computed(field, points);
@@ -78,18 +88,17 @@ void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& p
 Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
                  const std::string& coordinates)
 {
-    const Plane& plane = job.plane;
     const layout::StoredAs stored = layout::stored_as(field);
-    const Shape shape{hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size()),
-                      hsize_t(plane.amplitude.size()), hsize_t(plane.frequency.size())};
-    const Shape chunk{1, 1, hsize_t(tiling.amplitude_extent()), hsize_t(tiling.frequency_extent())};
+    const DatasetShape shape(tiling.shape().begin(), tiling.shape().end());
+    const Shape tile = tiling.tile_shape();
+    const DatasetShape chunk(tile.begin(), tile.end());
 
     const Handle creation = dataset_creation();
     check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
     std::visit([&](auto fill) { check(H5Pset_fill_value(creation, stored.memory, &fill)); },
                stored.fill);
     Handle dataset = create_dataset(file, name_of(field).data(), stored.file, shape, creation);
-    attach_dimensions(file, dataset, layout::dimensions_of(job.product));
+    attach_dimensions(file, dataset, names_of(dimensions_of(job)));
     write_field_attributes(dataset, field, coordinates);
     return dataset;
 }
@@ -111,7 +120,7 @@ void add_run_token(hid_t file)
         "random number by which the ranks of a run that starts compare their files, or 0");
 }
 
-void add_checksums(hid_t file, const Tiling& tiling)
+void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
 {
     const Handle dataset = create_dataset(file, layout::checksum, H5T_STD_U64LE,
                                           {hsize_t(tiling.size())}, early_allocated());
@@ -121,10 +130,11 @@ void add_checksums(hid_t file, const Tiling& tiling)
                     "xxHash64, seed 0, over the stored values of the tile, field by field in the "
                     "order of the variables; a hash of 0 is stored as 1");
     write_attribute(dataset, "numbering",
-                    "tiles are rectangles of the last two dimensions at one slenderness and one "
-                    "restitution, smaller at the far edges; the last dimension counts fastest");
-    write_attribute(dataset, layout::amplitude_extent, tiling.amplitude_extent());
-    write_attribute(dataset, layout::frequency_extent, tiling.frequency_extent());
+                    "tiles are rectangles of the last two dimensions at one place of the others, "
+                    "smaller at the far edges; the last dimension counts fastest");
+    write_attribute(dataset, layout::dimensions,
+                    fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
+    write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
 }
 
 void write_skeleton(const std::string& path, const Job& job, const Tiling& tiling,
@@ -148,7 +158,7 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
         fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates)), field, tiling,
              path, between_tiles);
     }
-    add_checksums(file, tiling);
+    add_checksums(file, job, tiling);
     add_job(file, job);
     file.close();
 }

@@ -11,10 +11,11 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     using Count = long double;
     const auto tiles = Count(tiling.size());
     // Tiles at the far edges take the space of whole ones.
-    const Count points = tiles * Count(tiling.amplitude_extent() * tiling.frequency_extent());
-    const Count numbers = Count(plane.frequency.size()) + Count(plane.amplitude.size()) +
-                          Count(plane.restitution.size()) + Count(plane.slenderness.size()) +
-                          Count(plane.slenderness.size() * plane.restitution.size()) + tiles;
+    const Count points = tiles * Count(tiling.points_of_tile());
+    Count numbers = Count(plane.slenderness.size() * plane.restitution.size()) + tiles;
+    for (const std::int64_t size : tiling.shape()) {
+        numbers += Count(size);
+    }
 
     Count bytes = 20480 + numbers * sizeof(double);
     if (plane.block) {

@@ -14,8 +14,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <new>
+#include <sstream>
 
 namespace overturn {
 
@@ -160,12 +162,36 @@ void check_field(const StoredSpectrum& spectrum, Field field)
            "values of a field are missing");
 }
 
+/// The names of the dimensions, slowest first. Files of the first format had four.
+std::vector<std::string> read_dimensions(const StoredSpectrum& spectrum)
+{
+    const Handle checksums = open_dataset(spectrum.file, layout::checksum);
+    std::istringstream words(hdf5::read_text_attribute(checksums, layout::dimensions));
+    std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
+    if (spectrum.format == 1) {
+        names = {"slenderness", "restitution",
+                 spectrum.product == Product::boundary ? "crossing" : "amplitude", "frequency"};
+    }
+    demand(names.size() >= 2 && names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
+    return names;
+}
+
+Shape read_tile_shape(hid_t checksums)
+{
+    if (hdf5::has_attribute(checksums, layout::tile_shape)) {
+        return hdf5::read_integers_attribute(checksums, layout::tile_shape);
+    }
+    return {1, 1, hdf5::read_integer_attribute(checksums, "amplitude_extent"),
+            hdf5::read_integer_attribute(checksums, "frequency_extent")};
+}
+
 void read_checksums_of_tiles(StoredSpectrum& spectrum)
 {
     const Handle dataset = open_dataset(spectrum.file, layout::checksum);
-    spectrum.amplitude_extent = hdf5::read_integer_attribute(dataset, layout::amplitude_extent);
-    spectrum.frequency_extent = hdf5::read_integer_attribute(dataset, layout::frequency_extent);
-    demand(spectrum.amplitude_extent >= 1 && spectrum.frequency_extent >= 1,
+    spectrum.tile_shape = read_tile_shape(dataset);
+    const Shape& tile = spectrum.tile_shape;
+    demand(tile.size() == spectrum.axes.size() &&
+               std::all_of(tile.begin(), tile.end(), [](auto size) { return size >= 1; }),
            "the tiles are malformed");
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == 1 && shape[0] == hsize_t(spectrum.tiling().size()) &&
@@ -191,6 +217,14 @@ StoredFile read_origin(const std::string& path, FileKind last, const char* wante
                                     wanted,
                                     kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
     }
+    stored.format = hdf5::has_attribute(stored.file, layout::format_version)
+                        ? hdf5::read_integer_attribute(stored.file, layout::format_version)
+                        : 1;
+    if (stored.format < 1 || stored.format > layout::newest_format) {
+        throw FileError(fmt::format("\"{}\" has the format version {}, and this program reads "
+                                    "those up to {}. Use a newer one.",
+                                    path, stored.format, layout::newest_format));
+    }
     stored.title = hdf5::read_text_attribute(stored.file, "title");
     stored.program_version = hdf5::read_text_attribute(stored.file, "program_version");
     stored.program_commit = hdf5::read_text_attribute(stored.file, "program_commit");
@@ -203,8 +237,8 @@ StoredSpectrum read_spectrum(const std::string& path)
     StoredSpectrum spectrum;
     static_cast<StoredFile&>(spectrum) = read_origin(path, FileKind::boundary, "spectrum");
     spectrum.product = Product(spectrum.kind);
-    for (const char* name : layout::dimensions_of(spectrum.product)) {
-        spectrum.axes.push_back(read_axis(spectrum.file, name, spectrum.bytes));
+    for (const std::string& name : read_dimensions(spectrum)) {
+        spectrum.axes.push_back(read_axis(spectrum.file, name.c_str(), spectrum.bytes));
     }
     spectrum.fields = read_fields(spectrum.file);
     for (const Field field : spectrum.fields) {
@@ -223,13 +257,9 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     };
     std::vector<std::string> foreign;
     // Sizes first: those of a made-up job may be beyond all memory, those in the file are not.
-    const Plane& plane = job.plane;
-    const auto& names = layout::dimensions_of(job.product);
-    const std::array axes{&plane.slenderness, &plane.restitution, &plane.amplitude,
-                          &plane.frequency};
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (!has_shape(names[i], {hsize_t(axes[i]->size())})) {
-            foreign.emplace_back(names[i]);
+    for (const Dimension& dimension : dimensions_of(job)) {
+        if (!has_shape(dimension.name, {hsize_t(dimension.axis->size())})) {
+            foreign.emplace_back(dimension.name);
         }
     }
     if (job.product == Product::boundary && !has_shape(layout::scan, {hsize_t(job.scan.size())})) {
@@ -260,14 +290,11 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
 
 Tiling StoredSpectrum::tiling() const
 {
-    const auto axis = [this](std::size_t i) { return Axis(axes[i].values); };
-    const Plane plane{.frequency = axis(3),
-                      .amplitude = axis(2),
-                      .restitution = axis(1),
-                      .slenderness = axis(0),
-                      .restitution_of = RestitutionOf::absolute,
-                      .block = {}};
-    return Tiling(plane, amplitude_extent, frequency_extent);
+    Shape shape;
+    for (const StoredAxis& axis : axes) {
+        shape.push_back(std::int64_t(axis.values.size()));
+    }
+    return {std::move(shape), tile_shape[tile_shape.size() - 2], tile_shape.back()};
 }
 
 std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)

@@ -29,10 +29,9 @@ struct StoredFile : FileOrigin {
 
 struct StoredSpectrum : StoredFile {
     Product product = Product::spectrum;
-    std::vector<StoredAxis> axes; ///< slowest first
-    std::vector<Field> fields;    ///< in the job's order
-    std::int64_t amplitude_extent = 0;
-    std::int64_t frequency_extent = 0;
+    std::vector<StoredAxis> axes;         ///< slowest first
+    std::vector<Field> fields;            ///< in the job's order
+    Shape tile_shape;                     ///< 1 in each dimension but the last two
     std::vector<std::uint64_t> checksums; ///< by tile number
 
     Tiling tiling() const;

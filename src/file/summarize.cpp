@@ -25,8 +25,7 @@ SpectrumSummary summarize(const std::string& path)
     for (const Field field : stored.fields) {
         summary.fields.push_back({std::string(name_of(field)), layout::stored_as(field).name});
     }
-    summary.amplitude_extent = stored.amplitude_extent;
-    summary.frequency_extent = stored.frequency_extent;
+    summary.tile_shape = stored.tile_shape;
     summary.tiles = std::int64_t(stored.checksums.size());
     summary.tiles_done = summary.tiles - std::count(stored.checksums.begin(),
                                                     stored.checksums.end(), not_computed_checksum);
@@ -51,8 +50,8 @@ BoundaryLines count_lines(const std::string& path)
             const Tile tile = tiling[number];
             const auto below = regions(tile, Field::region_below);
             const auto above = regions(tile, Field::region_above);
-            const auto columns = std::size_t(tile.frequency_count);
-            lines.computed += tile.frequency_count;
+            const auto columns = std::size_t(tile.column_count);
+            lines.computed += tile.column_count;
             for (std::size_t column = 0; column < columns; ++column) {
                 bool undecided = false;
                 for (std::size_t point = column; point < below.size(); point += columns) {

@@ -2,7 +2,6 @@
 
 #include "layout.hpp"
 
-#include <array>
 #include <cassert>
 
 namespace overturn {
@@ -12,20 +11,23 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-using Extents = std::array<hsize_t, 4>;
+using Extents = std::vector<hsize_t>;
 
 Extents extents_of(const Tile& tile)
 {
-    return {1, 1, hsize_t(tile.amplitude_count), hsize_t(tile.frequency_count)};
+    Extents extents(tile.outer.size(), 1);
+    extents.insert(extents.end(), {hsize_t(tile.row_count), hsize_t(tile.column_count)});
+    return extents;
 }
 
 Extents begin_of(const Tile& tile)
 {
-    return {hsize_t(tile.slenderness), hsize_t(tile.restitution), hsize_t(tile.amplitude_begin),
-            hsize_t(tile.frequency_begin)};
+    Extents begin(tile.outer.begin(), tile.outer.end());
+    begin.insert(begin.end(), {hsize_t(tile.row_begin), hsize_t(tile.column_begin)});
+    return begin;
 }
 
-/// Where a tile lies in a dataset of four dimensions.
+/// Where a tile lies in a dataset.
 Handle selection(hid_t dataset, const Tile& tile)
 {
     const Extents begin = begin_of(tile);

@@ -45,7 +45,7 @@ Tiling tiling_of(const Job& job)
     // A line of a boundary takes longer than a tile of a spectrum: some 10 ms, and many times that
     // where a slow pulse lets blocks bounce on and on.
     constexpr std::int64_t lines = 1;
-    return job.product == Product::boundary ? Tiling(job.plane, most_crossings, lines)
+    return job.product == Product::boundary ? Tiling(shape_of(job.plane), most_crossings, lines)
                                             : Tiling(job.plane);
 }
 

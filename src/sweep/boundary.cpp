@@ -241,13 +241,13 @@ TileFields boundary_tile(const Scene& scene, const Plane& plane,
     std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint8_t> below(points, no_flip);
     std::vector<std::uint8_t> above(points, no_flip);
-    const auto rows = std::size_t(tile.amplitude_count);
-    const auto columns = std::size_t(tile.frequency_count);
+    const auto rows = std::size_t(tile.row_count);
+    const auto columns = std::size_t(tile.column_count);
     for (std::size_t column = 0; column < columns; ++column) {
         const BoundaryLine line{
-            .slenderness = plane.slenderness[tile.slenderness],
-            .restitution = plane.restitution_ratio(tile.slenderness, tile.restitution),
-            .frequency = plane.frequency[tile.frequency_begin + std::int64_t(column)]};
+            .slenderness = plane.slenderness[tile.outer[0]],
+            .restitution = plane.restitution_ratio(tile.outer[0], tile.outer[1]),
+            .frequency = plane.frequency[tile.column_begin + std::int64_t(column)]};
         const Boundary boundary =
             boundary_on(scene, line, amplitudes, kernel, rows, drop_requested);
         below[column] = std::uint8_t(boundary.region_at_first);

@@ -32,14 +32,14 @@ void Ends::record_steps()
 
 std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
 {
-    const double slenderness = plane.slenderness[tile.slenderness];
-    const double restitution = plane.restitution_ratio(tile.slenderness, tile.restitution);
+    const double slenderness = plane.slenderness[tile.outer[0]];
+    const double restitution = plane.restitution_ratio(tile.outer[0], tile.outer[1]);
     const std::vector<double> frequencies =
-        plane.frequency.values(tile.frequency_begin, tile.frequency_begin + tile.frequency_count);
+        plane.frequency.values(tile.column_begin, tile.column_begin + tile.column_count);
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
-    for (std::int64_t row = 0; row < tile.amplitude_count; ++row) {
-        const double amplitude = plane.amplitude[tile.amplitude_begin + row];
+    for (std::int64_t row = 0; row < tile.row_count; ++row) {
+        const double amplitude = plane.amplitude[tile.row_begin + row];
         for (const double frequency : frequencies) {
             *point++ = {slenderness, restitution, amplitude, frequency};
         }

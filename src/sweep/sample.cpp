@@ -56,7 +56,7 @@ std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t w
     double share = 0.5;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const Tile tile = tiling[i];
-        const auto columns = int(tile.frequency_count);
+        const auto columns = int(tile.column_count);
         std::set<int> of_tile;
         for (; next < double(before + tile.points()); next += all ? 1 : stride) {
             const auto point = int(std::int64_t(next) - before);

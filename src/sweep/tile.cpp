@@ -1,6 +1,7 @@
 #include "overturn/sweep/tile.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace overturn {
 
@@ -13,37 +14,58 @@ std::int64_t ceiling_of_ratio(std::int64_t a, std::int64_t b)
 
 } // namespace
 
-Tiling::Tiling(const Plane& plane, std::int64_t amplitude_extent, std::int64_t frequency_extent)
-    : slendernesses_(plane.slenderness.size()), restitutions_(plane.restitution.size()),
-      amplitudes_(plane.amplitude.size()), frequencies_(plane.frequency.size()),
-      amplitude_extent_(std::min(amplitude_extent, amplitudes_)),
-      frequency_extent_(std::min(frequency_extent, frequencies_)),
-      tile_rows_(ceiling_of_ratio(amplitudes_, amplitude_extent_)),
-      tile_columns_(ceiling_of_ratio(frequencies_, frequency_extent_))
-{}
+Shape shape_of(const Plane& plane)
+{
+    return {plane.slenderness.size(), plane.restitution.size(), plane.amplitude.size(),
+            plane.frequency.size()};
+}
+
+Tiling::Tiling(Shape shape, std::int64_t rows, std::int64_t columns) : shape_(std::move(shape))
+{
+    assert(shape_.size() >= 2);
+    const std::int64_t all_columns = shape_.back();
+    const std::int64_t all_rows = shape_[shape_.size() - 2];
+    rows_ = std::min(rows, all_rows);
+    columns_ = std::min(columns, all_columns);
+    tiles_down_ = ceiling_of_ratio(all_rows, rows_);
+    tiles_across_ = ceiling_of_ratio(all_columns, columns_);
+}
 
 // 64 x 64 points take some milliseconds: long beside a message between ranks (microseconds), short
 // beside a run. A spectrum of 100 x 100 still has work for a few ranks.
-Tiling::Tiling(const Plane& plane) : Tiling(plane, 64, 64) {}
+Tiling::Tiling(const Plane& plane) : Tiling(shape_of(plane), 64, 64) {}
 
 std::int64_t Tiling::size() const
 {
-    return slendernesses_ * restitutions_ * tile_rows_ * tile_columns_;
+    std::int64_t tiles = tiles_down_ * tiles_across_;
+    for (std::size_t i = 0; i + 2 < shape_.size(); ++i) {
+        tiles *= shape_[i];
+    }
+    return tiles;
+}
+
+Shape Tiling::tile_shape() const
+{
+    Shape shape(shape_.size() - 2, 1);
+    shape.push_back(rows_);
+    shape.push_back(columns_);
+    return shape;
 }
 
 Tile Tiling::operator[](std::int64_t number) const
 {
-    const std::int64_t column = number % tile_columns_;
-    const std::int64_t row = number / tile_columns_ % tile_rows_;
-    const std::int64_t plane = number / (tile_columns_ * tile_rows_);
     Tile tile;
     tile.number = number;
-    tile.slenderness = plane / restitutions_;
-    tile.restitution = plane % restitutions_;
-    tile.amplitude_begin = row * amplitude_extent_;
-    tile.amplitude_count = std::min(amplitude_extent_, amplitudes_ - tile.amplitude_begin);
-    tile.frequency_begin = column * frequency_extent_;
-    tile.frequency_count = std::min(frequency_extent_, frequencies_ - tile.frequency_begin);
+    tile.column_begin = number % tiles_across_ * columns_;
+    tile.row_begin = number / tiles_across_ % tiles_down_ * rows_;
+    tile.column_count = std::min(columns_, shape_.back() - tile.column_begin);
+    tile.row_count = std::min(rows_, shape_[shape_.size() - 2] - tile.row_begin);
+    std::int64_t place = number / (tiles_across_ * tiles_down_);
+    tile.outer.resize(shape_.size() - 2);
+    for (std::size_t i = tile.outer.size(); i-- > 0;) {
+        tile.outer[i] = place % shape_[i];
+        place /= shape_[i];
+    }
     return tile;
 }
 

@@ -230,7 +230,7 @@ TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkByName)
 
 TEST_F(Examine, RefusesAFileThatIsCutIntoOtherTiles)
 {
-    create_spectrum_file(path, job, Tiling(job.plane, 3, 3));
+    create_spectrum_file(path, job, Tiling(shape_of(job.plane), 3, 3));
     EXPECT_THAT(refusal(path, job), HasSubstr("tiles"));
 }
 

@@ -31,7 +31,7 @@ inline Job sample_job()
 /// Tiles whose edges do not fit the plane: 7 = 4 + 3 rows, 11 = 4 + 4 + 3 columns.
 inline Tiling sample_tiling(const Job& job)
 {
-    return Tiling(job.plane, 4, 4);
+    return Tiling(shape_of(job.plane), 4, 4);
 }
 
 /// Every point has a value that no other point has: its position in the plane goes into it.
@@ -44,10 +44,10 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
             [&](auto& list) {
                 using Value = typename std::decay_t<decltype(list)>::value_type;
                 for (std::int64_t i = 0; i < tile.points(); ++i) {
-                    const std::int64_t row = tile.amplitude_begin + i / tile.frequency_count;
-                    const std::int64_t column = tile.frequency_begin + i % tile.frequency_count;
+                    const std::int64_t row = tile.row_begin + i / tile.column_count;
+                    const std::int64_t column = tile.column_begin + i % tile.column_count;
                     const std::int64_t block =
-                        tile.slenderness * job.plane.restitution.size() + tile.restitution;
+                        tile.outer[0] * job.plane.restitution.size() + tile.outer[1];
                     const std::int64_t position =
                         (block * job.plane.amplitude.size() + row) * job.plane.frequency.size() +
                         column;

@@ -52,9 +52,8 @@ private:
 constexpr std::array objects{"slenderness", "restitution", "amplitude",    "frequency",
                              "region",      "impacts",     "checksum",     "job_resolved",
                              "job_given",   "tile",        "region_below", "/"};
-constexpr std::array attributes{
-    "kind", "title", "program_version", "program_commit", "amplitude_extent", "frequency_extent",
-    "units"};
+constexpr std::array attributes{"kind",           "title",      "program_version", "program_commit",
+                                "format_version", "dimensions", "tile_shape",      "units"};
 constexpr std::array<hsize_t, 12> lengths{0,
                                           1,
                                           2,

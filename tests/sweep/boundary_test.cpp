@@ -306,11 +306,10 @@ TEST(BoundaryTile, HasALineInEachColumn)
     plane.amplitude = Axis(AxisRange{0, 7, 8});
     const std::vector<double> scan = evenly(0.5, 16, 156);
     Tile tile;
-    tile.slenderness = 1;
-    tile.restitution = 1;
-    tile.amplitude_count = 8;
-    tile.frequency_begin = 2;
-    tile.frequency_count = 2;
+    tile.outer = {1, 1};
+    tile.row_count = 8;
+    tile.column_begin = 2;
+    tile.column_count = 2;
     const TileFields fields = boundary_tile({}, plane, scan, tile, widest_kernel());
     const auto& amplitude = std::get<std::vector<double>>(fields.values[0]);
     const auto& below = std::get<std::vector<std::uint8_t>>(fields.values[1]);
@@ -343,8 +342,9 @@ TEST(BoundaryTile, SaysWhereThereAreMoreFlipsThanRows)
     plane.frequency = Axis(AxisList{3});
     plane.amplitude = Axis(AxisRange{0, 1, 2});
     Tile tile;
-    tile.amplitude_count = 2;
-    tile.frequency_count = 1;
+    tile.outer = {0, 0};
+    tile.row_count = 2;
+    tile.column_count = 1;
     const TileFields fields = boundary_tile({}, plane, evenly(0.5, 16, 156), tile, widest_kernel());
     EXPECT_NEAR(std::get<std::vector<double>>(fields.values[0])[1], 3.590936, 6e-7);
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[0],

@@ -37,11 +37,9 @@ Met met_by(const Plane& plane, std::int64_t wanted)
             EXPECT_LT(point, tile.points());
             last = point;
             ++met.points;
-            met.frequencies.insert(
-                plane.frequency[tile.frequency_begin + point % tile.frequency_count]);
-            met.amplitudes.insert(
-                plane.amplitude[tile.amplitude_begin + point / tile.frequency_count]);
-            met.restitutions.insert(plane.restitution[tile.restitution]);
+            met.frequencies.insert(plane.frequency[tile.column_begin + point % tile.column_count]);
+            met.amplitudes.insert(plane.amplitude[tile.row_begin + point / tile.column_count]);
+            met.restitutions.insert(plane.restitution[tile.outer[1]]);
         }
     }
     return met;

@@ -53,14 +53,13 @@ std::vector<std::vector<std::byte>> sweep_plane(const Scene& scene, const Numeri
                 [&](const auto& values) {
                     const std::size_t size = sizeof(values[0]);
                     const std::int64_t page =
-                        tile.slenderness * plane.restitution.size() + tile.restitution;
-                    for (std::int64_t i = 0; i < tile.amplitude_count; ++i) {
-                        const std::int64_t row =
-                            page * plane.amplitude.size() + tile.amplitude_begin + i;
-                        const std::int64_t to = row * plane.frequency.size() + tile.frequency_begin;
+                        tile.outer[0] * plane.restitution.size() + tile.outer[1];
+                    for (std::int64_t i = 0; i < tile.row_count; ++i) {
+                        const std::int64_t row = page * plane.amplitude.size() + tile.row_begin + i;
+                        const std::int64_t to = row * plane.frequency.size() + tile.column_begin;
                         std::memcpy(bytes[f].data() + std::size_t(to) * size,
-                                    values.data() + i * tile.frequency_count,
-                                    std::size_t(tile.frequency_count) * size);
+                                    values.data() + i * tile.column_count,
+                                    std::size_t(tile.column_count) * size);
                     }
                 },
                 fields.values[f]);
@@ -101,7 +100,8 @@ TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
             // Rows of 3, 5 and 37 points put every point into different lanes beside different
             // ones.
             for (const auto& [rows, columns] : {std::pair{1, 3}, {29, 5}, {7, 37}}) {
-                EXPECT_EQ(swept(Tiling(plane, rows, columns)), whole) << name_of(scene, numerics);
+                EXPECT_EQ(swept(Tiling(shape_of(plane), rows, columns)), whole)
+                    << name_of(scene, numerics);
             }
         }
     }
@@ -182,10 +182,10 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
     const auto& steps = std::get<std::vector<std::uint32_t>>(fields.values[6]);
     const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[7]);
     for (std::int64_t i = 0; i < tile.points(); ++i) {
-        const Point<double> point{plane.slenderness[tile.slenderness],
-                                  plane.restitution_ratio(tile.slenderness, tile.restitution),
-                                  plane.frequency[tile.frequency_begin + i % tile.frequency_count],
-                                  plane.amplitude[tile.amplitude_begin + i / tile.frequency_count]};
+        const Point<double> point{plane.slenderness[tile.outer[0]],
+                                  plane.restitution_ratio(tile.outer[0], tile.outer[1]),
+                                  plane.frequency[tile.column_begin + i % tile.column_count],
+                                  plane.amplitude[tile.row_begin + i / tile.column_count]};
         const auto end = forced_end<Theory::nonlinear, RungeKutta, true>(PulseKind::one_sine, point,
                                                                          Numerics{}.tolerance);
         const std::size_t k = std::size_t(i);

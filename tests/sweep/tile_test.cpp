@@ -7,56 +7,61 @@
 namespace overturn {
 namespace {
 
-Plane plane_of(std::int64_t slenderness, std::int64_t restitution, std::int64_t amplitude,
-               std::int64_t frequency)
+TEST(Tiling, CoversEveryPointOnceInAnyNumberOfDimensions)
 {
-    Plane plane;
-    plane.slenderness = Axis(AxisRange{0.1, 0.4, slenderness, Spacing::linear});
-    plane.restitution = Axis(AxisRange{0.5, 1.0, restitution, Spacing::linear});
-    plane.amplitude = Axis(AxisRange{1, 9, amplitude, Spacing::linear});
-    plane.frequency = Axis(AxisRange{1, 9, frequency, Spacing::linear});
-    return plane;
-}
-
-TEST(Tiling, CoversEveryPointOnce)
-{
-    const Plane plane = plane_of(2, 3, 23, 31);
-    for (const auto& [rows, columns] : {std::pair{7, 8}, {1, 31}, {23, 1}, {64, 64}}) {
-        const Tiling tiling(plane, rows, columns);
-        std::set<std::array<std::int64_t, 4>> seen;
-        for (std::int64_t n = 0; n < tiling.size(); ++n) {
-            const Tile tile = tiling[n];
-            EXPECT_EQ(tile.number, n);
-            for (std::int64_t i = 0; i < tile.amplitude_count; ++i) {
-                for (std::int64_t j = 0; j < tile.frequency_count; ++j) {
-                    const bool is_new =
-                        seen.insert({tile.slenderness, tile.restitution, tile.amplitude_begin + i,
-                                     tile.frequency_begin + j})
-                            .second;
-                    EXPECT_TRUE(is_new);
+    for (const Shape& shape : {Shape{23, 31}, {3, 23, 31}, {2, 3, 23, 31}, {2, 1, 3, 5, 7}}) {
+        for (const auto& [rows, columns] : {std::pair{7, 8}, {1, 31}, {23, 1}, {64, 64}}) {
+            const Tiling tiling(shape, rows, columns);
+            std::set<Shape> seen;
+            for (std::int64_t n = 0; n < tiling.size(); ++n) {
+                const Tile tile = tiling[n];
+                EXPECT_EQ(tile.number, n);
+                for (std::int64_t i = 0; i < tile.points(); ++i) {
+                    Shape point = tile.outer;
+                    point.push_back(tile.row_begin + i / tile.column_count);
+                    point.push_back(tile.column_begin + i % tile.column_count);
+                    EXPECT_TRUE(seen.insert(point).second);
                 }
             }
+            std::int64_t points = 1;
+            Shape last;
+            for (const std::int64_t size : shape) {
+                points *= size;
+                last.push_back(size - 1);
+            }
+            EXPECT_EQ(std::int64_t(seen.size()), points);
+            EXPECT_EQ(*seen.rbegin(), last);
         }
-        EXPECT_EQ(std::int64_t(seen.size()), plane.points());
-        EXPECT_EQ((*seen.rbegin()), (std::array<std::int64_t, 4>{1, 2, 22, 30}));
     }
 }
 
-TEST(Tiling, NumbersTilesFrequencyFastest)
+TEST(Tiling, NumbersTilesInTheOrderOfTheDimensions)
 {
-    const Tiling tiling(plane_of(1, 2, 20, 20), 10, 10);
-    EXPECT_EQ(tiling[1].frequency_begin, 10);
-    EXPECT_EQ(tiling[2].amplitude_begin, 10);
-    EXPECT_EQ(tiling[4].restitution, 1);
+    const Tiling tiling({3, 2, 20, 20}, 10, 10);
+    EXPECT_EQ(tiling[1].column_begin, 10);
+    EXPECT_EQ(tiling[2].row_begin, 10);
+    EXPECT_EQ(tiling[4].outer, (Shape{0, 1}));
+    EXPECT_EQ(tiling[8].outer, (Shape{1, 0}));
+}
+
+TEST(Tiling, OfAPlaneHasItsAxesFromSlendernessToFrequency)
+{
+    Plane plane;
+    plane.slenderness = Axis(AxisList{0.1, 0.2});
+    plane.restitution = Axis(AxisList{0.5, 0.7, 0.9});
+    plane.amplitude = Axis(AxisRange{1, 9, 100, Spacing::linear});
+    plane.frequency = Axis(AxisRange{1, 9, 20, Spacing::linear});
+    EXPECT_EQ(Tiling(plane).shape(), (Shape{2, 3, 100, 20}));
+    EXPECT_EQ(Tiling(plane).tile_shape(), (Shape{1, 1, 64, 20}));
 }
 
 TEST(Tiling, CountsBeyondThirtyTwoBits)
 {
-    const Tiling tiling(plane_of(1, 1, std::int64_t(1) << 22, std::int64_t(1) << 22), 1, 1);
+    const Tiling tiling({std::int64_t(1) << 22, std::int64_t(1) << 22}, 1, 1);
     EXPECT_EQ(tiling.size(), std::int64_t(1) << 44);
     const Tile last = tiling[tiling.size() - 1];
-    EXPECT_EQ(last.frequency_begin, (std::int64_t(1) << 22) - 1);
-    EXPECT_EQ(last.amplitude_begin, (std::int64_t(1) << 22) - 1);
+    EXPECT_EQ(last.column_begin, (std::int64_t(1) << 22) - 1);
+    EXPECT_EQ(last.row_begin, (std::int64_t(1) << 22) - 1);
 }
 
 } // namespace

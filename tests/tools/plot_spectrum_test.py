@@ -46,7 +46,7 @@ class Picture(unittest.TestCase):
             file["frequency"] = np.arange(1.0, columns + 1) if frequency is None else frequency
             file["amplitude"] = np.arange(1.0, rows + 1) if amplitude is None else amplitude
             file["checksum"] = (codes != NOT_COMPUTED).astype(np.uint64).ravel()
-            file["checksum"].attrs.update({"amplitude_extent": 1, "frequency_extent": 1})
+            file["checksum"].attrs.update({"tile_shape": [1, 1, 1, 1]})
 
     def plot(self, *arguments):
         return run_tool("plot_spectrum", *arguments, cwd=self.folder)

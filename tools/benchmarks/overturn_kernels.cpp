@@ -21,8 +21,8 @@ std::vector<PeerEnd<double>> solve_by_overturn(const Problem& problem, const Num
         const auto& angle = std::get<std::vector<double>>(fields.values[1]);
         const auto& velocity = std::get<std::vector<double>>(fields.values[2]);
         for (std::int64_t i = 0; i < tile.points(); ++i) {
-            const std::int64_t row = tile.amplitude_begin + i / tile.frequency_count;
-            const std::int64_t column = tile.frequency_begin + i % tile.frequency_count;
+            const std::int64_t row = tile.row_begin + i / tile.column_count;
+            const std::int64_t column = tile.column_begin + i % tile.column_count;
             ends[std::size_t(row * columns + column)] = {
                 angle[std::size_t(i)], velocity[std::size_t(i)], Region(region[std::size_t(i)])};
         }

@@ -3,7 +3,20 @@ not computed, whatever value is stored: it reads as the field's fill value."""
 
 import numpy as np
 
-from overturn.result_file import PlotError
+from overturn.result_file import PlotError, text_attribute
+
+
+def dimensions_of(file):
+    """Their names, slowest first: those of every field."""
+    words = text_attribute(file["checksum"], "dimensions").split()
+    rows = "crossing" if "crossing" in file else "amplitude"
+    return words or ["slenderness", "restitution", rows, "frequency"]  # of the first format
+
+
+def fields_of(file):
+    """The names of all variables over all dimensions."""
+    rank = len(dimensions_of(file))
+    return [name for name, data in file.items() if getattr(data, "ndim", 0) == rank]
 
 
 def tile_shape(file):

@@ -8,6 +8,7 @@ import h5py
 
 USAGE, FILE = 2, 74  # exit codes, as those of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+NEWEST_FORMAT = 2
 PICTURES = (".png", ".pdf", ".svg")
 PANELS = "overturn:panels"  # the text in a PNG that tells where its panels lie
 
@@ -60,6 +61,10 @@ def open_result(path, kind, wanted):
         raise PlotError(f"cannot read \"{path}\": {error.strerror or error}.") from error
     if text_attribute(file, "kind") != kind:
         raise PlotError(f"\"{path}\" is not {wanted}.")
+    version = file.attrs.get("format_version", 1)
+    if version > NEWEST_FORMAT:
+        raise PlotError(f"\"{path}\" has the format version {version}, and this tool reads those up "
+                        f"to {NEWEST_FORMAT}. Use the tools of a newer overturn.")
     return file
 
 

@@ -96,8 +96,8 @@ def axes_of_plane(file):
 
 def rows_of_tiles(field):
     """Slices of rows that are read at one go: a plane may not fit in memory."""
-    height = field.chunks[2] if field.chunks else 64
-    return [slice(first, first + height) for first in range(0, field.shape[2], height)]
+    height = field.chunks[-2] if field.chunks else 64
+    return [slice(first, first + height) for first in range(0, field.shape[-2], height)]
 
 
 def read_cells(file, name, pair, rows, columns):

@@ -29,6 +29,7 @@ enum class FileKind { spectrum, boundary, history, accuracy };
 /// What a result file of any kind says of itself.
 struct FileOrigin {
     FileKind kind = FileKind::spectrum;
+    std::int64_t format = 1; ///< version of the layout
     std::string title;
     std::string program_version;
     std::string program_commit;
@@ -42,10 +43,9 @@ FileOrigin origin_of(const std::string& path);
 /// What a spectrum or a boundary says of itself.
 struct SpectrumSummary : FileOrigin {
     Product product = Product::spectrum;
-    std::vector<AxisSummary> axes;     ///< slowest first: the dimensions of every field
-    std::vector<FieldSummary> fields;  ///< in the job's order
-    std::int64_t amplitude_extent = 0; ///< of a tile [points]
-    std::int64_t frequency_extent = 0; ///< of a tile [points]
+    std::vector<AxisSummary> axes;    ///< slowest first: the dimensions of every field
+    std::vector<FieldSummary> fields; ///< in the job's order
+    Shape tile_shape;                 ///< of a tile [points]
     std::int64_t tiles = 0;
     std::int64_t tiles_done = 0;
 };
