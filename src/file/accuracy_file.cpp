@@ -116,23 +116,18 @@ void add_results(const Table& table)
               [](const AccuracyRow& row) { return row.steps; });
     table.add("evaluations", "evaluations per point, of the acceleration or of its series", "1",
               [](const AccuracyRow& row) { return row.evaluations; });
-    table.add(
-        "angle_error", "quantile", "error of the angle against 50 digits", "rad",
-        [](const AccuracyRow& row) -> auto& { return row.angle; });
-    table.add(
-        "velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
-        [](const AccuracyRow& row) -> auto& { return row.velocity; });
-    table.add(
-        "margin_error", "quantile", "error of the margin against 50 digits", "1",
-        [](const AccuracyRow& row) -> auto& { return row.margin; });
+    table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
+              [](const AccuracyRow& row) -> auto& { return row.angle; });
+    table.add("velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
+              [](const AccuracyRow& row) -> auto& { return row.velocity; });
+    table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
+              [](const AccuracyRow& row) -> auto& { return row.margin; });
     table.add("flips", "points whose verdict is wrong", "1",
               [](const AccuracyRow& row) { return row.flips; });
-    table.add(
-        "flips_by_region", "region", "points of the region whose verdict is wrong", "1",
-        [](const AccuracyRow& row) -> auto& { return row.flips_by_region; });
-    table.add(
-        "flips_by_distance", "distance", "points of the class whose verdict is wrong", "1",
-        [](const AccuracyRow& row) -> auto& { return row.flips_by_distance; });
+    table.add("flips_by_region", "region", "points of the region whose verdict is wrong", "1",
+              [](const AccuracyRow& row) -> auto& { return row.flips_by_region; });
+    table.add("flips_by_distance", "distance", "points of the class whose verdict is wrong", "1",
+              [](const AccuracyRow& row) -> auto& { return row.flips_by_distance; });
     table.add("undecided", "points without a verdict", "1",
               [](const AccuracyRow& row) { return row.undecided; });
     table.add("bound_exceeded", "share of the points whose error of the margin exceeds its bound",

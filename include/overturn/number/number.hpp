@@ -97,14 +97,13 @@ template <class T>
 inline constexpr int lanes_v = number_traits<T>::lanes;
 
 template <class T>
-concept Number = requires(T a, T b)
-{
+concept Number = requires(T a, T b) {
     typename number_traits<T>::scalar;
     typename number_traits<T>::mask;
-    {a + b};
-    {a * b};
-    {a / b};
-    {-a};
+    a + b;
+    (a * b);
+    a / b;
+    -a;
 };
 
 /// The lanes of a number, from and to memory.

@@ -9,11 +9,9 @@ namespace overturn {
 template <int count, class Body>
 constexpr void unrolled(const Body& body)
 {
-    [&]<int... i>(std::integer_sequence<int, i...>)
-    {
+    [&]<int... i>(std::integer_sequence<int, i...>) {
         (body.template operator()<i>(), ...);
-    }
-    (std::make_integer_sequence<int, count>());
+    }(std::make_integer_sequence<int, count>());
 }
 
 } // namespace overturn
