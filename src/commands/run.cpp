@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
+#include "kernel_choice.hpp"
 #include "lines_text.hpp"
 #include "prepare_output.hpp"
 #include "progress.hpp"
@@ -77,21 +78,6 @@ Job read_job_of(const RunOptions& options)
 std::string absolute(const std::string& path)
 {
     return std::filesystem::absolute(path).string();
-}
-
-Kernel kernel_of(const RunOptions& options)
-{
-    if (options.kernel == "auto") {
-        return widest_kernel();
-    }
-    for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
-        if (options.kernel == name_of(kernel) && runs_here(kernel)) {
-            return kernel;
-        }
-    }
-    throw UsageError(fmt::format("--kernel {} does not run on this processor. The widest that "
-                                 "does is {}.",
-                                 options.kernel, name_of(widest_kernel())));
 }
 
 std::string beginning(const Task& task, std::int64_t tiles_before)
@@ -283,7 +269,7 @@ int run(const RunOptions& options)
     };
     if (launched_rank() == 0) {
         complain_if_it_fails([&] {
-            kernel_of(options); // throws if it does not run here
+            kernel_called(options.kernel); // throws if it does not run here
             job = read_job_of(options);
             demand_path_for_mpi(absolute(path));
             verdict = examine_in_child(*job, path);
@@ -312,7 +298,7 @@ int run(const RunOptions& options)
             throw JobError(options.job.path + " is another job here than on rank 0.");
         }
         return compute_what_is_missing({session, *job, tiling_of(*job), path, options,
-                                        kernel_of(options), start,
+                                        kernel_called(options.kernel), start,
                                         damaged.value_or(std::vector<std::int64_t>())});
     } catch (const std::exception& error) {
         if (session.size() == 1) {

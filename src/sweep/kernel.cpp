@@ -2,9 +2,6 @@
 
 namespace overturn {
 
-namespace {
-
-/// What CMake had compiled.
 bool is_compiled(Kernel kernel)
 {
     switch (kernel) {
@@ -21,13 +18,8 @@ bool is_compiled(Kernel kernel)
     }
 }
 
-} // namespace
-
-bool runs_here(Kernel kernel)
+bool processor_runs(Kernel kernel)
 {
-    if (!is_compiled(kernel)) {
-        return false;
-    }
 #ifdef __x86_64__
     // The kernels are compiled for x86-64-v3 and v4, of which these are the telling parts.
     const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -43,12 +35,21 @@ bool runs_here(Kernel kernel)
 #endif
 }
 
+bool runs_here(Kernel kernel)
+{
+    return is_compiled(kernel) && processor_runs(kernel);
+}
+
 Kernel widest_kernel()
 {
     for (const Kernel kernel : {Kernel::avx512, Kernel::avx2, Kernel::one_lane}) {
         if (runs_here(kernel)) {
             return kernel;
         }
+    }
+    if (processor_runs(Kernel::one_lane)) {
+        throw ProcessorError("this processor runs no kernel of this build. Configure it with "
+                             "-DOVERTURN_KERNELS=all, or build it here.");
     }
     throw ProcessorError("this processor has neither AVX2 with FMA nor AVX-512. Overturn needs one "
                          "of them: Intel processors have them since 2013, AMD's since 2015.");

@@ -14,7 +14,7 @@ FIND_MODULES = {"MPI": "set(MPI_FOUND TRUE)",
 
 
 class AConfiguration(unittest.TestCase):
-    def with_hdf5(self, version):
+    def with_hdf5(self, version, *options):
         """What CMake says where this HDF5 is found."""
         with tempfile.TemporaryDirectory(prefix="overturn-test-") as folder:
             for name, text in FIND_MODULES.items():
@@ -22,7 +22,7 @@ class AConfiguration(unittest.TestCase):
             run = subprocess.run(
                 [os.environ["CMAKE"], "-S", SOURCE, "-B", f"{folder}/build", "-G", "Ninja",
                  f"-DCMAKE_MODULE_PATH={folder}", f"-DHDF5_VERSION={version}",
-                 "-DCMAKE_CXX_COMPILER_WORKS=ON", "-DCMAKE_C_COMPILER_WORKS=ON"],
+                 "-DCMAKE_CXX_COMPILER_WORKS=ON", "-DCMAKE_C_COMPILER_WORKS=ON", *options],
                 capture_output=True, text=True, timeout=100)
         self.assertNotEqual(run.returncode, 0)
         return " ".join(run.stderr.split())
@@ -35,6 +35,10 @@ class AConfiguration(unittest.TestCase):
     def test_accepts_those_that_can(self):
         for version in ("1.10.7", "1.12.1", "1.14.3"):
             self.assertIn("HDF5 was accepted", self.with_hdf5(version))
+
+    def test_refuses_kernels_that_it_does_not_know(self):
+        self.assertIn('OVERTURN_KERNELS is "avx2", and may be all or native.',
+                      self.with_hdf5("1.14.3", "-DOVERTURN_KERNELS=avx2"))
 
 
 if __name__ == "__main__":

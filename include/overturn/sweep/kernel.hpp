@@ -23,16 +23,22 @@ constexpr int lanes_of(Kernel kernel)
     return kernel == Kernel::avx512 ? 8 : kernel == Kernel::avx2 ? 4 : 1;
 }
 
-/// Whether the kernel was compiled, and this processor can run it.
+/// CMake's option OVERTURN_KERNELS decides.
+bool is_compiled(Kernel kernel);
+
+/// Whether this processor has the instructions of the kernel.
+bool processor_runs(Kernel kernel);
+
+/// is_compiled() and processor_runs().
 bool runs_here(Kernel kernel);
 
-/// This processor can run no kernel.
+/// This processor can run no kernel that was compiled.
 class ProcessorError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The widest kernel that this processor can run. Throws ProcessorError.
+/// The widest kernel that runs here. Throws ProcessorError.
 Kernel widest_kernel();
 
 } // namespace overturn

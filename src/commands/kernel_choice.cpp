@@ -1,0 +1,31 @@
+#include "kernel_choice.hpp"
+
+#include "exit_code.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace overturn {
+
+Kernel kernel_called(std::string_view name)
+{
+    if (name == "auto") {
+        return widest_kernel();
+    }
+    const auto found = std::find(kernel_names.begin(), kernel_names.end(), name);
+    const auto kernel = Kernel(found - kernel_names.begin());
+    if (!processor_runs(kernel)) {
+        throw UsageError(fmt::format("--kernel {} does not run on this processor. The widest that "
+                                     "does is {}.",
+                                     name, name_of(widest_kernel())));
+    }
+    if (!is_compiled(kernel)) {
+        throw UsageError(fmt::format("--kernel {}: this build has no kernel {}. Configure it with "
+                                     "-DOVERTURN_KERNELS=all.",
+                                     name, name));
+    }
+    return kernel;
+}
+
+} // namespace overturn
