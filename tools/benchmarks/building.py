@@ -32,7 +32,8 @@ def build(folder, target):
     folder = folder.resolve()
     run_or_fail([SOURCE / "tools" / "install_dependencies", "build", "bench"], "installing")
     run_or_fail(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                 "-DOVERTURN_TESTS=OFF", "-DOVERTURN_BENCHMARKS=ON"], "configuring",
+                 "-DOVERTURN_TESTS=OFF",
+                 "-DOVERTURN_KERNELS=all", "-DOVERTURN_BENCHMARKS=ON"], "configuring",
                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     run_or_fail(["cmake", "--build", folder, "--target", target, "--parallel", os.cpu_count()],
                 "building", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
