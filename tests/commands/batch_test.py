@@ -7,6 +7,7 @@ import subprocess
 import unittest
 
 import h5py
+import numpy as np
 
 from program import ENVIRONMENT, OVERTURN, PATIENCE, Scratch
 
@@ -31,6 +32,28 @@ class ABatchJob(Scratch):
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertIn("done", result.stdout)
         self.assertNotIn("requeued", self.files())
+
+    def test_is_done_if_its_file_has_a_single_tile(self):
+        few = ("--set", "plane.frequency.count=9", "--set", "plane.amplitude.count=9",
+               "--set", "plane.restitution=0.9")
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5", *few), 0)
+        self.assertEqual(self.run_until_done("true").returncode, 0)
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            file["checksum"][0] = 0
+        self.assert_not_done(self.run_until_done("true"))
+
+    def test_is_not_done_if_the_launcher_returns_0_and_there_is_no_file(self):
+        self.assert_not_done(self.run_until_done("true"))
+
+    def test_is_not_done_if_the_launcher_returns_0_and_the_file_is_damaged(self):
+        shutil.copy(self.folder / "whole.h5", self.folder / "out.h5")
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            file["checksum"][3] += np.uint64(1)
+        self.assert_not_done(self.run_until_done("true"))
+
+    def assert_not_done(self, result):
+        self.assertEqual(result.returncode, 85, result.stdout)
+        self.assertIn("not requeued: no tile was added", result.stdout)
 
     def test_is_requeued_if_the_launcher_returns_0_after_a_stop(self):
         shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
