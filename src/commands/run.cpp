@@ -214,9 +214,12 @@ int compute_what_is_missing(const Task& task)
     SpectrumFile file(path, task.session.communicator(), task.job,
                       task.options.durable ? Durability::on_disk : Durability::written);
     std::vector<std::int64_t> missing;
+    std::int64_t still_damaged = 0;
     if (task.leads()) {
         for (const std::int64_t number : task.damaged) {
-            if (!StopSignals::requested()) {
+            if (StopSignals::requested()) {
+                ++still_damaged;
+            } else {
                 file.forget(task.tiling[number]);
             }
         }
@@ -230,7 +233,7 @@ int compute_what_is_missing(const Task& task)
     write_record(task, hosts, report, seconds);
     int code = exit_code::complete;
     if (task.leads()) {
-        const std::int64_t still_missing = count_missing_tiles(task, report);
+        const std::int64_t still_missing = count_missing_tiles(task, report) + still_damaged;
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (still_missing > 0) {
             code = complain(Stopped(

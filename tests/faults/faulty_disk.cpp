@@ -2,6 +2,7 @@
 //
 //   KILL_AT_WRITE=17       SIGKILL in the midst of the 17th write of this process
 //   KILL_TORN=1            half of its bytes get through
+//   KILL_BY=10             with this signal instead of SIGKILL
 //   FAIL_AT_WRITE=17       from the 17th write on all of them fail, with the error number ERROR
 //   FAIL_AT_SYNC=1         and so does bringing it to the disk
 //   CRASH_AT_READ=17       a crash at the 17th read of this process
@@ -72,7 +73,7 @@ ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
         ++count.writes;
         if (is_faulty_rank() && count.writes == number_from("KILL_AT_WRITE", -1)) {
             write_some(number_from("KILL_TORN", 0) ? bytes / 2 : 0);
-            raise(SIGKILL);
+            raise(int(number_from("KILL_BY", SIGKILL)));
         }
         const long failing = number_from("FAIL_AT_WRITE", -1);
         if (is_faulty_rank() && failing >= 0 && count.writes >= failing) {
