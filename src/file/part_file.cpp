@@ -23,10 +23,18 @@ std::string folder_of(const std::string& path)
     return folder.empty() ? std::string(".") : folder.string();
 }
 
+/// The file that is to be replaced, if the path is a link to one.
+std::string behind_links(const std::string& path)
+{
+    std::error_code none;
+    const auto file = std::filesystem::canonical(path, none);
+    return none || !std::filesystem::is_symlink(path) ? path : file.string();
+}
+
 } // namespace
 
-PartFile::PartFile(std::string path)
-    : target_(std::move(path)), folder_(folder_of(target_)), part_(target_ + ".part")
+PartFile::PartFile(const std::string& path)
+    : target_(behind_links(path)), folder_(folder_of(target_)), part_(target_ + ".part")
 {
     if (!std::filesystem::is_directory(folder_)) {
         throw FileError(

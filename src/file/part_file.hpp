@@ -10,8 +10,9 @@ namespace overturn {
 class PartFile {
 public:
     /// Throws FileError if the folder of `path` is missing or not writable, if `path` is a link to
-    /// nothing, or if the part's name is taken. The part of a run that was killed is replaced.
-    explicit PartFile(std::string path);
+    /// nothing, or if the part's name is taken. The part of a run that was killed is replaced. A
+    /// link to a file stays: the part becomes that file.
+    explicit PartFile(const std::string& path);
     ~PartFile();
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;

@@ -129,6 +129,7 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
 
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
 {
+    demand_place_for_sidecar(spectrum_path); // something may have taken it meanwhile
     PartFile part(sidecar_of(spectrum_path));
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);

@@ -137,6 +137,29 @@ class ABadOutput(Scratch):
             self.assertTrue((self.folder / name).is_symlink())
             (self.folder / name).unlink()
 
+    def test_a_record_of_others_that_appears_during_the_run_stays(self):
+        with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
+                              env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True) as run:
+            self.addCleanup(run.kill)
+            run.stdout.readline()
+            (self.folder / "out.h5.json").write_text("not to be lost")
+            output, _ = run.communicate(timeout=PATIENCE)
+        self.assertEqual(run.returncode, 74, output)
+        self.assertIn("out.h5.json", output)
+        self.assertEqual((self.folder / "out.h5.json").read_text(), "not to be lost")
+        self.assert_exit(self.overturn("verify", "out.h5"), 0, "147 of 147 tiles are done")
+
+    def test_a_link_to_a_history_stays(self):
+        (self.folder / "results").mkdir()
+        self.assert_exit(self.overturn(*A_HISTORY, "-o", "results/out.h5"), 0)
+        before = checksum(self.folder / "results" / "out.h5")
+        (self.folder / "link.h5").symlink_to("results/out.h5")
+        self.assert_exit(self.overturn(*A_HISTORY, "-o", "link.h5", "--samples", "100"), 0)
+        self.assertTrue((self.folder / "link.h5").is_symlink())
+        self.assertNotEqual(checksum(self.folder / "results" / "out.h5"), before)
+        self.assertEqual(sorted(path.name for path in (self.folder / "results").iterdir()), ["out.h5"])
+
     def test_a_lock_that_cannot_be_opened_is_refused(self):
         lock = self.folder / "out.h5.lock"
         with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,

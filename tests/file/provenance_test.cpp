@@ -58,10 +58,21 @@ TEST(Sidecar, EscapesWhatJsonReserves)
 TEST(Sidecar, ReplacesAnOlderOne)
 {
     const ScratchFolder folder;
-    write_bytes(folder / "a.h5.json", std::string(10000, 'x'));
+    RunRecord longer = sample_record();
+    longer.kernel = std::string(10000, 'x');
+    write_sidecar(folder / "a.h5", longer);
+    ASSERT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr("xx"));
     write_sidecar(folder / "a.h5", sample_record());
     EXPECT_THAT(bytes_of(folder / "a.h5.json"), Not(HasSubstr("xx")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
+}
+
+TEST(Sidecar, LeavesAFileThatIsNoneAsItIs)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.h5.json", "somebody else's");
+    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_record()), FileError);
+    EXPECT_EQ(bytes_of(folder / "a.h5.json"), "somebody else's");
 }
 
 TEST(Sidecar, ThatADiskDoesNotTakeSaysThatNothingElseIsLost)
