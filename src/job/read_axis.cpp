@@ -140,7 +140,7 @@ Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys)
     if (entry.node->is_number()) {
         return Axis(AxisList{read_value(entry, rule)});
     }
-    expect_table(entry, keys);
+    expect_table(entry, keys, "a number, or ");
     const auto values = find(entry, "values");
     if (!values) {
         return Axis(read_range(entry, rule));

@@ -72,11 +72,11 @@ void refuse(const Entry& entry, std::string_view text)
     throw JobError(fmt::format("{}: {}{}", place_of(entry.node->source()), entry.key, text));
 }
 
-void expect_table(const Entry& entry, Names allowed)
+void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
 {
     const toml::table* table = entry.node->as_table();
     if (table == nullptr) {
-        refuse_type(entry, fmt::format("a table with the keys {}", joined(allowed)));
+        refuse_type(entry, fmt::format("{}a table with the keys {}", or_else, joined(allowed)));
     }
     for (const auto& [key, value] : *table) {
         if (std::find(allowed.begin(), allowed.end(), key.str()) == allowed.end()) {

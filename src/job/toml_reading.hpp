@@ -31,8 +31,9 @@ std::string place_of(const toml::source_region& source);
 /// Throws a JobError: place, key, and the text as it follows the key.
 [[noreturn]] void refuse(const Entry& entry, std::string_view text);
 
-/// Makes sure that the entry is a table with no other keys than these.
-void expect_table(const Entry& entry, Names allowed);
+/// Makes sure that the entry is a table with no other keys than these. `or_else` precedes "a table"
+/// in the message, and names what else the entry may be.
+void expect_table(const Entry& entry, Names allowed, std::string_view or_else = "");
 
 /// What a table holds under a name, if anything.
 std::optional<Entry> find(const Entry& table, std::string_view name);
