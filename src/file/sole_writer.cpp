@@ -33,22 +33,29 @@ std::string lock_of(const std::string& path)
     return (said_when_it_is_opened ? path : file.string()) + ".lock";
 }
 
-/// Creates the lock, or opens that of another run. -1 if the folder cannot be written: whoever
-/// needs to write there says so.
+/// Creates the lock, or opens that of another run. -1 if the folder cannot be written, which the
+/// first attempt to write there reports.
 int open_lock(const std::string& lock)
 {
-    int descriptor = create_working_file(lock);
-    while (descriptor < 0 && errno == EEXIST) {
-        if (!is_left_over(lock)) { // any more
-            descriptor = create_working_file(lock);
-        } else if ((descriptor = open(lock.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC)) < 0) {
+    for (;;) {
+        int descriptor = create_working_file(lock);
+        if (descriptor >= 0 || errno != EEXIST) {
+            return descriptor;
+        }
+        if (!is_left_over(lock)) {
+            continue; // its holder has removed it
+        }
+        descriptor = open(lock.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+        if (descriptor >= 0) {
+            return descriptor;
+        }
+        if (errno != ENOENT) {
             throw FileError(
                 fmt::format("cannot open the lock \"{}\": {}. If no run of another user "
                             "holds it, remove it; or choose another name with -o.",
                             lock, system_reason(errno)));
         }
     }
-    return descriptor;
 }
 
 } // namespace

@@ -1,0 +1,39 @@
+#include "support/scratch_folder.hpp"
+
+#include "overturn/file/sole_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace overturn {
+namespace {
+
+TEST(SoleWriter, IsRefusedByNothingButAnother)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "a.h5";
+    std::atomic<int> held = 0;
+    // Locks appear and disappear between any two steps of the others.
+    const auto take_turns = [&] {
+        for (int turn = 0; turn < 20'000; ++turn) {
+            try {
+                const SoleWriter writer(path);
+                EXPECT_EQ(++held, 1);
+                --held;
+            } catch (const FileError& error) {
+                EXPECT_THAT(error.what(), testing::HasSubstr("is being written by another run"));
+            }
+        }
+    };
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 3; ++i) {
+        threads.emplace_back(take_turns);
+    }
+}
+
+} // namespace
+} // namespace overturn
