@@ -156,6 +156,8 @@ class TestATileWithoutAMark(unittest.TestCase):
                 file[name][..., 7] = file[name].fillvalue
         self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.png")
         np.testing.assert_array_equal(image.imread(self.folder / "picture.png"), with_zeros)
+        self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.svg")
+        self.assertIn(">not computed yet<", (self.folder / "picture.svg").read_text("utf-8"))
 
 
 class TestAFileWhoseTilesDoNotMatch(unittest.TestCase):
