@@ -13,8 +13,8 @@ import h5py
 import numpy as np
 import xarray
 
-from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, is_mpich, ranks_of,
-                     under_mpi, words)
+from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, is_mpich,
+                     is_running, ranks_of, under_mpi, words)
 
 TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
 
@@ -294,10 +294,13 @@ class AnInterruptedRun(Scratch):
                 self.addCleanup(process.kill)
                 self.assertIn("making a file of 1", process.stdout.readline())
                 time.sleep(0.5)  # of the second or two that it takes
+                programs = [process.pid] if ranks is None else ranks_of(process.pid)
                 process.send_signal(signal.SIGUSR1)
                 sent = time.monotonic()
+                while any(map(is_running, programs)):  # mpirun itself ends a second or two later
+                    self.assertLess(time.monotonic() - sent, 2)
+                    time.sleep(0.01)
                 output, _ = process.communicate(timeout=PATIENCE / 2)
-                self.assertLess(time.monotonic() - sent, 2)
             self.assert_stopped(process.returncode, output, ranks)
             self.assertIn("before the file was made", output)
             self.assertEqual(self.files(), before)
