@@ -39,7 +39,7 @@ void limit_resources(const std::string& path)
     const std::uintmax_t found = std::filesystem::file_size(path, none);
     const rlim_t bytes = none ? 0 : rlim_t(found);
     const rlim_t seconds = 60 + 60 * (bytes >> 30);
-    const rlimit processor_time{seconds, seconds + 1}; // first a signal that tells what it was
+    const rlimit processor_time{seconds, seconds + 1}; // SIGXCPU comes before SIGKILL
     setrlimit(RLIMIT_CPU, &processor_time);
     limit(RLIMIT_CORE, 0);
 #ifndef __SANITIZE_ADDRESS__ // which takes all there is, to begin with
@@ -66,7 +66,7 @@ void limit_resources(const std::string& path)
     _exit(code);
 }
 
-/// How the child has ended, as waitpid() tells it.
+/// The status of the child at its end, as in waitpid().
 int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
 {
     int status = 0;
@@ -76,8 +76,7 @@ int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
             return status;
         }
         if (ended < 0 && errno != EINTR) {
-            throw FileError(
-                fmt::format("cannot learn how a process has ended: {}.", std::strerror(errno)));
+            throw FileError(fmt::format("cannot wait for a process: {}.", std::strerror(errno)));
         }
         if (is_unwanted()) {
             kill(child, SIGKILL);
@@ -91,8 +90,8 @@ int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
 int run_in_child(const std::string& path, const std::function<void()>& read,
                  const std::function<bool()>& is_unwanted)
 {
-    std::signal(SIGCHLD, SIG_DFL); // ignored, as who starts us may have it, it leaves no status
-    std::fflush(nullptr);          // what is in a buffer would be printed twice
+    std::signal(SIGCHLD, SIG_DFL); // a parent may have set SIG_IGN, which leaves no status
+    std::fflush(nullptr);          // the child would print buffered text again
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child < 0) {
@@ -111,8 +110,8 @@ int run_in_child(const std::string& path, const std::function<void()>& read,
         if (is_unwanted()) {
             return exit_code::stopped;
         }
-        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps for want of "
-                                    "memory.",
+        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps because "
+                                    "memory ran out.",
                                     path));
     }
     if (std::find(crashes.begin(), crashes.end(), signal) == crashes.end()) {

@@ -97,7 +97,7 @@ CommandWords words_of(const CLI::App& command)
         for (const std::string& name : option->get_lnames()) {
             shown.names.push_back(fmt::format("--{}", name));
         }
-        // What the value must fulfil stands behind the colon, and says more than its C++ type.
+        // The type is followed by a colon and the values that are allowed.
         const std::string type = option->get_type_name();
         shown.value = option->get_positional()          ? option->get_name(true)
                       : option->get_expected_max() == 0 ? ""

@@ -18,7 +18,7 @@ struct RunOptions {
     std::string output; ///< path of the result file; empty: the job's name in the working directory
     std::string kernel = "auto";
     bool durable = false;  ///< tiles outlast a loss of power
-    int patience = 300;    ///< with a rank of which nothing is heard [s]
+    int patience = 300;    ///< timeout of a rank that does not respond [s]
     bool boundary = false; ///< where verdicts flip, instead of a spectrum
 };
 int run(const RunOptions& options);

@@ -1,4 +1,4 @@
-// What a boundary's lines leave open, for whoever expects a minimum overturning amplitude of each.
+// How many lines of a boundary have no minimum overturning amplitude, or undecided verdicts.
 #pragma once
 
 #include "overturn/file/spectrum_summary.hpp"

@@ -45,11 +45,11 @@ std::vector<std::int64_t> find_damaged_tiles(const std::string& path)
 {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    bool told = false;
+    bool announced = false;
     return damaged_tiles(path, [&] {
-        if (!told && Clock::now() - start > std::chrono::seconds(2)) {
-            say(path + ": checking whether what is done is as it was written");
-            told = true;
+        if (!announced && Clock::now() - start > std::chrono::seconds(2)) {
+            say(path + ": checking the tiles that are done");
+            announced = true;
         }
         expect_no_stop(before_anything);
     });
@@ -59,8 +59,8 @@ std::vector<std::int64_t> find_damaged_tiles(const std::string& path)
 
 int examine_in_child(const Job& job, const std::string& path)
 {
-    std::error_code said_by_examine;
-    if (!std::filesystem::exists(path, said_by_examine)) {
+    std::error_code reported_by_examine;
+    if (!std::filesystem::exists(path, reported_by_examine)) {
         return exit_code::complete;
     }
     const int code = run_in_child(

@@ -282,7 +282,7 @@ int run(const RunOptions& options)
     const MpiSession session;
     if (session.rank() == 0 && verdict == exit_code::complete) {
         complain_if_it_fails([&] {
-            if (!job) { // the launcher tells no ranks, or other ones
+            if (!job) { // the launcher sets no rank, or another one
                 job = read_job_of(options);
             }
             sole_writer.emplace(path);

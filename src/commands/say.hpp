@@ -1,4 +1,4 @@
-// What a run says while it works. Where nobody reads it any more, the run goes on.
+// Messages of a run while it works. If their reader is gone, the run continues.
 #pragma once
 
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 namespace overturn {
 
-/// A line for whoever watches, at once: a log should have it before the progress that follows.
+/// Prints a line and flushes it, so that a log has it before the progress that follows.
 inline void say(const std::string& line)
 {
     std::puts(line.c_str());

@@ -45,9 +45,10 @@ void prepare_for_one_rank()
     setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
 }
 
-/// Nobody here shares file pointers. These two ways to do so make and remove files
-/// OUT.h5.locktest.0, OUT.h5.data.0, ... whoever they belong to, and the first one overflows a
-/// buffer at paths from 245 bytes on.
+/// overturn uses no shared file pointers. Two of Open MPI's components for them create and remove
+/// OUT.h5.locktest.0, OUT.h5.data.0, ... even where these are other files, and the first one
+/// overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file can be
+/// opened.
 void leave_files_of_others_alone()
 {
     constexpr int replace = 1;
@@ -113,8 +114,8 @@ MpiSession::MpiSession()
         } else if (all_ranks_are_here()) {
             prepare_for_one_host();
         }
-        // MPICH takes SIGUSR1 as news of a failed rank, and asks a launcher, for which a process
-        // that was started without one waits forever. Here the signal means a stop.
+        // MPICH handles SIGUSR1 as the notice of a failed rank, and contacts the launcher; without
+        // a launcher it waits forever. Here the signal means a stop.
         struct sigaction before = {};
         sigaction(SIGUSR1, nullptr, &before);
         int provided = MPI_THREAD_SINGLE;

@@ -1,4 +1,4 @@
-// Whether all ranks can open a file by its path, and have the same file under it.
+// Whether a path names the same file on all ranks.
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "system_reason.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using hdf5::Handle;
 
-/// What rank 0 writes for the others to read.
+/// A random number that rank 0 writes and all ranks read.
 struct Token {
     std::uint64_t number = 0;
     std::int64_t place = 0; ///< in the file [byte]
@@ -29,7 +29,7 @@ std::int64_t place_of_token(const std::string& path)
     const Handle dataset(H5Dopen2(file, layout::run_token, H5P_DEFAULT), H5Dclose);
     const haddr_t place = H5Dget_offset(dataset);
     if (place == HADDR_UNDEF) {
-        throw hdf5::Hdf5Error("the random number of a run has no place in it");
+        throw hdf5::Hdf5Error("its run_token is not stored");
     }
     return std::int64_t(place);
 }

@@ -28,9 +28,9 @@ bool is_in_place(int descriptor, const std::string& path)
 /// Beside the file itself, whichever link to it was named.
 std::string lock_of(const std::string& path)
 {
-    std::error_code said_when_it_is_opened;
-    const auto file = std::filesystem::weakly_canonical(path, said_when_it_is_opened);
-    return (said_when_it_is_opened ? path : file.string()) + ".lock";
+    std::error_code reported_by_open_lock;
+    const auto file = std::filesystem::weakly_canonical(path, reported_by_open_lock);
+    return (reported_by_open_lock ? path : file.string()) + ".lock";
 }
 
 /// Creates the lock, or opens that of another run. -1 if the folder cannot be written, which the

@@ -12,8 +12,9 @@ namespace overturn {
 
 namespace {
 
-/// Without a meaning on files under Linux, and set in the very moment of their creation. A file
-/// system that does not keep it makes the leftovers of killed runs look foreign, which is safe.
+/// Has no meaning for files under Linux, and is set when they are created. On a file system that
+/// does not keep it, the files of killed runs look foreign: they are refused, and have to be
+/// removed by hand.
 constexpr mode_t mark = S_ISVTX;
 
 } // namespace

@@ -1,4 +1,4 @@
-"""How jobs/slurm/run_until_done judges a run, with a scontrol that stands in for Slurm's."""
+"""What jobs/slurm/run_until_done does after a run, with a script in the place of Slurm's scontrol."""
 
 import os
 import pathlib

@@ -32,15 +32,15 @@ def shortened(text, width):
     return line if len(line) <= width else line[:width - 1].rstrip() + "…"
 
 
-def title_of(file, told=()):
-    """The job's title; with overrides, which may have made it wrong, those too, but for the title's
-    own and for those of tables whose values are told beside it."""
+def title_of(file, shown=()):
+    """The job's title and its overrides, which may contradict it; but not those of the title itself
+    nor of the tables whose values the picture shows elsewhere."""
     title = text_attribute(file, "title")
     if title and "job_overrides" in file:
         overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
-        untold = [shortened(words, 48) for words in overrides
-                  if words.split("=")[0].split(".")[0].strip() not in ("title", *told)]
-        title += (", with " + ", ".join(untold)) * bool(untold)
+        others = [shortened(words, 48) for words in overrides
+                  if words.split("=")[0].split(".")[0].strip() not in ("title", *shown)]
+        title += (", with " + ", ".join(others)) * bool(others)
     return title
 
 
