@@ -1,8 +1,7 @@
 #include "overturn/farm/farm.hpp"
 
-#include "leader.hpp"
+#include "roles.hpp"
 #include "wait_for.hpp"
-#include "worker.hpp"
 
 #include <array>
 #include <string>
@@ -22,17 +21,6 @@ std::vector<RankShare> gather_on_rank_0(const MpiSession& session, const RankSha
     return shares;
 }
 
-/// Returns rank 0's two numbers on all ranks.
-std::array<std::int64_t, 2> from_rank_0(const MpiSession& session,
-                                        std::array<std::int64_t, 2> values)
-{
-    MPI_Request arriving = MPI_REQUEST_NULL;
-    MPI_Ibcast(values.data(), int(values.size()), MPI_INT64_T, 0, session.communicator(),
-               &arriving);
-    wait_for(arriving);
-    return values;
-}
-
 } // namespace
 
 SilentRank::SilentRank(int silent_rank, std::chrono::seconds duration)
@@ -45,20 +33,18 @@ FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& 
                     const StopRequest& stop, std::chrono::seconds patience)
 {
     FarmReport report;
-    RankShare share;
     if (session.rank() == 0) {
-        Leader leader(session, tiles, tile_work, on_progress, stop, patience);
-        share = leader.lead();
-        report.dealing = leader.dealing();
+        report = lead(session, tiles, tile_work, on_progress, stop, patience);
     } else {
-        share = work(session, tile_work, stop, patience);
+        report.ranks = {work(session, tile_work, stop, patience)};
     }
-    report.ranks = gather_on_rank_0(session, share);
+    report.ranks = gather_on_rank_0(session, report.ranks[0]);
     std::int64_t done = 0;
     for (const RankShare& rank : report.ranks) {
         done += rank.tiles;
     }
-    const auto [all_done, wanted] = from_rank_0(session, {done, std::int64_t(tiles.size())});
+    const auto [all_done, wanted] =
+        session.from_rank_0(std::array{done, std::int64_t(tiles.size())});
     report.tiles = all_done;
     report.stopped = all_done < wanted;
     return report;

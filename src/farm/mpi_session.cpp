@@ -139,18 +139,17 @@ void MpiSession::leave()
     }
 }
 
-int MpiSession::from_rank_0(int value) const
+void MpiSession::broadcast(void* bytes, std::size_t size) const
 {
     MPI_Request arriving = MPI_REQUEST_NULL;
-    MPI_Ibcast(&value, 1, MPI_INT, 0, communicator_, &arriving);
+    MPI_Ibcast(bytes, int(size), MPI_BYTE, 0, communicator_, &arriving);
     wait_for(arriving); // rank 0 may have to read gigabytes first
-    return value;
 }
 
 std::string MpiSession::from_rank_0(std::string text) const
 {
-    text.resize(std::size_t(from_rank_0(int(text.size()))));
-    MPI_Bcast(text.data(), int(text.size()), MPI_CHAR, 0, communicator_);
+    text.resize(from_rank_0(text.size()));
+    broadcast(text.data(), text.size());
     return text;
 }
 

@@ -1,7 +1,5 @@
-#include "worker.hpp"
-
-#include "do_tile.hpp"
 #include "occasionally.hpp"
+#include "roles.hpp"
 #include "wait_for.hpp"
 #include "worker_message.hpp"
 

@@ -33,7 +33,12 @@ public:
     MPI_Comm communicator() const { return communicator_; }
 
     /// Returns the value of rank 0 on all ranks. Collective.
-    int from_rank_0(int value) const;
+    template <class Value>
+    Value from_rank_0(Value value) const
+    {
+        broadcast(&value, sizeof value);
+        return value;
+    }
     std::string from_rank_0(std::string text) const;
 
     /// The host of each rank, on rank 0; empty elsewhere. Collective.
@@ -43,6 +48,7 @@ public:
     [[noreturn]] void abort(int exit_code, const std::string& message) const;
 
 private:
+    void broadcast(void* bytes, std::size_t size) const;
     void leave();
 
     MPI_Comm communicator_ = MPI_COMM_NULL; ///< a duplicate of the world
