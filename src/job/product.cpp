@@ -1,31 +1,14 @@
 #include "overturn/job/job.hpp"
 
-#include "plane_size.hpp"
+#include "read_plane.hpp"
 #include "resolved_text.hpp"
 
 #include <fmt/format.h>
 
 namespace overturn {
 
-namespace {
-
-/// A spectrum of two amplitudes may have a boundary of 64 crossings that is too large.
-void check_size(const Job& boundary)
+Job boundary_of(Job job)
 {
-    const PlaneSize size = size_of(boundary.plane, boundary.fields);
-    if (size.bytes > most_bytes) {
-        throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
-                                   "slenderness, whose boundaries would take {:.4g} bytes; {:.4g} "
-                                   "can be addressed. Lower the counts.",
-                                   size.points / most_crossings, size.bytes, most_bytes));
-    }
-}
-
-} // namespace
-
-Job boundary_of(Job spectrum)
-{
-    Job job = std::move(spectrum);
     if (job.plane.amplitude.size() == 1) {
         throw JobError(fmt::format("plane.amplitude has one value, {}, and flips are looked for "
                                    "between the first and the last. Give two or more.",
@@ -36,7 +19,13 @@ Job boundary_of(Job spectrum)
     job.scan = job.plane.amplitude;
     job.plane.amplitude = Axis(AxisRange{0, double(most_crossings - 1), most_crossings});
     job.fields.assign(boundary_fields.begin(), boundary_fields.end());
-    check_size(job);
+    // A spectrum of two amplitudes may have a boundary of 64 crossings that is too large.
+    if (const PlaneSize size = size_of(job.plane, job.fields); size.bytes > most_bytes) {
+        throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
+                                   "slenderness, whose boundaries would take {:.4g} bytes; {:.4g} "
+                                   "can be addressed. Lower the counts.",
+                                   size.points / most_crossings, size.bytes, most_bytes));
+    }
     return job;
 }
 

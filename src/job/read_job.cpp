@@ -1,7 +1,6 @@
 #include "overturn/job/job.hpp"
 
 #include "deep_key.hpp"
-#include "file_text.hpp"
 #include "overrides.hpp"
 #include "read_plane.hpp"
 #include "read_scene.hpp"
@@ -13,6 +12,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
 
 namespace overturn {
 
@@ -20,6 +23,39 @@ namespace {
 
 constexpr std::array<std::string_view, 6> job_keys{"title", "scene",    "plane",
                                                    "block", "numerics", "output"};
+
+// Lists of millions of values fit; something that is no job at all does not fill the memory.
+constexpr std::size_t largest_file = std::size_t(64) << 20;
+
+[[noreturn]] void refuse_file(const std::string& path, int error)
+{
+    throw JobError(fmt::format("{}: cannot be read: {}. Give the path of a job file.", path,
+                               std::generic_category().message(error)));
+}
+
+std::string file_text(const std::string& path)
+{
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               &std::fclose);
+    if (!file) {
+        refuse_file(path, errno);
+    }
+    std::string text;
+    std::array<char, 1 << 16> block;
+    while (const std::size_t size = std::fread(block.data(), 1, block.size(), file.get())) {
+        text.append(block.data(), size);
+        if (text.size() > largest_file) {
+            throw JobError(
+                fmt::format("{}: is larger than {} MiB, the most that a job file can be. Give "
+                            "long axes as first, last and count.",
+                            path, largest_file >> 20));
+        }
+    }
+    if (std::ferror(file.get()) != 0) {
+        refuse_file(path, errno);
+    }
+    return text;
+}
 
 void expect_no_deep_key(const std::string& text, const std::string& path)
 {

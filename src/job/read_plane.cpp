@@ -1,6 +1,6 @@
 #include "read_plane.hpp"
 
-#include "plane_size.hpp"
+#include "overturn/sweep/tile.hpp"
 #include "read_axis.hpp"
 
 #include <fmt/format.h>
@@ -119,6 +119,18 @@ void check_size(const Entry& entry, const Plane& plane, const std::vector<Field>
 }
 
 } // namespace
+
+PlaneSize size_of(const Plane& plane, const std::vector<Field>& fields)
+{
+    PlaneSize size{.points = 1, .bytes = 0};
+    for (const std::int64_t count : shape_of(plane)) {
+        size.points *= static_cast<long double>(count);
+    }
+    for (const Field field : fields) {
+        size.bytes += size.points * static_cast<long double>(bytes_per_point(field));
+    }
+    return size;
+}
 
 Plane read_plane(const Entry& job, const std::vector<Field>& fields)
 {

@@ -1,9 +1,13 @@
 #include "read_scene.hpp"
 
+#include "overturn/job/job.hpp"
+#include "overturn/mechanics/ground_motion.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace overturn {
 
@@ -60,6 +64,12 @@ Scene read_scene(const Entry& job)
     return scene;
 }
 
+double cut_by_window(const Scene& scene)
+{
+    const GroundMotion<double> motion = ground_motion(scene.pulse, scene.window);
+    return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
+}
+
 Numerics read_numerics(const Entry& job)
 {
     Numerics numerics;
@@ -94,8 +104,7 @@ void expect_known_errors(const Entry& job, const Numerics& numerics,
 {
     const bool asked =
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
-    if (asked && numerics.method == Method::rk45 &&
-        numerics.tolerance > largest_rk45_tolerance_with_error) {
+    if (asked && !knows_errors(numerics)) {
         refuse(
             *find(*find(job, "numerics"), "tolerance"),
             fmt::format(" = {} is too loose for {}: at more than {} the steps of \"rk45\" are too "
@@ -108,11 +117,10 @@ void expect_known_errors(const Entry& job, const Numerics& numerics,
 std::vector<Field> read_fields(const Entry& job)
 {
     const auto output = find(job, "output");
-    if (!output) {
-        return {Field::region};
+    if (output) {
+        expect_table(*output, output_keys);
     }
-    expect_table(*output, output_keys);
-    const auto entry = find(*output, "fields");
+    const auto entry = output ? find(*output, "fields") : std::nullopt;
     if (!entry) {
         return {Field::region};
     }

@@ -4,26 +4,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 namespace overturn {
 
 namespace {
 
-std::string list_text(const AxisList& values)
+/// What text_of gives for each of the values.
+template <class Values, class TextOf>
+std::string list_text(const Values& values, const TextOf& text_of)
 {
-    std::string text = "values = [";
-    for (const double value : values) {
-        if (text.back() != '[') {
-            text += ", ";
-        }
-        text += float_text(value);
-    }
-    return text + "]";
+    std::vector<std::string> texts;
+    std::transform(values.begin(), values.end(), std::back_inserter(texts), text_of);
+    return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::string definition_text(const Axis& axis)
 {
     if (const auto* list = std::get_if<AxisList>(&axis.definition())) {
-        return list_text(*list);
+        return "values = " + list_text(*list, float_text);
     }
     const auto& range = std::get<AxisRange>(axis.definition());
     return fmt::format("first = {}, last = {}, count = {}, spacing = \"{}\"",
@@ -58,15 +59,6 @@ std::string plane_text(const Plane& plane)
     return text;
 }
 
-std::string fields_text(const std::vector<Field>& fields)
-{
-    std::string text;
-    for (const Field field : fields) {
-        text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name_of(field));
-    }
-    return text;
-}
-
 } // namespace
 
 std::string resolved_text(const Job& job)
@@ -74,11 +66,12 @@ std::string resolved_text(const Job& job)
     std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title),
                                    scene_text(job.scene), plane_text(job.plane));
     if (job.product == Product::spectrum) { // a boundary is told neither
-        text +=
-            fmt::format("\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
-                        "[output]\nfields = [{}]\n",
-                        name_of(job.numerics.method), float_text(job.numerics.tolerance),
-                        job.numerics.resolve ? "resolve = true\n" : "", fields_text(job.fields));
+        text += fmt::format(
+            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
+            "[output]\nfields = {}\n",
+            name_of(job.numerics.method), float_text(job.numerics.tolerance),
+            job.numerics.resolve ? "resolve = true\n" : "",
+            list_text(job.fields, [](Field field) { return in_quotes(name_of(field)); }));
     }
     return text;
 }

@@ -56,6 +56,16 @@ std::string description_of(const toml::node& node)
     refuse(entry, fmt::format(" is {}, and must be {}.", description_of(*entry.node), wanted));
 }
 
+template <class Value>
+const Value& value_of(const Entry& entry, std::string_view wanted)
+{
+    const toml::value<Value>* value = entry.node->as<Value>();
+    if (value == nullptr) {
+        refuse_type(entry, wanted);
+    }
+    return value->get();
+}
+
 } // namespace
 
 std::string place_of(const toml::source_region& source)
@@ -122,29 +132,17 @@ Entry element(const Entry& array, std::size_t i)
 
 std::string string_of(const Entry& entry)
 {
-    const auto* text = entry.node->as_string();
-    if (text == nullptr) {
-        refuse_type(entry, "a string in quotes");
-    }
-    return text->get();
+    return value_of<std::string>(entry, "a string in quotes");
 }
 
 std::int64_t integer_of(const Entry& entry)
 {
-    const auto* integer = entry.node->as_integer();
-    if (integer == nullptr) {
-        refuse_type(entry, "an integer, such as 100");
-    }
-    return integer->get();
+    return value_of<std::int64_t>(entry, "an integer, such as 100");
 }
 
 bool truth_of(const Entry& entry)
 {
-    const auto* truth = entry.node->as_boolean();
-    if (truth == nullptr) {
-        refuse_type(entry, "true or false");
-    }
-    return truth->get();
+    return value_of<bool>(entry, "true or false");
 }
 
 double number_of(const Entry& entry)
@@ -152,14 +150,11 @@ double number_of(const Entry& entry)
     if (const auto* integer = entry.node->as_integer()) {
         return double(integer->get());
     }
-    const auto* number = entry.node->as_floating_point();
-    if (number == nullptr) {
-        refuse_type(entry, "a number, such as 0.5");
+    const auto number = value_of<double>(entry, "a number, such as 0.5");
+    if (!std::isfinite(number)) {
+        refuse(entry, fmt::format(" = {} is not finite. Give a number.", number));
     }
-    if (!std::isfinite(number->get())) {
-        refuse(entry, fmt::format(" = {} is not finite. Give a number.", number->get()));
-    }
-    return number->get() + 0.0;
+    return number + 0.0;
 }
 
 std::size_t index_of_name(const Entry& entry, Names names)
