@@ -1,21 +1,52 @@
-#include "overturn/sweep/kernel.hpp"
+#include "sweep_kernel.hpp"
+
+#include <array>
 
 namespace overturn {
 
-bool is_compiled(Kernel kernel)
+#define OVERTURN_DECLARE(isa)                                                                      \
+    SweepKernel kernel_##isa##_runge_kutta(Theory, const Records&);                                \
+    SweepKernel kernel_##isa##_taylor_14(Theory, const Records&);                                  \
+    SweepKernel kernel_##isa##_taylor_20(Theory, const Records&);
+#define OVERTURN_LIST(isa)                                                                         \
+    {                                                                                              \
+        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20             \
+    }
+
+OVERTURN_DECLARE(double)
+OVERTURN_DECLARE(avx2)
+OVERTURN_DECLARE(avx512)
+
+namespace {
+
+/// What CMake had compiled, in the order of Integrator; null pointers for other kernels.
+constexpr std::array<SweepKernelChoice, 3> compiled(Kernel kernel)
 {
     switch (kernel) {
 #ifdef OVERTURN_KERNEL_double
-    case Kernel::one_lane: return true;
+    case Kernel::one_lane: return OVERTURN_LIST(double);
 #endif
 #ifdef OVERTURN_KERNEL_avx2
-    case Kernel::avx2: return true;
+    case Kernel::avx2: return OVERTURN_LIST(avx2);
 #endif
 #ifdef OVERTURN_KERNEL_avx512
-    case Kernel::avx512: return true;
+    case Kernel::avx512: return OVERTURN_LIST(avx512);
 #endif
-    default: return false;
+    default: return {};
     }
+}
+
+} // namespace
+
+SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
+                         const Records& records)
+{
+    return compiled(kernel)[std::size_t(integrator)](theory, records);
+}
+
+bool is_compiled(Kernel kernel)
+{
+    return compiled(kernel)[0] != nullptr;
 }
 
 bool processor_runs(Kernel kernel)

@@ -1,10 +1,8 @@
 #include "point_run.hpp"
 
-#include "exact_end.hpp"
-
+#include "overturn/integrate/more_digits.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
-#include "overturn/number/digits50.hpp"
 
 #include <algorithm>
 
@@ -22,12 +20,6 @@ PointEnds Ends::pointers()
 {
     return {tilt.data(),    rate.data(),  side.data(),  flags.data(), region.data(), margin.data(),
             impacts.data(), error.data(), steps.data(), phase.data(), peak.data()};
-}
-
-void Ends::record_steps()
-{
-    records.steps = true;
-    steps.resize(tilt.size());
 }
 
 std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
@@ -123,23 +115,38 @@ template <class T>
 void PointRun::run_exactly(int point, Ends& ends) const
 {
     throw_if_dropped();
-    const auto i = std::size_t(point);
-    const ExactEnd end = exact_end<T>(scene_, points_[i]);
-    ends.tilt[i] = end.tilt;
-    ends.rate[i] = end.rate;
-    ends.side[i] = end.side;
-    ends.flags[i] = end.flags;
-    const auto put = [&](auto& values, auto value) {
-        if (!values.empty()) {
-            values[i] = value;
+    with_theory(scene_.theory, [&]<Theory theory>() {
+        const auto i = std::size_t(point);
+        const Block<T> block{T(points_[i].slenderness), T(points_[i].restitution)};
+        const ForcedEnd<T> end = run_in_more_digits<T, theory>(
+            block,
+            excitation_of<theory>(ground_motion(scene_.pulse, T(scene_.window)), block.slenderness,
+                                  T(points_[i].amplitude), T(points_[i].frequency)));
+        const double margin = double(margin_of<theory>(end, block));
+        const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
+        const double error = double(end.error) + rounding;
+        const bool in_doubt = !(error < std::abs(margin));
+        ends.flags[i] = std::uint8_t(
+            (end.fell ? end_flag::fell : 0) | (end.rested ? end_flag::rested : 0) |
+            (end.capped ? end_flag::capped : 0) | (end.not_finite ? end_flag::not_finite : 0) |
+            (in_doubt ? end_flag::in_doubt : 0));
+        const auto put = [&](std::vector<double>& values, double value) {
+            if (!values.empty()) {
+                values[i] = value;
+            }
+        };
+        put(ends.tilt, double(end.state.tilt));
+        put(ends.rate, double(end.state.rate));
+        put(ends.side, double(end.state.side));
+        put(ends.margin, margin);
+        put(ends.error, error);
+        put(ends.impacts, double(end.impacts));
+        put(ends.steps, double(end.steps));
+        put(ends.phase, double(end.phase));
+        if (ends.records.region) {
+            ends.region[i] = std::uint8_t(region_of<theory>(end, block));
         }
-    };
-    put(ends.region, std::uint8_t(end.region));
-    put(ends.margin, end.margin);
-    put(ends.error, end.error);
-    put(ends.impacts, end.impacts);
-    put(ends.steps, end.steps);
-    put(ends.phase, end.phase);
+    });
 }
 
 template void PointRun::run_exactly<long double>(int, Ends&) const;

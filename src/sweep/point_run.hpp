@@ -1,10 +1,9 @@
 // The forced stages of a set of points, as often and as finely as their verdicts need.
 #pragma once
 
-#include "kernels.hpp"
+#include "sweep_kernel.hpp"
 
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/drop.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/tile.hpp"
 
@@ -18,8 +17,6 @@ struct Ends {
 
     PointEnds pointers();
     int size() const { return int(tilt.size()); }
-    /// Records the steps from now on.
-    void record_steps();
 
     Records records;
     std::vector<double> tilt, rate, side;
@@ -58,7 +55,8 @@ public:
              OnUnknownError on_unknown_error = OnUnknownError::go_on) const;
     void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
 
-    /// Integrates one point in more digits, T: long double or Digits50.
+    /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
+    /// are found before the end is rounded to doubles.
     template <class T>
     void run_exactly(int point, Ends& ends) const;
 

@@ -57,9 +57,6 @@ void resolve(const PointRun& run, Ends& ends)
     std::vector<int> all(ends.tilt.size());
     std::iota(all.begin(), all.end(), 0);
     std::vector<int> in_doubt = settle_capped(run, all, ends);
-    if (!in_doubt.empty()) {
-        ends.record_steps(); // they tell whether more digits are worth a try
-    }
     run.run(finest_in_doubles, in_doubt, ends);
     in_doubt = settle_capped(run, in_doubt, ends);
     for (const int point : in_doubt) {
@@ -78,6 +75,7 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
 {
     Records recorded = records;
     recorded.error = records.error || numerics.resolve;
+    recorded.steps = records.steps || numerics.resolve; // whether more digits are worth a try
     recorded.peak = records.peak && !recorded.error;
     Ends ends(std::size_t(points.size()), recorded);
     points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "overturn/integrate/records.hpp"
-#include "overturn/integrate/unknown_error.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
 
 #include <cstdint>
@@ -67,5 +67,9 @@ using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);
 
 /// What each kernel source defines: the kernel for a theory and what it records on the way.
 using SweepKernelChoice = SweepKernel (*)(Theory theory, const Records& records);
+
+/// One of them, of a kernel for which runs_here() is true.
+SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
+                         const Records& records);
 
 } // namespace overturn

@@ -3,7 +3,7 @@
 
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/integrator.hpp"
+#include "overturn/sweep/scene.hpp"
 
 #include <bit>
 

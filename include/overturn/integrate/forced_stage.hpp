@@ -8,7 +8,6 @@
 #include "overturn/integrate/margin_error.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
-#include "overturn/integrate/unknown_error.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <type_traits>
@@ -97,13 +96,11 @@ public:
     /// Where the lanes have ended, once none is active.
     ForcedEnd<T> end() const
     {
-        ForcedEnd<T> end = end_of_run_;
         if constexpr (records.error) {
-            const MarginBound<T> bound = margin_error_.at_end(block_, excitation_, now_, end);
-            end.error = bound.error;
-            end.in_doubt = bound.in_doubt;
+            return margin_error_.at_end(block_, excitation_, now_, end_of_run_);
+        } else {
+            return end_of_run_;
         }
-        return end;
     }
 
 private:

@@ -8,13 +8,6 @@
 
 namespace overturn {
 
-/// What is known of a margin.
-template <Number T>
-struct MarginBound {
-    T error;            ///< at most, to first order; infinite where unknown [1]
-    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
-};
-
 template <Theory theory, Number T>
 class MarginError {
     using S = scalar_t<T>;
@@ -81,9 +74,9 @@ public:
                      lanes);
     }
 
-    /// Where the lanes have ended, at `now`.
-    MarginBound<T> at_end(const Block<T>& block, const Excitation<T>& excitation,
-                          const Rocking<T>& now, const ForcedEnd<T>& end) const
+    /// The end of the lanes, at `now`, with its error and whether that leaves it in doubt.
+    ForcedEnd<T> at_end(const Block<T>& block, const Excitation<T>& excitation,
+                        const Rocking<T>& now, ForcedEnd<T> end) const
     {
         const Mask& fell = end.fell;
         using std::abs;
@@ -116,8 +109,9 @@ public:
         const Mask known = growth_.bound(one, one) < T(unknown_error<S> * S(0x1p-100));
         const Mask unknown =
             doubtful_ || end.is_stopped() || either || barely || !known || !(error == error);
-        const T bound = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
-        return {bound, !(bound < abs(margin_of<theory>(end, block)))};
+        end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
+        end.in_doubt = !(end.error < abs(margin_of<theory>(end, block)));
+        return end;
     }
 
 private:

@@ -56,20 +56,24 @@ using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uin
                                  std::vector<std::uint32_t>, std::vector<double>>;
 
 /// An array for `points` values of a field.
-FieldValues make_field_values(Field field, std::size_t points);
-
-/// Bytes that one point of the field takes.
-constexpr std::size_t bytes_per_point(Field field)
+inline FieldValues make_field_values(Field field, std::size_t points)
 {
     switch (field) {
     case Field::region:
     case Field::status:
     case Field::region_below:
-    case Field::region_above: return sizeof(std::uint8_t);
-    case Field::impacts: return sizeof(std::uint16_t);
-    case Field::steps: return sizeof(std::uint32_t);
-    default: return sizeof(double);
+    case Field::region_above: return std::vector<std::uint8_t>(points);
+    case Field::impacts: return std::vector<std::uint16_t>(points);
+    case Field::steps: return std::vector<std::uint32_t>(points);
+    default: return std::vector<double>(points);
     }
+}
+
+/// Bytes that one point of the field takes.
+inline std::size_t bytes_per_point(Field field)
+{
+    return std::visit([](const auto& values) { return sizeof values[0]; },
+                      make_field_values(field, 0));
 }
 
 /// Flags of the field status. A point without any flag was computed without incident.

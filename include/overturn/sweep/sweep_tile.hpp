@@ -1,7 +1,6 @@
 // From a tile to the values of its fields: the forced stage of each point, then its region.
 #pragma once
 
-#include "overturn/sweep/drop.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"

@@ -4,8 +4,8 @@
 
 #include "overturn/sweep/plane.hpp"
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace overturn {
@@ -28,6 +28,11 @@ struct Tile {
 
     std::int64_t points() const { return row_count * column_count; }
 };
+
+/// Asked every second or more often while a tile is computed, by its own thread. Once it is true it
+/// stays so, and TileDropped leaves whatever computes the tile.
+using DropRequested = std::function<bool()>;
+class TileDropped {};
 
 /// Cuts a shape into equal tiles; those at the far edges may be smaller. Tiles are numbered from 0
 /// in the order of the dimensions, columns fastest.
