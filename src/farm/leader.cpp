@@ -1,7 +1,6 @@
 #include "occasionally.hpp"
 #include "roles.hpp"
 #include "wait_for.hpp"
-#include "worker_message.hpp"
 
 #include <algorithm>
 #include <thread>
@@ -45,7 +44,9 @@ public:
             } else if (busy_workers_ > 0) {
                 std::this_thread::sleep_for(polling_interval);
             } else {
-                end_work();
+                for (int rank = 1; rank < int(workers_.size()); ++rank) {
+                    answer(rank, end_of_work);
+                }
                 return {.ranks = {share_}, .dealing = dealing_};
             }
         }
@@ -123,13 +124,6 @@ private:
         Worker& worker = workers_[std::size_t(rank)];
         busy_workers_ += int(worker.is_done());
         worker.waits = false;
-    }
-
-    void end_work()
-    {
-        for (int rank = 1; rank < int(workers_.size()); ++rank) {
-            answer(rank, end_of_work);
-        }
     }
 
     /// From the times that answers and tiles have taken so far.

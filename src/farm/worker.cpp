@@ -1,7 +1,6 @@
 #include "occasionally.hpp"
 #include "roles.hpp"
 #include "wait_for.hpp"
-#include "worker_message.hpp"
 
 #include <thread>
 
@@ -92,7 +91,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
     rank_0.request_range(report(true));
     while (true) {
         const TileRange range = rank_0.answer();
-        if (is_end_of_work(range)) {
+        if (range == end_of_work) {
             return share;
         }
         rank_0.request_range(report(range.empty())); // one range ahead

@@ -14,6 +14,7 @@ struct TileRange {
     std::int64_t end = 0;
 
     bool empty() const { return begin == end; }
+    bool operator==(const TileRange&) const = default;
 };
 
 /// The number of tiles in a range, while enough are left.
