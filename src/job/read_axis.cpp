@@ -67,14 +67,6 @@ bool surely_ascends(const AxisRange& range)
     return (range.last - range.first) / steps >= 4 * least_step;
 }
 
-/// Whether the values, or what is computed on the way to them, overflow.
-bool is_too_wide(const AxisRange& range)
-{
-    return !std::isfinite(range.spacing == Spacing::log
-                              ? range.last / range.first
-                              : (range.last - range.first) * double(range.count - 1));
-}
-
 void check_range(const Entry& entry, const AxisRange& range)
 {
     const auto [first, last, count, spacing] = range;
@@ -101,7 +93,10 @@ void check_range(const Entry& entry, const AxisRange& range)
                            "use spacing = \"linear\".",
                            first));
     }
-    if (is_too_wide(range)) {
+    // The values, or what is computed on the way to them, must not overflow.
+    const double widest =
+        spacing == Spacing::log ? last / first : (last - first) * double(count - 1);
+    if (!std::isfinite(widest)) {
         refuse(first_entry,
                fmt::format(" = {} is too far from last = {} for double precision. Bring "
                            "them closer.",

@@ -57,20 +57,14 @@ std::string file_text(const std::string& path)
     return text;
 }
 
-void expect_no_deep_key(const std::string& text, const std::string& path)
+toml::table parse(const std::string& text, const std::string& path)
 {
-    const std::size_t deep = find_deep_key(text);
-    if (deep != text.npos) {
+    if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
         const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
         throw JobError(fmt::format("{}:{}: a key has more than {} parts, and those of a job have "
                                    "three at most, such as plane.frequency.count. Mend it.",
                                    path, line, most_key_parts));
     }
-}
-
-toml::table parse(const std::string& text, const std::string& path)
-{
-    expect_no_deep_key(text, path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {

@@ -108,16 +108,6 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
     }
 }
 
-void check_size(const Entry& entry, const Plane& plane, const std::vector<Field>& fields)
-{
-    const PlaneSize size = size_of(plane, fields);
-    if (size.bytes > most_bytes) {
-        refuse(entry, fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
-                                  "addressed. Lower the counts.",
-                                  size.points, size.bytes, most_bytes));
-    }
-}
-
 } // namespace
 
 PlaneSize size_of(const Plane& plane, const std::vector<Field>& fields)
@@ -160,7 +150,11 @@ Plane read_plane(const Entry& job, const std::vector<Field>& fields)
         plane.slenderness = read_axis(slenderness, slenderness_rule);
     }
     check_restitution(slenderness, restitution, plane);
-    check_size(entry, plane, fields);
+    if (const PlaneSize size = size_of(plane, fields); size.bytes > most_bytes) {
+        refuse(entry, fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
+                                  "addressed. Lower the counts.",
+                                  size.points, size.bytes, most_bytes));
+    }
     return plane;
 }
 

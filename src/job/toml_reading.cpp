@@ -101,10 +101,7 @@ void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
 std::optional<Entry> find(const Entry& table, std::string_view name)
 {
     const toml::node* node = table.node->as_table()->get(name);
-    if (node == nullptr) {
-        return std::nullopt;
-    }
-    return Entry{node, dotted(table.key, name)};
+    return node == nullptr ? std::nullopt : std::optional(Entry{node, dotted(table.key, name)});
 }
 
 Entry require(const Entry& table, std::string_view name, std::string_view advice)
