@@ -1,7 +1,6 @@
 #include "overturn/sweep/accuracy.hpp"
 
 #include "overturn/number/digits50.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
 #include "point_run.hpp"
 #include "sample.hpp"
 
@@ -88,15 +87,14 @@ void AccuracyStudy::settle_verdicts()
 {
     const Tiling tiling(sample_.plane);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const TileFields fields = sweep_tile(scene_, settling, sample_.plane, tiling[i],
-                                             {Field::region, Field::margin}, kernel_);
-        truth_.push_back({values_of<std::uint8_t>(fields, 0), values_of<double>(fields, 1)});
-        for (std::size_t point = 0; point < truth_.back().region.size(); ++point) {
-            const std::uint8_t region = truth_.back().region[point];
-            if (region < decided_regions) {
+        truth_.push_back(sweep_tile(scene_, settling, sample_.plane, tiling[i],
+                                    {Field::region, Field::margin}, kernel_));
+        const auto& regions = values_of<std::uint8_t>(truth_.back(), 0);
+        for (std::size_t point = 0; point < regions.size(); ++point) {
+            if (regions[point] < decided_regions) {
                 ++sample_.settled;
-                ++sample_.by_region[region];
-                ++sample_.by_distance[distance_class(truth_.back().margin[point])];
+                ++sample_.by_region[regions[point]];
+                ++sample_.by_distance[distance_class(values_of<double>(truth_.back(), 1)[point])];
             }
         }
     }
@@ -148,17 +146,18 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const TileFields fields =
             sweep_tile(scene_, numerics, sample_.plane, tiling[i], asked, kernel_);
-        const Truth& truth = truth_[std::size_t(i)];
+        const auto& true_region = values_of<std::uint8_t>(truth_[std::size_t(i)], 0);
+        const auto& true_margin = values_of<double>(truth_[std::size_t(i)], 1);
         const auto& region = values_of<std::uint8_t>(fields, 0);
         for (std::size_t point = 0; point < region.size(); ++point) {
             steps += values_of<std::uint32_t>(fields, 4)[point];
             if (region[point] >= decided_regions) {
                 ++row.undecided;
-            } else if (truth.region[point] < decided_regions &&
-                       is_safe(Region(region[point])) != is_safe(Region(truth.region[point]))) {
+            } else if (true_region[point] < decided_regions &&
+                       is_safe(Region(region[point])) != is_safe(Region(true_region[point]))) {
                 ++row.flips;
-                ++row.flips_by_region[truth.region[point]];
-                ++row.flips_by_distance[distance_class(truth.margin[point])];
+                ++row.flips_by_region[true_region[point]];
+                ++row.flips_by_distance[distance_class(true_margin[point])];
             }
         }
         for (; exact != in_digits_.end() && exact->tile == i; ++exact) {

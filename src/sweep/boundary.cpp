@@ -1,7 +1,7 @@
 #include "overturn/sweep/boundary.hpp"
 
+#include "point_run.hpp"
 #include "probes.hpp"
-#include "resolve.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>

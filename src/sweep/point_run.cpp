@@ -75,20 +75,8 @@ void PointRun::throw_if_dropped() const
     }
 }
 
-void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unknown_error) const
-{
-    run(numerics, nullptr, size(), ends, on_unknown_error);
-}
-
-void PointRun::run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const
-{
-    if (!chosen.empty()) {
-        run(numerics, chosen.data(), int(chosen.size()), ends, OnUnknownError::go_on);
-    }
-}
-
-void PointRun::run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
-                   OnUnknownError on_unknown_error) const
+void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unknown_error,
+                   const std::vector<int>* chosen) const
 {
     const KernelTask task{.motion = motion_,
                           .points = points_.data(),
@@ -97,8 +85,8 @@ void PointRun::run(const Numerics& numerics, const int* chosen, int count, Ends&
                           .tolerance = numerics.tolerance,
                           .records = ends.records,
                           .on_unknown_error = on_unknown_error,
-                          .chosen = chosen,
-                          .chosen_count = count,
+                          .chosen = chosen != nullptr ? chosen->data() : nullptr,
+                          .chosen_count = chosen != nullptr ? int(chosen->size()) : size(),
                           .drop_requested =
                               [](const void* context) {
                                   const auto& requested =

@@ -50,10 +50,10 @@ public:
 
     int size() const { return int(points_.size()); }
 
-    /// Integrates every point, or the chosen ones.
+    /// Integrates every point, or the chosen ones, in ascending order.
     void run(const Numerics& numerics, Ends& ends,
-             OnUnknownError on_unknown_error = OnUnknownError::go_on) const;
-    void run(const Numerics& numerics, const std::vector<int>& chosen, Ends& ends) const;
+             OnUnknownError on_unknown_error = OnUnknownError::go_on,
+             const std::vector<int>* chosen = nullptr) const;
 
     /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
     /// are found before the end is rounded to doubles.
@@ -72,8 +72,6 @@ public:
 
 private:
     void throw_if_dropped() const;
-    void run(const Numerics& numerics, const int* chosen, int count, Ends& ends,
-             OnUnknownError on_unknown_error) const;
 
     Scene scene_;
     GroundMotion<double> motion_;
@@ -82,5 +80,9 @@ private:
     std::vector<PlanePoint> points_;
     Pushes pushes_;
 };
+
+/// Where the points end: integrated once; or, if verdicts are to be resolved, those in doubt again,
+/// with more and more digits. What stays in doubt gets end_flag::unresolved. See resolve.cpp.
+Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records);
 
 } // namespace overturn

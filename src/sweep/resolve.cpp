@@ -1,4 +1,4 @@
-#include "resolve.hpp"
+#include "point_run.hpp"
 
 #include "overturn/integrate/more_digits.hpp"
 
@@ -57,7 +57,9 @@ void resolve(const PointRun& run, Ends& ends)
     std::vector<int> all(ends.tilt.size());
     std::iota(all.begin(), all.end(), 0);
     std::vector<int> in_doubt = settle_capped(run, all, ends);
-    run.run(finest_in_doubles, in_doubt, ends);
+    if (!in_doubt.empty()) {
+        run.run(finest_in_doubles, ends, OnUnknownError::go_on, &in_doubt);
+    }
     in_doubt = settle_capped(run, in_doubt, ends);
     for (const int point : in_doubt) {
         const bool settled = run.settle_low_bounces(point, ends) ||

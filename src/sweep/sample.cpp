@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 
 namespace overturn {
@@ -43,10 +45,8 @@ Plane sample_of(const Plane& plane, std::int64_t points)
 
 std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t wanted)
 {
-    std::int64_t points = 0;
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        points += tiling[i].points();
-    }
+    const std::int64_t points = std::accumulate(tiling.shape().begin(), tiling.shape().end(),
+                                                std::int64_t(1), std::multiplies());
     const double stride = std::max(1.0, double(points) / double(wanted));
     const bool all = stride < 2;
     std::vector<std::vector<int>> chosen;

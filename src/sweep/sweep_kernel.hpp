@@ -41,7 +41,7 @@ inline constexpr std::uint8_t fell = 1;
 inline constexpr std::uint8_t rested = 2;
 inline constexpr std::uint8_t capped = 4;
 inline constexpr std::uint8_t not_finite = 8;
-inline constexpr std::uint8_t unresolved = 16; ///< set by ends_of() alone, see resolve.hpp
+inline constexpr std::uint8_t unresolved = 16; ///< set by ends_of() alone, see resolve.cpp
 inline constexpr std::uint8_t in_doubt = 32;   ///< with the error, see ForcedEnd
 inline constexpr std::uint8_t undecided = capped | not_finite;
 } // namespace end_flag

@@ -1,6 +1,6 @@
 #include "overturn/sweep/sweep_tile.hpp"
 
-#include "resolve.hpp"
+#include "point_run.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,56 +9,55 @@ namespace overturn {
 
 namespace {
 
+/// of_point(i) for every point.
+template <class Value, class OfPoint>
+std::vector<Value> for_each_of(const Ends& ends, const OfPoint& of_point)
+{
+    std::vector<Value> result(std::size_t(ends.size()));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = Value(of_point(i));
+    }
+    return result;
+}
+
 /// An angle or a velocity with its sign; not a number where the point is undecided.
 std::vector<double> with_sign(const std::vector<double>& values, const Ends& ends)
 {
-    std::vector<double> result(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    return for_each_of<double>(ends, [&](std::size_t i) {
         const double value = ends.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
-        result[i] =
-            ends.flags[i] & end_flag::undecided ? std::numeric_limits<double>::quiet_NaN() : value;
-    }
-    return result;
+        return ends.flags[i] & end_flag::undecided ? std::numeric_limits<double>::quiet_NaN()
+                                                   : value;
+    });
 }
 
-std::vector<std::uint16_t> stored_impacts(const Ends& ends)
-{
-    std::vector<std::uint16_t> result(ends.impacts.size());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const double counted = std::min(ends.impacts[i], double(impact_count::largest));
-        result[i] =
-            ends.flags[i] & end_flag::rested ? impact_count::bounce_series : std::uint16_t(counted);
-    }
-    return result;
-}
-
-std::vector<std::uint8_t> stored_status(const Ends& ends)
-{
-    std::vector<std::uint8_t> result(ends.flags.size());
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const auto flag = [&](std::uint8_t in, std::uint8_t out) {
-            return ends.flags[i] & in ? out : 0;
-        };
-        result[i] = std::uint8_t(flag(end_flag::rested, status::came_to_rest) |
-                                 flag(end_flag::capped, status::cap_was_hit) |
-                                 flag(end_flag::not_finite, status::not_finite) |
-                                 flag(end_flag::unresolved, status::unresolved));
-    }
-    return result;
-}
-
-/// Works out a field from the ends; nothing for those that the ends hold themselves.
-FieldValues derived_values(Field field, const PointRun& points, const Ends& ends)
+FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
 {
     switch (field) {
+    case Field::region: return ends.region;
     case Field::angle: return with_sign(ends.tilt, ends);
     case Field::velocity: return with_sign(ends.rate, ends);
+    case Field::margin: return ends.margin;
+    case Field::error: return ends.error;
     case Field::peak: return points.peaks(ends);
     case Field::fall_time: return points.fall_times(ends);
-    case Field::impacts: return stored_impacts(ends);
+    case Field::impacts:
+        return for_each_of<std::uint16_t>(ends, [&](std::size_t i) {
+            return ends.flags[i] & end_flag::rested
+                       ? impact_count::bounce_series
+                       : std::min(ends.impacts[i], double(impact_count::largest));
+        });
     case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
-    case Field::status: return stored_status(ends);
-    default: return {};
+    case Field::status:
+        return for_each_of<std::uint8_t>(ends, [&](std::size_t i) {
+            const auto flag = [&](std::uint8_t in, std::uint8_t out) {
+                return ends.flags[i] & in ? out : 0;
+            };
+            return flag(end_flag::rested, status::came_to_rest) |
+                   flag(end_flag::capped, status::cap_was_hit) |
+                   flag(end_flag::not_finite, status::not_finite) |
+                   flag(end_flag::unresolved, status::unresolved);
+        });
+    default: return {}; // of a boundary
     }
 }
 
@@ -72,7 +71,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
     const PointRun points(scene, points_of(plane, tile), kernel, std::move(drop_requested));
-    Ends ends =
+    const Ends ends =
         ends_of(points, numerics,
                 {.impacts = wanted(Field::impacts),
                  .error = wanted(Field::error),
@@ -83,16 +82,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
                  .phase = wanted(Field::fall_time)});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(derived_values(field, points, ends));
-    }
-    for (std::size_t i = 0; i < fields.size(); ++i) { // once nothing is derived from them any more
-        if (fields[i] == Field::region) {
-            result.values[i] = std::move(ends.region);
-        } else if (fields[i] == Field::margin) {
-            result.values[i] = std::move(ends.margin);
-        } else if (fields[i] == Field::error) {
-            result.values[i] = std::move(ends.error);
-        }
+        result.values.push_back(values_of(field, points, ends));
     }
     return result;
 }

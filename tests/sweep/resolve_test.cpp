@@ -1,6 +1,6 @@
 // Verdicts in doubt are settled with more digits, and only those.
 #include "overturn/sweep/sweep_tile.hpp"
-#include "resolve.hpp"
+#include "point_run.hpp"
 #include "support/every_scene.hpp"
 #include "support/one_point.hpp"
 

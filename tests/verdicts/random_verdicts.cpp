@@ -4,7 +4,7 @@
 // be. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
 #include "verdicts/random_planes.hpp"
 
-#include "resolve.hpp"
+#include "point_run.hpp"
 
 #include "overturn/number/digits50.hpp"
 #include "overturn/sweep/sweep_tile.hpp"

@@ -6,6 +6,7 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
 
 #include <array>
 #include <cstdint>
@@ -70,10 +71,6 @@ public:
     void compute_regions(const Numerics& numerics) const;
 
 private:
-    struct Truth {
-        std::vector<std::uint8_t> region;
-        std::vector<double> margin;
-    };
     struct DigitsTruth {
         std::int64_t tile;
         int point;
@@ -87,7 +84,7 @@ private:
     Scene scene_;
     Kernel kernel_;
     AccuracySample sample_;
-    std::vector<Truth> truth_; // by tile
+    std::vector<TileFields> truth_; // by tile: region, margin
     std::vector<DigitsTruth> in_digits_;
 };
 
