@@ -1,6 +1,5 @@
 #include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/step.hpp"
-#include "overturn/integrate/step_size.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/observed_order.hpp"
 #include "support/untrapped_floating_point.hpp"

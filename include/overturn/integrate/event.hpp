@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 namespace overturn {
 
@@ -22,19 +21,6 @@ template <Number T>
 struct Event {
     EventKind kind;
     Rocking<T> rocking;
-};
-
-/// The events of a single block, in order.
-template <Number T>
-class Events : public std::vector<Event<T>> {
-public:
-    void add(EventKind kind, const Rocking<T>& rocking, const mask_t<T>& happened)
-    {
-        static_assert(lanes_v<T> == 1);
-        if (happened) {
-            this->push_back({kind, rocking});
-        }
-    }
 };
 
 } // namespace overturn

@@ -11,7 +11,7 @@ inline constexpr double path_tolerance = 1e-13;
 
 /// The way from rest to the end of the pulse, or to a fall.
 struct ForcedPath {
-    Events<double> events;
+    std::vector<Event<double>> events; ///< in order
     ForcedEnd<double> end;
 };
 

@@ -11,6 +11,7 @@
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <type_traits>
+#include <vector>
 
 namespace overturn {
 
@@ -76,9 +77,7 @@ public:
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
-        if constexpr (records.events) {
-            events_.add(EventKind::step, now_, moved);
-        }
+        record(EventKind::step, moved);
         const Mask fell = moved && step.falls;
         const Mask strikes = moved && step.strikes;
         if (any<T>(fell || strikes)) {
@@ -104,6 +103,15 @@ public:
     }
 
 private:
+    void record([[maybe_unused]] EventKind kind, [[maybe_unused]] const Mask& happened)
+    {
+        if constexpr (records.events) {
+            if (happened) {
+                events_.push_back({kind, now_});
+            }
+        }
+    }
+
     /// Puts the lanes to rest until the ground lifts the block next; those that it lifts no more
     /// are done.
     void wait_for_uplift(const Mask& lanes)
@@ -121,9 +129,7 @@ private:
         lifted_ = select<T>(lifted, next, lifted_);
         const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
-        if constexpr (records.events) {
-            events_.add(EventKind::uplift, now_, lifted);
-        }
+        record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
     }
@@ -169,10 +175,8 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
-        if constexpr (records.events) {
-            events_.add(EventKind::impact, now_, lanes);
-            events_.add(EventKind::rest, now_, rests);
-        }
+        record(EventKind::impact, lanes);
+        record(EventKind::rest, rests);
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
             if constexpr (records.error) {
@@ -194,7 +198,9 @@ private:
     const T zero_;
     T sqrt_restitution_;
 
-    typename Method::template Stepper<theory, T, recorded_in_steps(records)> stepper_;
+    typename Method::template Stepper<theory, T,
+                                      Records{.error = records.error, .peak = records.peak}>
+        stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift: no flank of a lobe lifts a block twice
     Mask active_;
@@ -204,7 +210,8 @@ private:
     struct NoEvents {};
     [[no_unique_address]] std::conditional_t<records.error, MarginError<theory, T>, NoError>
         margin_error_;
-    [[no_unique_address]] std::conditional_t<records.events, Events<T>, NoEvents> events_;
+    [[no_unique_address]] std::conditional_t<records.events, std::vector<Event<T>>, NoEvents>
+        events_;
     OnUnknownError on_unknown_error_;
 };
 

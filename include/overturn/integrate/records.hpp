@@ -18,12 +18,6 @@ struct Records {
     bool phase = false; ///< of the pulse: its end, or where the block fell
 };
 
-/// What the steps of an integrator have to record.
-constexpr Records recorded_in_steps(const Records& records)
-{
-    return {.error = records.error, .peak = records.peak};
-}
-
 /// Whether a run continues once it is not certain whether the block struck the ground, or how fast.
 /// One that will be integrated again anyway need not: thousands of bounces may follow.
 enum class OnUnknownError { go_on, stop };

@@ -6,7 +6,6 @@
 #include "overturn/integrate/event_correction.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/step.hpp"
-#include "overturn/integrate/step_size.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/excitation.hpp"
 #include "overturn/mechanics/wavelet.hpp"

@@ -24,7 +24,6 @@ const S& value_of()
 
 struct DormandPrince {
     static constexpr int stages = 7; ///< the last stage of a step is the first of the next
-    static constexpr int order = 5;
 
     using Row = std::array<Ratio, stages>;
 

@@ -27,8 +27,9 @@ using MoreExact = std::conditional_t<
 /// q0 of a state (Eq. 12), of which T is right to its last digits unless the state is within
 /// epsilon^2 of the separatrix [rad^2]:
 ///
-///     q0 = 4 sin^2((alpha - |theta|) / 2) - theta'^2     linear theory: (alpha - |theta|)^2 -
-///     theta'^2
+///     q0 = 4 sin^2((alpha - |theta|) / 2) - theta'^2
+///
+/// or (alpha - |theta|)^2 - theta'^2 in the linear theory.
 template <Theory theory, class T>
 MoreExact<T> conserved_q(const State<T>& state, const T& slenderness)
 {

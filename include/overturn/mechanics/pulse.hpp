@@ -168,21 +168,25 @@ struct Triangular {
     }
 };
 
-/// Where |Pulse::value| reaches `level` between the ends of a flank that encloses it.
-template <class Pulse, class S>
-S bracketed_phase(const Flank<S>& flank, const S& level)
-{
-    using std::abs;
-    const auto excess = [&](const S& phase) -> S { return abs(Pulse::value(phase)) - level; };
-    std::uintmax_t iterations = 200; // bisection alone would need the bits of S
-    const auto bracket = boost::math::tools::toms748_solve(
-        excess, flank.foot, flank.peak,
-        boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
-    return bracket.second; // the upper end: the ground is at least about to lift the block
-}
+/// A wavelet, with one formula for all of its lobes.
+template <class Wavelet>
+struct RickerWavelet : SmoothPulse {
+    /// Between the ends of a flank that encloses the level.
+    template <class S>
+    static S phase_at(const Flank<S>& flank, const S& level)
+    {
+        using std::abs;
+        const auto excess = [&](const S& phase) -> S { return abs(Wavelet::value(phase)) - level; };
+        std::uintmax_t iterations = 200; // bisection alone would need the bits of S
+        const auto bracket = boost::math::tools::toms748_solve(
+            excess, flank.foot, flank.peak,
+            boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
+        return bracket.second; // the upper end: the ground is at least about to lift the block
+    }
+};
 
 /// Eq. 53: f = (1 - 2 x^2) exp(-x^2), x = phase / 2.
-struct SymmetricRicker : SmoothPulse {
+struct SymmetricRicker : RickerWavelet<SymmetricRicker> {
     static constexpr int lobes = 3;
 
     template <Number T>
@@ -200,16 +204,11 @@ struct SymmetricRicker : SmoothPulse {
         const S trough = sqrt(S(6)); // x^2 = 3/2
         return {{{-std::numeric_limits<S>::max(), -trough}, {-zero, S(0)}, {zero, trough}}};
     }
-    template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
-    {
-        return bracketed_phase<SymmetricRicker>(flank, level);
-    }
 };
 
 /// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3). The paper's 1.38 makes the peak
 /// 1.000086.
-struct AntisymmetricRicker : SmoothPulse {
+struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
     static constexpr int lobes = 4;
 
     template <Number T>
@@ -232,11 +231,6 @@ struct AntisymmetricRicker : SmoothPulse {
                  {S(-3), -inner},
                  {S(0), inner},
                  {S(3), outer}}};
-    }
-    template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
-    {
-        return bracketed_phase<AntisymmetricRicker>(flank, level);
     }
 };
 

@@ -18,16 +18,14 @@ namespace overturn {
 /// and infinite at q0 = 0. With the hyperbolic amplitude s, the real argument by which the solution
 /// of the linear theory is a hyperbolic cosine or sine,
 ///
-///     q > 0, it turns back below the top:    tan(y/2) = +-M cosh s,   y' = +-sqrt(q) cos(y/2) sinh
-///     s q < 0, it passes the top:              tan(y/2) = +-M sinh s,   y' = +-sqrt(-q) cos(y/2)
-///     cosh s
+///     q > 0, it turns back below the top:  tan(y/2) = +-M cosh s,  y' = +-sqrt(q) cos(y/2) sinh s
+///     q < 0, it passes the top:            tan(y/2) = +-M sinh s,  y' = +-sqrt(-q) cos(y/2) cosh s
 ///
-///     tau = sinh s R_F(1, 1 + m sinh^2 s, cosh^2 s) / omega      (linear theory: y, 1, s instead
-///     of
-///                                                                 tan(y/2), cos(y/2), tau)
+///     tau = sinh s R_F(1, 1 + m sinh^2 s, cosh^2 s) / omega
 ///
-/// counted from the turn, or from the top. R_F is Carlson's elliptic integral (tau is F(gd s) of
-/// the modulus sqrt(1 - m), which is too close to 1 to be told by that modulus);
+/// with y, 1, s instead of tan(y/2), cos(y/2), tau in the linear theory; tau is counted from the
+/// turn, or from the top. R_F is Carlson's elliptic integral (tau is F(gd s) of the modulus sqrt(1
+/// - m), which is too close to 1 to be told by that modulus);
 ///
 ///     q > 0:  m = q/4,            M = sqrt(m / (1 - m)),   omega = 1
 ///     q < 0:  m = -q / (4 - q),   M = sqrt(m),             omega = sqrt(1 - q/4)
@@ -127,24 +125,27 @@ private:
 
     static T half_pi() { return boost::math::constants::half_pi<T>(); }
 
+    /// What a function gives in the nonlinear theory; in the linear one it is its argument.
+    template <class Value>
+    static T in_theory(const T& argument, const Value& nonlinear)
+    {
+        if constexpr (theory == Theory::linear) {
+            return argument;
+        } else {
+            return nonlinear();
+        }
+    }
+
     /// tan(y/2) and its inverse; cos(y/2).
     static T measure(const T& y)
     {
         using std::tan;
-        if constexpr (theory == Theory::linear) {
-            return y;
-        } else {
-            return tan(y / 2);
-        }
+        return in_theory(y, [&] { return T(tan(y / 2)); });
     }
     static T from_measure(const T& measure)
     {
         using std::atan;
-        if constexpr (theory == Theory::linear) {
-            return measure;
-        } else {
-            return 2 * atan(measure);
-        }
+        return in_theory(measure, [&] { return T(2 * atan(measure)); });
     }
     static T cosine(const T& y)
     {
@@ -160,29 +161,17 @@ private:
     static T quarter(const T& y)
     {
         using std::tan;
-        if constexpr (theory == Theory::linear) {
-            return y;
-        } else {
-            return tan(y / 4);
-        }
+        return in_theory(y, [&] { return T(tan(y / 4)); });
     }
     static T from_quarter(const T& quarter)
     {
         using std::atan;
-        if constexpr (theory == Theory::linear) {
-            return quarter;
-        } else {
-            return 4 * atan(quarter);
-        }
+        return in_theory(quarter, [&] { return T(4 * atan(quarter)); });
     }
     static T speed_on_separatrix(const T& y)
     {
         using std::sin;
-        if constexpr (theory == Theory::linear) {
-            return y;
-        } else {
-            return 2 * sin(y / 2);
-        }
+        return in_theory(y, [&] { return T(2 * sin(y / 2)); });
     }
 
     /// The square of the speed that the block gains from this tilt to the ground,
