@@ -33,11 +33,8 @@ std::vector<double> with_sign(const std::vector<double>& values, const Ends& end
 FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
 {
     switch (field) {
-    case Field::region: return ends.region;
     case Field::angle: return with_sign(ends.tilt, ends);
     case Field::velocity: return with_sign(ends.rate, ends);
-    case Field::margin: return ends.margin;
-    case Field::error: return ends.error;
     case Field::peak: return points.peaks(ends);
     case Field::fall_time: return points.fall_times(ends);
     case Field::impacts:
@@ -57,7 +54,7 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
                    flag(end_flag::not_finite, status::not_finite) |
                    flag(end_flag::unresolved, status::unresolved);
         });
-    default: return {}; // of a boundary
+    default: return {}; // of a boundary, or held by the ends themselves
     }
 }
 
@@ -71,7 +68,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
     const PointRun points(scene, points_of(plane, tile), kernel, std::move(drop_requested));
-    const Ends ends =
+    Ends ends =
         ends_of(points, numerics,
                 {.impacts = wanted(Field::impacts),
                  .error = wanted(Field::error),
@@ -83,6 +80,15 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
     TileFields result;
     for (const Field field : fields) {
         result.values.push_back(values_of(field, points, ends));
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) { // nothing else needs them any more
+        if (fields[i] == Field::region) {
+            result.values[i] = std::move(ends.region);
+        } else if (fields[i] == Field::margin) {
+            result.values[i] = std::move(ends.margin);
+        } else if (fields[i] == Field::error) {
+            result.values[i] = std::move(ends.error);
+        }
     }
     return result;
 }

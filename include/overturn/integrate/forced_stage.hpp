@@ -95,11 +95,11 @@ public:
     /// Where the lanes have ended, once none is active.
     ForcedEnd<T> end() const
     {
+        ForcedEnd<T> end = end_of_run_;
         if constexpr (records.error) {
-            return margin_error_.at_end(block_, excitation_, now_, end_of_run_);
-        } else {
-            return end_of_run_;
+            end = margin_error_.at_end(block_, excitation_, now_, end);
         }
+        return end;
     }
 
 private:
