@@ -71,7 +71,7 @@ void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& p
           const BetweenTiles& between_tiles)
 {
     // What the system has not yet brought to the disk stays little: no wait for it takes long.
-    constexpr std::int64_t most_in_memory = 1 << 25; // [bytes]
+    constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const std::int64_t points = tiling.points_of_tile();
     const std::int64_t bytes = points * std::int64_t(bytes_per_point(field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
