@@ -86,15 +86,6 @@ def ranks_of(pid):
     return [child for _, child in sorted(numbered(pid))]
 
 
-def is_running(pid):
-    """Whether the process has not ended; its parent may not have noticed yet."""
-    try:
-        state = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
-    except (FileNotFoundError, ProcessLookupError):
-        return False
-    return state != "Z"
-
-
 def words(text):
     """Messages break their lines where it looks well; tests do not care."""
     return " ".join(text.split())
