@@ -59,10 +59,7 @@ Coordinate pulse_period(const Plane& plane)
 /// Of a job that names its block in metres.
 Coordinate peak_ground_acceleration(const Job& job)
 {
-    const double alpha = job.plane.slenderness.first();
-    const double threshold = job.scene.theory == Theory::linear
-                                 ? uplift_acceleration<Theory::linear>(alpha)
-                                 : uplift_acceleration<Theory::nonlinear>(alpha);
+    const double threshold = uplift_threshold(job.scene.theory, job.plane.slenderness.first());
     std::vector<double> accelerations;
     for (const double amplitude : job.plane.amplitude.values()) {
         accelerations.push_back(amplitude * threshold);

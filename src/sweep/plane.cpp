@@ -71,4 +71,10 @@ double frequency_parameter(const BlockSize& block)
     return std::sqrt(3 * gravity / (4 * std::hypot(block.half_width, block.half_height)));
 }
 
+double uplift_threshold(Theory theory, double slenderness)
+{
+    return with_theory(theory,
+                       [&]<Theory known>() { return uplift_acceleration<known>(slenderness); });
+}
+
 } // namespace overturn

@@ -47,9 +47,7 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
         return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
     };
     for (std::size_t first = 0; first < points.size();) {
-        const double threshold = with_theory(theory, [&]<Theory known>() {
-            return uplift_acceleration<known>(points[first].slenderness);
-        });
+        const double threshold = uplift_threshold(theory, points[first].slenderness);
         const auto number = int(pushes.size());
         const double amplitude = points[first].amplitude;
         pushes.push_back({amplitude * threshold, uplift_phases(motion, amplitude)});

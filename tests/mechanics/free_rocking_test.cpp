@@ -1,5 +1,5 @@
+#include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
-#include "overturn/mechanics/region.hpp"
 #include "support/free_motion.hpp"
 
 #include <boost/math/special_functions/ellint_1.hpp>

@@ -1,4 +1,4 @@
-#include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 #include "support/free_stage.hpp"
 
 #include <gtest/gtest.h>

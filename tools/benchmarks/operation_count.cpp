@@ -2,7 +2,7 @@
 #include "operation_count.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
-#include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/sweep/scene.hpp"
 
 #include <bit>

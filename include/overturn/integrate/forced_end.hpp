@@ -1,7 +1,7 @@
 // How a block leaves the forced stage, and what that means (Eqs. 11-20).
 #pragma once
 
-#include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 
 #include <limits>
 

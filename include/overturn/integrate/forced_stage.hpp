@@ -20,6 +20,13 @@ namespace overturn {
 /// impacts than that if it hardly loses energy (r within 1e-5 of 1), and stays undecided.
 inline constexpr double most_steps = 1 << 20;
 
+/// A block just after an event. Until the next one it rocks on its side, or rests.
+template <Number T>
+struct Event {
+    EventKind kind;
+    Rocking<T> rocking;
+};
+
 /// Integrates one block per lane. Method: RungeKutta or Taylor<order>.
 template <class Method, Theory theory, Records records, Number T>
 class ForcedStage {

@@ -2,20 +2,11 @@
 // tau = p t; the ground acceleration is in units of g; the tilt |theta| is never negative.
 #pragma once
 
+#include "overturn/mechanics/theory.hpp"
 #include "overturn/number/elementary.hpp"
 #include "overturn/number/number.hpp"
 
 namespace overturn {
-
-enum class Theory { nonlinear, linear };
-
-/// Calls visit.template operator()<theory>().
-template <class Visitor>
-auto with_theory(Theory theory, const Visitor& visit)
-{
-    return theory == Theory::linear ? visit.template operator()<Theory::linear>()
-                                    : visit.template operator()<Theory::nonlinear>();
-}
 
 template <Number T>
 struct Block {

@@ -3,7 +3,7 @@
 // if it loses energy at all. Scalars only.
 #pragma once
 
-#include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/rocking_arc.hpp"
 
 #include <boost/math/quadrature/tanh_sinh.hpp>

@@ -65,6 +65,9 @@ struct BlockSize {
 /// p = sqrt(3g / 4R), R the half diagonal, g = 9.81 m/s2 [1/s].
 double frequency_parameter(const BlockSize& block);
 
+/// Ground acceleration, over g, that lifts a block of this slenderness [rad] at rest [1].
+double uplift_threshold(Theory theory, double slenderness);
+
 /// A point of a plane; its coordinates are taken as exact.
 struct PlanePoint {
     double slenderness; ///< [rad]

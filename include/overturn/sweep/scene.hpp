@@ -1,8 +1,8 @@
 // What is simulated: the ground's pulse, the theory of the block, and how finely it is integrated.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/pulse.hpp"
+#include "overturn/mechanics/pulse_kind.hpp"
+#include "overturn/mechanics/theory.hpp"
 
 #include <algorithm>
 #include <array>
