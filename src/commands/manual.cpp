@@ -23,10 +23,10 @@ it is. What to compute is said by a job file, in TOML.)";
 
 constexpr const char* files = R"(Beside the folder of the program:
 
-  ../share/overturn/jobs        jobs to begin with, and README.md, which explains every key
+  ../share/overturn/jobs        jobs to begin with
   ../share/overturn/jobs/slurm  batch scripts that go on until a file is complete
   ../share/overturn/tools       the Python tools
-  ../share/doc/overturn         README.md: what a result file holds, and how exact it is
+  ../share/doc/overturn         documentation: job files, result files, accuracy
   ../include/overturn           the physics for C++ programs: find_package(overturn)
 
 OUT.h5.json beside a result file OUT.h5 tells of hosts, times and libraries.)";

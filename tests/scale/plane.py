@@ -225,7 +225,7 @@ class Command:
         return self
 
     def stop(self):
-        """As README.md says: SIGUSR1 to mpirun."""
+        """As docs/robustness.md says: SIGUSR1 to mpirun."""
         self.process.send_signal(signal.SIGUSR1)
         return self.must_end_with(STOPPED).must_say("stopped by a signal")
 

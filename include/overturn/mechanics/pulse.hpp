@@ -194,7 +194,7 @@ struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
     }
 };
 
-/// Calls visit.template operator()<Wavelet>() for the formula of this kind of wavelet.
+/// Calls `visit.template operator()<Wavelet>()` for the formula of this kind of wavelet.
 template <class Visitor>
 auto with_wavelet(PulseKind kind, const Visitor& visit)
 {
@@ -202,7 +202,7 @@ auto with_wavelet(PulseKind kind, const Visitor& visit)
                                                : visit.template operator()<AntisymmetricRicker>();
 }
 
-/// Calls visit.template operator()<Pulse>() for the formula of this kind of pulse.
+/// Calls `visit.template operator()<Pulse>()` for the formula of this kind of pulse.
 template <class Visitor>
 auto with_pulse(PulseKind kind, const Visitor& visit)
 {

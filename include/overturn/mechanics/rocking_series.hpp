@@ -17,8 +17,8 @@ struct RockingSeries {
     Coefficients<order + 1, T> rate; ///< d|theta| / d t [rad]
 };
 
-/// Calls body.template operator()<j>() for 0 <= j < count, the middle first, 0 and count - 1 last:
-/// of a sum over j and count - 1 - j the terms that were known first.
+/// Calls `body.template operator()<j>()` for 0 <= j < count, the middle first, 0 and count - 1
+/// last: of a sum over j and count - 1 - j the terms that were known first.
 template <int count, class Body>
 constexpr void newest_last(const Body& body)
 {

@@ -5,7 +5,7 @@ namespace overturn {
 
 enum class Theory { nonlinear, linear };
 
-/// Calls visit.template operator()<theory>().
+/// Calls `visit.template operator()<theory>()`.
 template <class Visitor>
 auto with_theory(Theory theory, const Visitor& visit)
 {

@@ -5,7 +5,7 @@
 
 namespace overturn {
 
-/// Calls body.template operator()<i>() for i = 0, 1, ..., count - 1.
+/// Calls `body.template operator()<i>()` for i = 0, 1, ..., count - 1.
 template <int count, class Body>
 constexpr void unrolled(const Body& body)
 {
