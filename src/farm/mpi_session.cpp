@@ -2,7 +2,6 @@
 
 #include "wait_for.hpp"
 
-#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -146,6 +145,13 @@ void MpiSession::broadcast(void* bytes, std::size_t size) const
     wait_for(arriving); // rank 0 may have to read gigabytes first
 }
 
+void MpiSession::gather(const void* bytes, void* all, std::size_t size) const
+{
+    MPI_Request gathering = MPI_REQUEST_NULL;
+    MPI_Igather(bytes, int(size), MPI_BYTE, all, int(size), MPI_BYTE, 0, communicator_, &gathering);
+    wait_for(gathering); // workers are done with their tiles before rank 0
+}
+
 std::string MpiSession::from_rank_0(std::string text) const
 {
     text.resize(from_rank_0(text.size()));
@@ -159,12 +165,10 @@ std::vector<std::string> MpiSession::host_names() const
     Name own{}; // its zeros end the name
     int length = 0;
     MPI_Get_processor_name(own.data(), &length);
-    std::vector<Name> all(rank_ == 0 ? std::size_t(size_) : 0);
-    MPI_Gather(own.data(), int(own.size()), MPI_CHAR, all.data(), int(own.size()), MPI_CHAR, 0,
-               communicator_);
-    std::vector<std::string> names(all.size());
-    std::transform(all.begin(), all.end(), names.begin(),
-                   [](const Name& name) { return std::string(name.data()); });
+    std::vector<std::string> names;
+    for (const Name& name : gather_on_rank_0(own)) {
+        names.emplace_back(name.data());
+    }
     return names;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace overturn {
@@ -30,7 +31,10 @@ struct StopRequest {
 /// A rank has not responded for too long: it was suspended, its disk hangs, or its host is cut off.
 class SilentRank : public std::runtime_error {
 public:
-    SilentRank(int silent_rank, std::chrono::seconds duration);
+    SilentRank(int silent_rank, std::chrono::seconds duration)
+        : std::runtime_error("rank " + std::to_string(silent_rank) + " has not responded"),
+          rank(silent_rank), silence(duration)
+    {}
 
     int rank;
     std::chrono::seconds silence;

@@ -41,6 +41,15 @@ public:
     }
     std::string from_rank_0(std::string text) const;
 
+    /// Returns the values of all ranks, by rank, on rank 0; nothing elsewhere. Collective.
+    template <class Value>
+    std::vector<Value> gather_on_rank_0(const Value& value) const
+    {
+        std::vector<Value> values(rank_ == 0 ? std::size_t(size_) : 0);
+        gather(&value, values.data(), sizeof value);
+        return values;
+    }
+
     /// The host of each rank, on rank 0; empty elsewhere. Collective.
     std::vector<std::string> host_names() const;
 
@@ -49,6 +58,7 @@ public:
 
 private:
     void broadcast(void* bytes, std::size_t size) const;
+    void gather(const void* bytes, void* all, std::size_t size) const;
     void leave();
 
     MPI_Comm communicator_ = MPI_COMM_NULL; ///< a duplicate of the world
