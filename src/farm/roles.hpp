@@ -41,6 +41,27 @@ FarmReport lead(const MpiSession& session, const std::vector<std::int64_t>& tile
 RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
                std::chrono::seconds patience);
 
+/// Limits how often something is done in a loop.
+class Occasionally {
+    using Clock = std::chrono::steady_clock;
+
+public:
+    explicit Occasionally(Clock::duration interval) : interval_(interval) {}
+
+    /// True at most once per interval.
+    bool is_due()
+    {
+        const auto now = Clock::now();
+        const bool due = now - last_ >= interval_;
+        last_ = due ? now : last_;
+        return due;
+    }
+
+private:
+    Clock::duration interval_;
+    Clock::time_point last_ = Clock::now();
+};
+
 inline double busy_seconds(const RankShare& share)
 {
     return share.compute_seconds + share.write_seconds;

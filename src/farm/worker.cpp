@@ -1,4 +1,3 @@
-#include "occasionally.hpp"
 #include "roles.hpp"
 #include "wait_for.hpp"
 
