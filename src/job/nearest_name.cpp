@@ -1,6 +1,7 @@
 #include "overturn/job/nearest_name.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <vector>
 
@@ -8,17 +9,13 @@ namespace overturn {
 
 namespace {
 
-char in_lower_case(char letter)
-{
-    return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
-}
-
 /// Letters to insert, remove, replace or swap with their neighbour to turn one word into the other
 /// (optimal string alignment), capital letters aside.
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
     const auto equal = [&](std::size_t i, std::size_t j) {
-        return in_lower_case(from[i]) == in_lower_case(to[j]);
+        return std::tolower(static_cast<unsigned char>(from[i])) ==
+               std::tolower(static_cast<unsigned char>(to[j]));
     };
     // distance[i][j]: between the first i letters of `from` and the first j of `to`.
     std::vector<std::vector<std::size_t>> distance(from.size() + 1,
