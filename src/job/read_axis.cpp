@@ -22,10 +22,8 @@ double read_value(const Entry& entry, const AxisRule& rule)
 
 AxisList read_list(const Entry& entry, const AxisRule& rule)
 {
-    const std::size_t size = array_size(entry, "an array of numbers, such as [0.5, 1.0]");
-    if (size == 0) {
-        refuse(entry, " is empty. Give at least one value.");
-    }
+    const std::size_t size =
+        array_size(entry, "an array of numbers, such as [0.5, 1.0]", "Give at least one value.");
     AxisList values;
     values.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {

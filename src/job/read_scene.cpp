@@ -124,11 +124,9 @@ std::vector<Field> read_fields(const Entry& job)
     if (!entry) {
         return {Field::region};
     }
-    const std::size_t size = array_size(*entry, "an array of strings, such as [\"region\"]");
-    if (size == 0) {
-        refuse(*entry, fmt::format(" is empty. Give at least one of {}.",
-                                   fmt::join(spectrum_field_names, ", ")));
-    }
+    const std::size_t size =
+        array_size(*entry, "an array of strings, such as [\"region\"]",
+                   fmt::format("Give at least one of {}.", fmt::join(spectrum_field_names, ", ")));
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
         const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names);

@@ -113,11 +113,14 @@ Entry require(const Entry& table, std::string_view name, std::string_view advice
     return *std::move(entry);
 }
 
-std::size_t array_size(const Entry& entry, std::string_view wanted)
+std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_view advice)
 {
     const toml::array* array = entry.node->as_array();
     if (array == nullptr) {
         refuse_type(entry, wanted);
+    }
+    if (array->empty()) {
+        refuse(entry, fmt::format(" is empty. {}", advice));
     }
     return array->size();
 }

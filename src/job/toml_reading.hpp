@@ -41,8 +41,9 @@ std::optional<Entry> find(const Entry& table, std::string_view name);
 /// The same where it must not be missing; `advice` is what to do then.
 Entry require(const Entry& table, std::string_view name, std::string_view advice);
 
-/// The number of elements of an array; `wanted` tells what it must be if it is none.
-std::size_t array_size(const Entry& entry, std::string_view wanted);
+/// The number of elements of an array, which must not be empty. `wanted` tells what an entry that
+/// is no array must be; `advice` is what to do if it is empty.
+std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_view advice);
 
 Entry element(const Entry& array, std::size_t i);
 
