@@ -1,8 +1,6 @@
-#include "overrides.hpp"
+#include "read_steps.hpp"
 
 #include "deep_key.hpp"
-#include "overturn/job/job.hpp"
-#include "toml_reading.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>

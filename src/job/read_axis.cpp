@@ -1,4 +1,4 @@
-#include "read_axis.hpp"
+#include "read_steps.hpp"
 
 #include "toml_text.hpp"
 

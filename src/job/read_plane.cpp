@@ -1,11 +1,7 @@
-#include "read_plane.hpp"
-
-#include "overturn/sweep/tile.hpp"
-#include "read_axis.hpp"
+#include "read_steps.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -110,19 +106,7 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
 
 } // namespace
 
-PlaneSize size_of(const Plane& plane, const std::vector<Field>& fields)
-{
-    PlaneSize size{.points = 1, .bytes = 0};
-    for (const std::int64_t count : shape_of(plane)) {
-        size.points *= static_cast<long double>(count);
-    }
-    for (const Field field : fields) {
-        size.bytes += size.points * static_cast<long double>(bytes_per_point(field));
-    }
-    return size;
-}
-
-Plane read_plane(const Entry& job, const std::vector<Field>& fields)
+Plane read_plane(const Entry& job)
 {
     const Entry entry = require(
         job, "plane", "Add [plane] with frequency, amplitude, restitution and slenderness.");
@@ -150,11 +134,6 @@ Plane read_plane(const Entry& job, const std::vector<Field>& fields)
         plane.slenderness = read_axis(slenderness, slenderness_rule);
     }
     check_restitution(slenderness, restitution, plane);
-    if (const PlaneSize size = size_of(plane, fields); size.bytes > most_bytes) {
-        refuse(entry, fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
-                                  "addressed. Lower the counts.",
-                                  size.points, size.bytes, most_bytes));
-    }
     return plane;
 }
 

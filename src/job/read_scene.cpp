@@ -1,6 +1,5 @@
-#include "read_scene.hpp"
+#include "read_steps.hpp"
 
-#include "overturn/job/job.hpp"
 #include "overturn/mechanics/ground_motion.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,79 @@
 #include "toml_text.hpp"
 
+#include "overturn/job/job.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace overturn {
+
+namespace {
+
+/// What text_of gives for each of the values.
+template <class Values, class TextOf>
+std::string list_text(const Values& values, const TextOf& text_of)
+{
+    std::vector<std::string> texts;
+    std::transform(values.begin(), values.end(), std::back_inserter(texts), text_of);
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string definition_text(const Axis& axis)
+{
+    if (const auto* list = std::get_if<AxisList>(&axis.definition())) {
+        return "values = " + list_text(*list, float_text);
+    }
+    const auto& range = std::get<AxisRange>(axis.definition());
+    return fmt::format("first = {}, last = {}, count = {}, spacing = \"{}\"",
+                       float_text(range.first), float_text(range.last), range.count,
+                       name_of(range.spacing));
+}
+
+std::string scene_text(const Scene& scene)
+{
+    std::string text = fmt::format("[scene]\npulse = \"{}\"\ntheory = \"{}\"\n",
+                                   name_of(scene.pulse), name_of(scene.theory));
+    if (has_window(scene.pulse)) {
+        text += fmt::format("window = {}\n", float_text(scene.window));
+    }
+    return text;
+}
+
+std::string plane_text(const Plane& plane)
+{
+    std::string text =
+        fmt::format("[plane]\nfrequency = {{ {} }}\namplitude = {{ {} }}\nrestitution = {{ {}, of "
+                    "= \"{}\" }}\n",
+                    definition_text(plane.frequency), definition_text(plane.amplitude),
+                    definition_text(plane.restitution), name_of(plane.restitution_of));
+    if (plane.block) {
+        text +=
+            fmt::format("\n[block]\nhalf_width = {}\nhalf_height = {}\n",
+                        float_text(plane.block->half_width), float_text(plane.block->half_height));
+    } else {
+        text += fmt::format("slenderness = {{ {} }}\n", definition_text(plane.slenderness));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string resolved_text(const Job& job)
+{
+    std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title),
+                                   scene_text(job.scene), plane_text(job.plane));
+    if (job.product == Product::spectrum) { // a boundary is told neither
+        text += fmt::format(
+            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
+            "[output]\nfields = {}\n",
+            name_of(job.numerics.method), float_text(job.numerics.tolerance),
+            job.numerics.resolve ? "resolve = true\n" : "",
+            list_text(job.fields, [](Field field) { return in_quotes(name_of(field)); }));
+    }
+    return text;
+}
 
 std::string in_quotes(std::string_view text)
 {

@@ -1,4 +1,4 @@
-// How strings and numbers are written in TOML.
+// How a job and its values are written in TOML.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,12 @@
 #include <string_view>
 
 namespace overturn {
+
+struct Job;
+
+/// The canonical text of a job, which read_job reads back to an equal job: fixed order, every
+/// default spelled out.
+std::string resolved_text(const Job& job);
 
 /// The text in double quotes; quotes, backslashes and control characters escaped.
 std::string in_quotes(std::string_view text);

@@ -1,11 +1,7 @@
 #include "overturn/job/job.hpp"
 
 #include "deep_key.hpp"
-#include "overrides.hpp"
-#include "read_plane.hpp"
-#include "read_scene.hpp"
-#include "resolved_text.hpp"
-#include "toml_reading.hpp"
+#include "read_steps.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>
@@ -88,6 +84,27 @@ std::string read_title(const Entry& job)
     return title;
 }
 
+/// What can be addressed, with room to spare [bytes].
+constexpr long double most_bytes = 0x1p62L;
+
+/// How much a job asks for: in floating point, which cannot overflow here.
+struct JobSize {
+    long double points;
+    long double bytes;
+};
+
+JobSize size_of(const Job& job)
+{
+    JobSize size{.points = 1, .bytes = 0};
+    for (const std::int64_t count : shape_of(job.plane)) {
+        size.points *= static_cast<long double>(count);
+    }
+    for (const Field field : job.fields) {
+        size.bytes += size.points * static_cast<long double>(bytes_per_point(field));
+    }
+    return size;
+}
+
 } // namespace
 
 Job read_job(const std::string& path, const std::vector<std::string>& overrides)
@@ -112,9 +129,46 @@ Job read_job_text(std::string text, const std::string& name,
     job.numerics = read_numerics(entry);
     job.fields = read_fields(entry);
     expect_known_errors(entry, job.numerics, job.fields);
-    job.plane = read_plane(entry, job.fields);
+    job.plane = read_plane(entry);
+    if (const JobSize size = size_of(job); size.bytes > most_bytes) {
+        refuse(*find(entry, "plane"),
+               fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
+                           "addressed. Lower the counts.",
+                           size.points, size.bytes, most_bytes));
+    }
     job.resolved = resolved_text(job);
     return job;
+}
+
+Job boundary_of(Job job)
+{
+    if (job.plane.amplitude.size() == 1) {
+        throw JobError(fmt::format("plane.amplitude has one value, {}, and flips are looked for "
+                                   "between the first and the last. Give two or more.",
+                                   job.plane.amplitude.first()));
+    }
+    job.product = Product::boundary;
+    job.resolved = resolved_text(job);
+    job.scan = job.plane.amplitude;
+    job.plane.amplitude = Axis(AxisRange{0, double(most_crossings - 1), most_crossings});
+    job.fields.assign(boundary_fields.begin(), boundary_fields.end());
+    // A spectrum of two amplitudes may have a boundary of 64 crossings that is too large.
+    if (const JobSize size = size_of(job); size.bytes > most_bytes) {
+        throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
+                                   "slenderness, whose boundaries would take {:.4g} bytes; {:.4g} "
+                                   "can be addressed. Lower the counts.",
+                                   size.points / most_crossings, size.bytes, most_bytes));
+    }
+    return job;
+}
+
+Tiling tiling_of(const Job& job)
+{
+    // A line of a boundary takes longer than a tile of a spectrum: some 10 ms, and many times that
+    // where a slow pulse lets blocks bounce on and on.
+    constexpr std::int64_t lines = 1;
+    return job.product == Product::boundary ? Tiling(shape_of(job.plane), most_crossings, lines)
+                                            : Tiling(job.plane);
 }
 
 } // namespace overturn
