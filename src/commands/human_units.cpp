@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -10,36 +9,22 @@ namespace overturn {
 
 namespace {
 
-struct Scaled {
-    double value;
-    const char* prefix;
-};
-
-Scaled scaled(double value)
-{
-    static constexpr std::array<const char*, 6> prefixes{"", "k", "M", "G", "T", "P"};
-    std::size_t i = 0;
-    // 999.5 would be shown as 1000.
-    while (value >= 999.5 && i + 1 < prefixes.size()) {
-        value /= 1000;
-        ++i;
-    }
-    return {value, prefixes[i]};
-}
-
-/// Three digits of a number below 1000.
-std::string three_digits(double value)
-{
-    return fmt::format("{:.{}f}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0);
-}
+constexpr double least_scaled = 999.5; // would be shown as 1000
 
 } // namespace
 
 std::string human_count(double count)
 {
-    const auto [value, prefix] = scaled(count);
-    return *prefix == '\0' ? fmt::format("{:.0f}", value)
-                           : fmt::format("{} {}", three_digits(value), prefix);
+    if (!(count >= least_scaled)) {
+        return fmt::format("{:.0f}", count);
+    }
+    constexpr std::string_view prefixes = "kMGTP";
+    std::size_t i = 0;
+    for (count /= 1000; count >= least_scaled && i + 1 < prefixes.size(); ++i) {
+        count /= 1000;
+    }
+    const int decimals = count < 9.995 ? 2 : count < 99.95 ? 1 : 0;
+    return fmt::format("{:.{}f} {}", count, decimals, prefixes[i]);
 }
 
 std::string human_duration(double seconds)
@@ -68,9 +53,7 @@ std::string human_duration(double seconds)
 
 std::string human_bytes(double bytes)
 {
-    const auto [value, prefix] = scaled(bytes);
-    return *prefix == '\0' ? fmt::format("{:.0f} bytes", value)
-                           : fmt::format("{} {}B", three_digits(value), prefix);
+    return human_count(bytes) + (bytes < least_scaled ? " bytes" : "B");
 }
 
 } // namespace overturn
