@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 
 namespace overturn {
@@ -43,15 +41,10 @@ std::string progress_text(const Moment& moment)
     return text;
 }
 
-Progress::Progress(std::int64_t before, std::int64_t all, std::FILE* stream, bool terminal,
-                   const char* items)
-    : before_(before), all_(all), stream_(stream), items_(items), terminal_(terminal),
-      start_(std::chrono::steady_clock::now()),
+Progress::Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream,
+                   bool terminal)
+    : moment_{.before = before, .all = all, .items = items}, stream_(stream), terminal_(terminal),
       next_(terminal ? redraw_interval : shortest_log_interval)
-{}
-
-Progress::Progress(std::int64_t before, std::int64_t all, const char* items)
-    : Progress(before, all, stderr, isatty(STDERR_FILENO) == 1, items)
 {}
 
 Progress::~Progress()
@@ -63,27 +56,18 @@ Progress::~Progress()
 
 void Progress::update(std::int64_t done)
 {
-    const double seconds =
+    moment_.done = done;
+    moment_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const bool last_redraw = line_is_open_ && done == all_;
-    if (seconds < next_ && !last_redraw) {
+    const bool last_redraw = line_is_open_ && done == moment_.all;
+    if (moment_.seconds < next_ && !last_redraw) {
         return;
     }
-    next_ = seconds + (terminal_ ? redraw_interval : log_interval(seconds));
-    show({.before = before_, .done = done, .all = all_, .seconds = seconds, .items = items_});
-}
-
-void Progress::show(const Moment& moment)
-{
-    const std::string text = progress_text(moment);
-    if (terminal_) {
-        // Back to the first column; what is left of a longer line is erased.
-        std::fputs(fmt::format("\r{}\x1b[K", text).c_str(), stream_);
-        line_is_open_ = true;
-    } else {
-        std::fputs(fmt::format("{}\n", text).c_str(), stream_);
-    }
+    next_ = moment_.seconds + (terminal_ ? redraw_interval : log_interval(moment_.seconds));
+    // On a terminal back to the first column; what is left of a longer line is erased.
+    std::fprintf(stream_, terminal_ ? "\r%s\x1b[K" : "%s\n", progress_text(moment_).c_str());
     std::fflush(stream_); // a failure is ignored: the reader may be gone
+    line_is_open_ = terminal_;
 }
 
 } // namespace overturn

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <unistd.h>
 
 namespace overturn {
 
@@ -23,12 +24,10 @@ std::string progress_text(const Moment& moment);
 
 class Progress {
 public:
-    /// terminal: whether a line of the stream can be redrawn. items: what is counted, in the
-    /// plural.
-    Progress(std::int64_t before, std::int64_t all, std::FILE* stream, bool terminal,
-             const char* items = "points");
-    /// On standard error.
-    Progress(std::int64_t before, std::int64_t all, const char* items);
+    /// items: what is counted, in the plural. terminal: whether a line of the stream can be
+    /// redrawn.
+    Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream = stderr,
+             bool terminal = isatty(STDERR_FILENO) == 1);
     /// Ends a line that was redrawn.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -38,14 +37,10 @@ public:
     void update(std::int64_t done);
 
 private:
-    void show(const Moment& moment);
-
-    std::int64_t before_;
-    std::int64_t all_;
+    Moment moment_; ///< of the last update
     std::FILE* stream_;
-    const char* items_;
     bool terminal_;
-    std::chrono::steady_clock::time_point start_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double next_; ///< when to show the next line [s since the start]
     bool line_is_open_ = false;
 };

@@ -20,7 +20,7 @@ std::string written(bool is_terminal, Use use)
 {
     std::FILE* const stream = std::tmpfile();
     {
-        Progress progress(0, 1000, stream, is_terminal);
+        Progress progress(0, 1000, "points", stream, is_terminal);
         use(progress);
     }
     std::string text(std::size_t(std::ftell(stream)), '\0');
