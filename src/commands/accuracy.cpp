@@ -2,6 +2,7 @@
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "output_lines.hpp"
 
 #include "overturn/file/accuracy_file.hpp"
 #include "overturn/file/sole_writer.hpp"
@@ -12,17 +13,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 namespace overturn {
 
 namespace {
-
-void say(const std::string& line)
-{
-    fmt::print("{}\n", line);
-    std::fflush(stdout); // each row as soon as it is there
-}
 
 /// Time of one pass over the sample: the median of a few [s].
 double seconds_of(const AccuracyStudy& study, const Numerics& numerics)

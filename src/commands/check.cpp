@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
-#include "print_row.hpp"
+#include "output_lines.hpp"
 #include "printable.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
@@ -69,14 +69,6 @@ double estimated_seconds(const Job& job, Kernel kernel)
     return seconds * (double(all_points) / double(points));
 }
 
-std::string axis_text(const Axis& axis, std::string_view unit = "")
-{
-    if (axis.size() == 1) {
-        return fmt::format("{}{}", axis.first(), unit);
-    }
-    return fmt::format("{} values from {} to {}{}", axis.size(), axis.first(), axis.last(), unit);
-}
-
 void print_scene(const Job& job)
 {
     print_row("pulse", name_of(job.scene.pulse));
@@ -93,12 +85,14 @@ void print_scene(const Job& job)
 
 void print_plane(const Plane& plane)
 {
-    print_row("frequency", axis_text(plane.frequency));
-    print_row("amplitude", axis_text(plane.amplitude));
-    print_row("restitution",
-              axis_text(plane.restitution) +
-                  (plane.restitution_of == RestitutionOf::maximum ? ", of the maximum" : ""));
-    print_row("slenderness", axis_text(plane.slenderness, " rad"));
+    const auto print = [](std::string_view name, const Axis& axis, std::string_view ending) {
+        print_axis(name, axis.size(), axis.first(), axis.last(), ending);
+    };
+    print("frequency", plane.frequency, "");
+    print("amplitude", plane.amplitude, "");
+    print("restitution", plane.restitution,
+          plane.restitution_of == RestitutionOf::maximum ? ", of the maximum" : "");
+    print("slenderness", plane.slenderness, " rad");
 }
 
 void print_size(const Job& job)

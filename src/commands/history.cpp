@@ -2,7 +2,7 @@
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "print_row.hpp"
+#include "output_lines.hpp"
 
 #include "overturn/file/history_file.hpp"
 #include "overturn/file/sole_writer.hpp"

@@ -2,8 +2,7 @@
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "human_units.hpp"
-#include "lines_text.hpp"
-#include "print_row.hpp"
+#include "output_lines.hpp"
 #include "printable.hpp"
 
 #include "overturn/file/spectrum_summary.hpp"
@@ -16,15 +15,6 @@
 namespace overturn {
 
 namespace {
-
-std::string axis_text(const AxisSummary& axis)
-{
-    const std::string unit = axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units));
-    if (axis.size == 1) {
-        return fmt::format("{}{}", axis.first, unit);
-    }
-    return fmt::format("{} values from {} to {}{}", axis.size, axis.first, axis.last, unit);
-}
 
 /// In the order of FileKind.
 constexpr std::array<const char*, 4> contents{"a spectrum", "where verdicts flip",
@@ -48,7 +38,8 @@ void print_plane_and_tiles(const std::string& path)
     const std::vector<std::string> damaged = damaged_coordinates(path);
     print_origin(path, summary);
     for (const AxisSummary& axis : summary.axes) {
-        print_row(axis.name, axis_text(axis));
+        print_axis(axis.name, axis.size, axis.first, axis.last,
+                   axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units)));
     }
     if (!damaged.empty()) {
         print_row("damaged", fmt::format("{}: not what the job gives", fmt::join(damaged, ", ")));

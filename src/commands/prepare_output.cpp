@@ -3,7 +3,7 @@
 #include "child_process.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
-#include "say.hpp"
+#include "output_lines.hpp"
 
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"

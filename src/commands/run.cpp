@@ -4,10 +4,9 @@
 #include "exit_code.hpp"
 #include "human_units.hpp"
 #include "kernel_choice.hpp"
-#include "lines_text.hpp"
+#include "output_lines.hpp"
 #include "prepare_output.hpp"
 #include "progress.hpp"
-#include "say.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/mpi_session.hpp"
