@@ -30,6 +30,7 @@ namespace overturn {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Clock = std::chrono::system_clock; // the record tells the date
 
 constexpr int go_on = -1; ///< there is something to compute; no exit code
@@ -64,19 +65,13 @@ std::string output_path(const RunOptions& options)
     if (!options.output.empty()) {
         return options.output;
     }
-    return std::filesystem::path(options.job.path).stem().string() +
-           (options.boundary ? "_boundary.h5" : ".h5");
+    return fs::path(options.job.path).stem().string() + (options.boundary ? "_boundary.h5" : ".h5");
 }
 
 Job read_job_of(const RunOptions& options)
 {
     Job job = read_job(options.job.path, options.job.overrides);
     return options.boundary ? boundary_of(std::move(job)) : job;
-}
-
-std::string absolute(const std::string& path)
-{
-    return std::filesystem::absolute(path).string();
 }
 
 std::string beginning(const Task& task, std::int64_t tiles_before)
@@ -144,6 +139,7 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
         std::chrono::seconds(task.options.patience));
 }
 
+/// On rank 0.
 void write_record(const Task& task, const std::vector<std::string>& hosts, const FarmReport& report,
                   double seconds)
 {
@@ -158,9 +154,7 @@ void write_record(const Task& task, const std::vector<std::string>& hosts, const
         record.ranks.push_back(
             {hosts[rank], share.tiles, share.compute_seconds, share.write_seconds});
     }
-    if (task.leads()) {
-        write_sidecar(task.path, record);
-    }
+    write_sidecar(task.path, record);
 }
 
 /// Ends all ranks if one does not respond.
@@ -182,13 +176,6 @@ FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<s
     }
 }
 
-FileError another_file(const std::string& path, int rank, const std::vector<std::string>& hosts)
-{
-    return FileError(fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 "
-                                 "(host {}). Choose a folder with -o that all hosts share.",
-                                 path, rank, hosts[std::size_t(rank)], hosts.front()));
-}
-
 /// The number of tiles without a mark in the file, which decides whether it is complete. On rank 0.
 std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
 {
@@ -206,9 +193,15 @@ int compute_what_is_missing(const Task& task)
 {
     const std::vector<std::string> hosts = task.session.host_names();
     // Of rank 0: others may have been started in other folders.
-    const std::string path = task.session.from_rank_0(absolute(task.path));
+    const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
-        return task.leads() ? complain(another_file(path, *other, hosts)) : exit_code::output;
+        if (task.leads()) {
+            complain(FileError(
+                fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
+                            "{}). Choose a folder with -o that all hosts share.",
+                            path, *other, hosts[std::size_t(*other)], hosts.front())));
+        }
+        return exit_code::output;
     }
     SpectrumFile file(path, task.session.communicator(), task.job,
                       task.options.durable ? Durability::on_disk : Durability::written);
@@ -228,10 +221,10 @@ int compute_what_is_missing(const Task& task)
     const FarmReport report = compute_or_name_the_silent_rank(task, hosts, missing, file);
     file.close();
 
-    const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-    write_record(task, hosts, report, seconds);
     int code = exit_code::complete;
     if (task.leads()) {
+        const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
+        write_record(task, hosts, report, seconds);
         const std::int64_t still_missing = count_missing_tiles(task, report) + still_damaged;
         say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
         if (still_missing > 0) {
@@ -273,7 +266,7 @@ int run(const RunOptions& options)
         complain_if_it_fails([&] {
             kernel_called(options.kernel); // throws if it does not run here
             job = read_job_of(options);
-            demand_path_for_mpi(absolute(path));
+            demand_path_for_mpi(fs::absolute(path).string());
             verdict = examine_in_child(*job, path);
         });
     }

@@ -23,21 +23,15 @@ std::string list_text(const std::vector<std::int64_t>& numbers)
                        numbers.size() > most ? ", ..." : "");
 }
 
-void expect_coordinates_of_its_job(const std::string& path)
+void print_whether_it_is_whole(const std::string& path)
 {
+    const SpectrumSummary summary = summarize(path);
     if (const auto damaged = damaged_coordinates(path); !damaged.empty()) {
         throw FileError(fmt::format("\"{}\" is damaged: of its coordinates {} are not its job's. "
                                     "Remove it, and compute it again.",
                                     path, fmt::join(damaged, ", ")));
     }
-}
-
-void print_whether_it_is_whole(const std::string& path)
-{
-    const SpectrumSummary summary = summarize(path);
-    expect_coordinates_of_its_job(path);
-    const std::vector<std::int64_t> damaged = damaged_tiles(path);
-    if (!damaged.empty()) {
+    if (const auto damaged = damaged_tiles(path); !damaged.empty()) {
         throw FileError(fmt::format(
             "\"{}\" is damaged: {} of {} tiles are not as they were written, by number {}. To "
             "compute them again: overturn {} JOB.toml -o {}, with the job file and the --set "
