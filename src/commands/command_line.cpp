@@ -1,10 +1,9 @@
 #include "command_line.hpp"
 
 #include "commands.hpp"
-#include "completion.hpp"
 #include "exit_code.hpp"
 #include "help_texts.hpp"
-#include "manual.hpp"
+#include "installed_texts.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
@@ -84,33 +83,6 @@ struct Arguments {
     std::string info;
     std::string verify;
 };
-
-/// What --help shows of a command.
-CommandWords words_of(const CLI::App& command)
-{
-    CommandWords words{command.get_name(), command.get_description(), command.get_footer(), {}, {}};
-    for (const CLI::Option* option : command.get_options()) {
-        OptionWords& shown = words.options.emplace_back();
-        for (const std::string& name : option->get_snames()) {
-            shown.names.push_back(fmt::format("-{}", name));
-        }
-        for (const std::string& name : option->get_lnames()) {
-            shown.names.push_back(fmt::format("--{}", name));
-        }
-        // The type is followed by a colon and the values that are allowed.
-        const std::string type = option->get_type_name();
-        shown.value = option->get_positional()          ? option->get_name(true)
-                      : option->get_expected_max() == 0 ? ""
-                                                        : type.substr(type.find(':') + 1);
-        shown.description = option->get_description();
-        shown.standard = option->get_default_str();
-        shown.required = option->get_required();
-    }
-    for (const CLI::App* subcommand : command.get_subcommands({})) {
-        words.subcommands.push_back(words_of(*subcommand));
-    }
-    return words;
-}
 
 [[noreturn]] void refuse_subcommand(const CLI::App& app, const char* word)
 {
@@ -202,12 +174,10 @@ Command read_command_line(int argc, const char* const* argv)
     // For the build, which installs what they print; --help does not tell of them.
     const std::string_view only = argc == 2 ? argv[1] : "";
     if (only == "--manual" || only == "--bash-completion") {
-        const CommandWords words = words_of(app);
-        return {
-            .execute = [text = only == "--manual" ? manual_page(words) : bash_completion(words)] {
-                fmt::print("{}", text);
-                return exit_code::complete;
-            }};
+        return {.execute = [text = only == "--manual" ? manual_page(app) : bash_completion(app)] {
+            fmt::print("{}", text);
+            return exit_code::complete;
+        }};
     }
     std::vector<const char*> given(argv, argv + argc);
     if (argc > 1 && given[1] == std::string_view("help")) { // "help run" is "run --help"

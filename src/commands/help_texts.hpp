@@ -1,4 +1,5 @@
-// What --help shows below the options of each subcommand, and of overturn itself.
+// What --help shows below the options of each subcommand, and of overturn itself, and what the
+// manual page says besides.
 #pragma once
 
 namespace overturn::help {
@@ -67,3 +68,44 @@ done. Exit code 0: all that is done is as it was written; 74: something is not. 
 computes damaged tiles again.)";
 
 } // namespace overturn::help
+
+namespace overturn::manual {
+
+/// Of these words. The day of the build would make equal sources give other bytes.
+inline constexpr const char* date_of_words = "2026-11-21";
+
+inline constexpr const char* description =
+    R"(A rigid block standing free on the ground rocks when the ground shakes, and may overturn. An
+overturning spectrum shows, for every pulse frequency and amplitude, what becomes of the block.
+overturn computes such spectra, alone or under mpirun, into one HDF5 file that h5py and xarray open as
+it is. What to compute is said by a job file, in TOML.)";
+
+inline constexpr const char* files = R"(Beside the folder of the program:
+
+  ../share/overturn/jobs        jobs to begin with
+  ../share/overturn/jobs/slurm  batch scripts that go on until a file is complete
+  ../share/overturn/tools       the Python tools
+  ../share/doc/overturn         documentation: job files, result files, accuracy
+  ../include/overturn           the physics for C++ programs: find_package(overturn)
+
+OUT.h5.json beside a result file OUT.h5 tells of hosts, times and libraries.)";
+
+inline constexpr const char* tools =
+    R"(In the examples tools/plot_history stands for overturn-plot-history, and so on. Each has --help.
+
+  overturn-plot-spectrum   draws a spectrum: which region each block ends in
+  overturn-plot-boundary   draws where verdicts flip
+  overturn-plot-history    draws one block over time
+  overturn-plot-accuracy   draws what accuracy costs in time
+  overturn-plot-landing    draws where each pulse lands its block in phase space
+  overturn-plot-phase      draws the regions in phase space
+  overturn-join-spectra    joins spectra that differ in slenderness
+  overturn-to-csv          writes a spectrum as a table
+  overturn-to-xdmf         writes what ParaView needs to open a result file)";
+
+inline constexpr const char* environment =
+    R"(Open MPI starts ranks as root only if OMPI_ALLOW_RUN_AS_ROOT and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM
+are 1. The batch scripts look for the program and for each other in the folder that OVERTURN_CHECKOUT names;
+of an installed overturn that is ../share/overturn.)";
+
+} // namespace overturn::manual
