@@ -73,6 +73,11 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
         ->capture_default_str();
 }
 
+CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& path)
+{
+    return command.add_option(name, path, "The result file")->required();
+}
+
 /// Everything that the options are parsed into: it must live as long as the parser.
 struct Arguments {
     RunOptions run;
@@ -83,6 +88,14 @@ struct Arguments {
     std::string info;
     std::string verify;
 };
+
+Command to_print(const std::string& text)
+{
+    return {.execute = [text] {
+        fmt::print("{}", text);
+        return exit_code::complete;
+    }};
+}
 
 [[noreturn]] void refuse_subcommand(const CLI::App& app, const char* word)
 {
@@ -105,79 +118,85 @@ Command read_command_line(int argc, const char* const* argv)
     app.set_version_flag("--version", version_text);
     const auto arguments = std::make_shared<Arguments>();
 
-    CLI::App* const run_command = app.add_subcommand(
-        "run", "Compute a spectrum, alone or under mpirun; resume an unfinished one");
-    run_command->footer(help::run);
-    add_run_arguments(*run_command, arguments->run, "JOB.h5");
+    Command chosen;
+    const auto add_command = [&](const char* name, const char* description, const char* footer,
+                                 auto* execute, const auto& options) {
+        CLI::App* const command = app.add_subcommand(name, description);
+        command->footer(footer);
+        command->callback([&, execute] {
+            chosen.execute = [arguments, execute, &options] { return execute(options); };
+        });
+        return command;
+    };
 
-    CLI::App* const boundary_command = app.add_subcommand(
-        "boundary", "Find all amplitudes at which verdicts flip, alone or under mpirun");
-    boundary_command->footer(help::boundary);
-    arguments->boundary.boundary = true;
-    add_run_arguments(*boundary_command, arguments->boundary, "JOB_boundary.h5");
+    RunOptions& run_options = arguments->run;
+    CLI::App* const run_command =
+        add_command("run", "Compute a spectrum, alone or under mpirun; resume an unfinished one",
+                    help::run, run, run_options);
+    add_run_arguments(*run_command, run_options, "JOB.h5");
 
-    CLI::App* const check_command = app.add_subcommand(
-        "check", "Validate a job; tell its points, bytes and time; write nothing");
-    check_command->footer(help::check);
+    RunOptions& boundary_options = arguments->boundary;
+    boundary_options.boundary = true;
+    CLI::App* const boundary_command =
+        add_command("boundary", "Find all amplitudes at which verdicts flip, alone or under mpirun",
+                    help::boundary, run, boundary_options);
+    add_run_arguments(*boundary_command, boundary_options, "JOB_boundary.h5");
+
+    CLI::App* const check_command =
+        add_command("check", "Validate a job; tell its points, bytes and time; write nothing",
+                    help::check, check, arguments->check);
     add_job_arguments(*check_command, arguments->check);
 
+    AccuracyOptions& accuracy_options = arguments->accuracy;
     CLI::App* const accuracy_command =
-        app.add_subcommand("accuracy", "Measure what accuracy costs in time on a job's plane");
-    accuracy_command->footer(help::accuracy);
-    add_job_arguments(*accuracy_command, arguments->accuracy.job);
-    accuracy_command->add_option("-o,--output", arguments->accuracy.output, "The result file")
-        ->type_name("OUT.h5")
-        ->required();
+        add_command("accuracy", "Measure what accuracy costs in time on a job's plane",
+                    help::accuracy, accuracy, accuracy_options);
+    add_job_arguments(*accuracy_command, accuracy_options.job);
+    add_result_file(*accuracy_command, "-o,--output", accuracy_options.output)->type_name("OUT.h5");
     accuracy_command
-        ->add_option("--points", arguments->accuracy.points,
+        ->add_option("--points", accuracy_options.points,
                      "Points of the sample, at most: times and verdicts")
         ->check(CLI::Range(16, 10000000))
         ->capture_default_str();
     accuracy_command
-        ->add_option("--digits", arguments->accuracy.digits,
+        ->add_option("--digits", accuracy_options.digits,
                      "Points of the sample in 50 digits: errors")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 
-    CLI::App* const history_command = app.add_subcommand(
-        "history", "Follow one block, forced and free: angle, velocity, impacts over time");
-    history_command->footer(help::history);
-    add_job_arguments(*history_command, arguments->history.job);
+    HistoryOptions& history_options = arguments->history;
+    CLI::App* const history_command = add_command(
+        "history", "Follow one block, forced and free: angle, velocity, impacts over time",
+        help::history, history, history_options);
+    add_job_arguments(*history_command, history_options.job);
     history_command
-        ->add_option("--at", arguments->history.at,
+        ->add_option("--at", history_options.at,
                      "The point, where the job's axes have several values; any value will do")
         ->type_name("AXIS=VALUE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
-    history_command->add_option("-o,--output", arguments->history.output, "The result file")
-        ->type_name("OUT.h5")
-        ->required();
+    add_result_file(*history_command, "-o,--output", history_options.output)->type_name("OUT.h5");
     history_command
-        ->add_option("--until", arguments->history.until,
+        ->add_option("--until", history_options.until,
                      "Last time to show [1/p]; without it until the block rests or lies, or 60/p "
                      "after the pulse")
         ->check(CLI::PositiveNumber);
     history_command
-        ->add_option("--samples", arguments->history.samples, "Evenly spread times, beside events")
+        ->add_option("--samples", history_options.samples, "Evenly spread times, beside events")
         ->check(CLI::Range(2, 10000000))
         ->capture_default_str();
 
-    CLI::App* const info_command = app.add_subcommand("info", "Tell what a result file holds");
-    info_command->footer(help::info);
-    info_command->add_option("FILE", arguments->info, "The result file")->required();
-
-    CLI::App* const verify_command =
-        app.add_subcommand("verify", "Tell whether a result file is as it was written");
-    verify_command->footer(help::verify);
-    verify_command->add_option("FILE", arguments->verify, "The result file")->required();
+    add_result_file(
+        *add_command("info", "Tell what a result file holds", help::info, info, arguments->info),
+        "FILE", arguments->info);
+    add_result_file(*add_command("verify", "Tell whether a result file is as it was written",
+                                 help::verify, verify, arguments->verify),
+                    "FILE", arguments->verify);
 
     // For the build, which installs what they print; --help does not tell of them.
     const std::string_view only = argc == 2 ? argv[1] : "";
     if (only == "--manual" || only == "--bash-completion") {
-        return {.execute = [text = only == "--manual" ? manual_page(app) : bash_completion(app)] {
-            fmt::print("{}", text);
-            return exit_code::complete;
-        }};
+        return to_print(only == "--manual" ? manual_page(app) : bash_completion(app));
     }
     std::vector<const char*> given(argv, argv + argc);
     if (argc > 1 && given[1] == std::string_view("help")) { // "help run" is "run --help"
@@ -193,32 +212,12 @@ Command read_command_line(int argc, const char* const* argv)
     } catch (const CLI::Success& asked) { // for help or the version
         std::ostringstream answer;
         app.exit(asked, answer);
-        return {.execute = [text = answer.str()] {
-            fmt::print("{}", text);
-            return exit_code::complete;
-        }};
+        return to_print(answer.str());
     } catch (const CLI::ParseError& error) {
         throw UsageError(fmt::format("{}\nRun with --help for more information.", error.what()));
     }
-    if (run_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->run); }, .on_every_rank = true};
-    }
-    if (boundary_command->parsed()) {
-        return {.execute = [arguments] { return run(arguments->boundary); }, .on_every_rank = true};
-    }
-    if (check_command->parsed()) {
-        return {.execute = [arguments] { return check(arguments->check); }};
-    }
-    if (accuracy_command->parsed()) {
-        return {.execute = [arguments] { return accuracy(arguments->accuracy); }};
-    }
-    if (history_command->parsed()) {
-        return {.execute = [arguments] { return history(arguments->history); }};
-    }
-    if (verify_command->parsed()) {
-        return {.execute = [arguments] { return verify(arguments->verify); }};
-    }
-    return {.execute = [arguments] { return info(arguments->info); }};
+    chosen.on_every_rank = run_command->parsed() || boundary_command->parsed();
+    return chosen;
 }
 
 } // namespace overturn
