@@ -1,6 +1,6 @@
 #include "hdf5_handles.hpp"
 
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 
 namespace overturn::hdf5 {
 

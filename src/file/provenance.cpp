@@ -1,8 +1,8 @@
 #include "overturn/file/provenance.hpp"
 
-#include "part_file.hpp"
+#include "operating_system.hpp"
 #include "program_identity.hpp"
-#include "system_reason.hpp"
+#include "working_file.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Whether a path names the same file on all ranks.
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 

@@ -6,10 +6,9 @@
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "netcdf.hpp"
-#include "part_file.hpp"
-#include "sync.hpp"
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 #include "tile_access.hpp"
+#include "working_file.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"

@@ -1,6 +1,6 @@
 #include "overturn/file/sole_writer.hpp"
 
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 #include "working_file.hpp"
 
 #include <fmt/format.h>

@@ -2,8 +2,7 @@
 
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
-#include "sync.hpp"
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 #include "tile_access.hpp"
 #include "tile_checksum.hpp"
 

@@ -3,7 +3,7 @@
 #include "attributes.hpp"
 #include "coordinates.hpp"
 #include "layout.hpp"
-#include "system_reason.hpp"
+#include "operating_system.hpp"
 #include "tile_access.hpp"
 
 #include "overturn/file/file_error.hpp"

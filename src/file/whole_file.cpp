@@ -1,6 +1,6 @@
 #include "whole_file.hpp"
 
-#include "part_file.hpp"
+#include "working_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,8 @@
-#include "sync.hpp"
+#include "operating_system.hpp"
 
+#include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <unistd.h>
@@ -19,6 +21,19 @@ bool sync(const std::string& path)
     errno = reason;
     // Some file systems cannot sync a folder, and say so with EINVAL.
     return result == 0 || (reason == EINVAL && std::filesystem::is_directory(path));
+}
+
+std::string in_sentence(std::string message)
+{
+    if (message.size() > 1 && std::islower(static_cast<unsigned char>(message[1]))) {
+        message[0] = char(std::tolower(static_cast<unsigned char>(message[0])));
+    }
+    return message;
+}
+
+std::string system_reason(int error_number)
+{
+    return in_sentence(std::strerror(error_number));
 }
 
 } // namespace overturn
