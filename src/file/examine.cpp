@@ -2,7 +2,7 @@
 
 #include "layout.hpp"
 #include "stored_spectrum.hpp"
-#include "tile_checksum.hpp"
+#include "tile_access.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"

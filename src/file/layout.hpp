@@ -53,20 +53,12 @@ struct StoredAs {
 
 inline StoredAs stored_as(Field field)
 {
-    switch (field) {
-    case Field::region:
-    case Field::status:
-    case Field::region_below:
-    case Field::region_above:
-        return {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed};
-    case Field::steps:
-        return {H5T_STD_U32LE, H5T_NATIVE_UINT32, "uint32", step_count::not_computed};
-    case Field::impacts:
-        return {H5T_STD_U16LE, H5T_NATIVE_UINT16, "uint16", impact_count::not_computed};
-    default:
-        return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, "float64",
-                std::numeric_limits<double>::quiet_NaN()};
-    }
+    const StoredAs by_type[std::variant_size_v<FieldValues>] = {
+        {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed},
+        {H5T_STD_U16LE, H5T_NATIVE_UINT16, "uint16", impact_count::not_computed},
+        {H5T_STD_U32LE, H5T_NATIVE_UINT32, "uint32", step_count::not_computed},
+        {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, "float64", std::numeric_limits<double>::quiet_NaN()}};
+    return by_type[make_field_values(field, 0).index()];
 }
 
 } // namespace overturn::layout

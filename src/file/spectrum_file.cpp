@@ -4,7 +4,6 @@
 #include "layout.hpp"
 #include "operating_system.hpp"
 #include "tile_access.hpp"
-#include "tile_checksum.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "layout.hpp"
 #include "stored_spectrum.hpp"
 #include "tile_access.hpp"
-#include "tile_checksum.hpp"
 
 #include "overturn/file/spectrum_summary.hpp"
 #include "overturn/mechanics/region.hpp"

@@ -1,4 +1,5 @@
-// The values of one tile in a dataset of the result file, and the checksums of all.
+// The values of one tile in a dataset of the result file, and the checksums of all: a checksum
+// marks a tile as done.
 #pragma once
 
 #include "hdf5_handles.hpp"
@@ -19,6 +20,12 @@ void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values);
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
+
+inline constexpr std::uint64_t not_computed_checksum = 0;
+
+/// xxHash64, seed 0, over the values of the tile as stored (little endian), field by field in the
+/// given order. A hash of 0 becomes 1, since 0 means "not computed".
+std::uint64_t tile_checksum(const std::vector<FieldValues>& fields);
 
 void write_checksum(hid_t dataset, std::int64_t tile, std::uint64_t checksum);
 std::vector<std::uint64_t> read_checksums(hid_t dataset);

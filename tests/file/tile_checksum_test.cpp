@@ -1,4 +1,4 @@
-#include "tile_checksum.hpp"
+#include "tile_access.hpp"
 
 #include <gtest/gtest.h>
 
