@@ -3,25 +3,43 @@
 #include "layout.hpp"
 #include "whole_file.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
+#include <functional>
 #include <numeric>
 
 namespace overturn {
 
 namespace {
 
-using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
 constexpr const char* kind = layout::accuracy_kind;
 constexpr char setting[] = "setting";
 
-Handle open(hid_t file, const char* name)
+/// Numbers along one dimension.
+template <class Values>
+void add_list(hid_t file, const char* name, const char* dimension, const Values& values,
+              const char* long_name)
 {
-    return Handle(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    add_variable(file, {name,
+                        {dimension},
+                        {values.size()},
+                        std::vector<double>(values.begin(), values.end()),
+                        long_name,
+                        "1"});
+}
+
+void add_coordinates(hid_t file, const std::vector<AccuracyRow>& rows)
+{
+    add_bare_dimension(file, setting, std::int64_t(rows.size()));
+    add_list(file, "quantile", "quantile", error_quantiles,
+             "share of the points with at most this error");
+    std::vector<std::uint8_t> regions(region_names.size());
+    std::iota(regions.begin(), regions.end(), std::uint8_t(0));
+    add_codes(file, "region", "region", regions,
+              "region of the block's state at the end of the pulse", region_names);
+    add_list(file, "distance", "distance", distance_limits, "class of |margin|: below this");
 }
 
 /// A table with one row per setting.
@@ -29,74 +47,34 @@ class Table {
 public:
     Table(hid_t file, const std::vector<AccuracyRow>& rows) : file_(file), rows_(rows) {}
 
+    /// A column, of a member or of what a function makes of a row.
     template <class Value>
     void add(const char* name, const char* long_name, const char* units, const Value& value) const
     {
         std::vector<double> values;
         for (const AccuracyRow& row : rows_) {
-            values.push_back(double(value(row)));
+            values.push_back(double(std::invoke(value, row)));
         }
-        add_numbers(file_, name, {rows_.size()}, values, long_name, units);
-        attach_dimensions(file_, open(file_, name), std::array{setting});
+        add_variable(file_, {name, {setting}, {rows_.size()}, values, long_name, units});
     }
 
-    template <class Values>
+    /// Columns along a further dimension.
+    template <class Number, std::size_t columns>
     void add(const char* name, const char* dimension, const char* long_name, const char* units,
-             const Values& values_of) const
+             std::array<Number, columns> AccuracyRow::*member) const
     {
         std::vector<double> values;
-        std::size_t columns = 0;
         for (const AccuracyRow& row : rows_) {
-            columns = values_of(row).size();
-            values.insert(values.end(), values_of(row).begin(), values_of(row).end());
+            values.insert(values.end(), (row.*member).begin(), (row.*member).end());
         }
-        add_numbers(file_, name, {rows_.size(), columns}, values, long_name, units);
-        attach_dimensions(file_, open(file_, name), std::array{setting, dimension});
+        add_variable(
+            file_, {name, {setting, dimension}, {rows_.size(), columns}, values, long_name, units});
     }
 
 private:
     hid_t file_;
     const std::vector<AccuracyRow>& rows_;
 };
-
-template <class Values>
-void add_coordinate(hid_t file, const char* name, const Values& values, const char* long_name)
-{
-    add_numbers(file, name, {values.size()}, std::vector<double>(values.begin(), values.end()),
-                long_name, "1");
-    make_dimension(file, name);
-}
-
-template <class Counts>
-void add_counts(hid_t file, const char* name, const char* dimension, const Counts& counts,
-                const char* long_name)
-{
-    add_numbers(file, name, {counts.size()}, std::vector<double>(counts.begin(), counts.end()),
-                long_name, "1");
-    attach_dimensions(file, open(file, name), std::array{dimension});
-}
-
-void add_regions(hid_t file)
-{
-    std::vector<std::uint8_t> codes(decided_regions);
-    std::iota(codes.begin(), codes.end(), std::uint8_t(0));
-    const Handle regions =
-        create_dataset(file, "region", H5T_STD_U8LE, {codes.size()}, dataset_creation());
-    hdf5::check(H5Dwrite(regions, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, codes.data()));
-    write_attribute(regions, "long_name", "region of the block's state at the end of the pulse");
-    write_attribute(regions, "flag_values", codes);
-    write_attribute(regions, "flag_meanings", fmt::format("{}", fmt::join(region_names, " ")));
-    make_dimension(file, "region");
-}
-
-void add_coordinates(hid_t file, const std::vector<AccuracyRow>& rows)
-{
-    add_bare_dimension(file, setting, std::int64_t(rows.size()));
-    add_coordinate(file, "quantile", error_quantiles,
-                   "share of the points with at most this error");
-    add_regions(file);
-    add_coordinate(file, "distance", distance_limits, "class of |margin|: below this");
-}
 
 void add_settings(const Table& table)
 {
@@ -110,30 +88,28 @@ void add_settings(const Table& table)
 
 void add_results(const Table& table)
 {
+    using Row = AccuracyRow;
     table.add("seconds_per_point", "time per point on one core, of regions alone", "s",
-              [](const AccuracyRow& row) { return row.seconds_per_point; });
-    table.add("steps", "steps tried per point", "1",
-              [](const AccuracyRow& row) { return row.steps; });
+              &Row::seconds_per_point);
+    table.add("steps", "steps tried per point", "1", &Row::steps);
     table.add("evaluations", "evaluations per point, of the acceleration or of its series", "1",
-              [](const AccuracyRow& row) { return row.evaluations; });
+              &Row::evaluations);
     table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
-              [](const AccuracyRow& row) -> auto& { return row.angle; });
+              &Row::angle);
     table.add("velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
-              [](const AccuracyRow& row) -> auto& { return row.velocity; });
+              &Row::velocity);
     table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
-              [](const AccuracyRow& row) -> auto& { return row.margin; });
-    table.add("flips", "points whose verdict is wrong", "1",
-              [](const AccuracyRow& row) { return row.flips; });
+              &Row::margin);
+    table.add("flips", "points whose verdict is wrong", "1", &Row::flips);
     table.add("flips_by_region", "region", "points of the region whose verdict is wrong", "1",
-              [](const AccuracyRow& row) -> auto& { return row.flips_by_region; });
+              &Row::flips_by_region);
     table.add("flips_by_distance", "distance", "points of the class whose verdict is wrong", "1",
-              [](const AccuracyRow& row) -> auto& { return row.flips_by_distance; });
-    table.add("undecided", "points without a verdict", "1",
-              [](const AccuracyRow& row) { return row.undecided; });
+              &Row::flips_by_distance);
+    table.add("undecided", "points without a verdict", "1", &Row::undecided);
     table.add("bound_exceeded", "share of the points whose error of the margin exceeds its bound",
-              "1", [](const AccuracyRow& row) { return row.bound_exceeded; });
+              "1", &Row::bound_exceeded);
     table.add("bound_over_error", "median of the bound over the error of the margin", "1",
-              [](const AccuracyRow& row) { return row.bound_over_error; });
+              &Row::bound_over_error);
 }
 
 void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
@@ -145,8 +121,8 @@ void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyR
     const Table table(file, rows);
     add_settings(table);
     add_results(table);
-    add_counts(file, "points_by_region", "region", sample.by_region, "points of the region");
-    add_counts(file, "points_by_distance", "distance", sample.by_distance, "points of the class");
+    add_list(file, "points_by_region", "region", sample.by_region, "points of the region");
+    add_list(file, "points_by_distance", "distance", sample.by_distance, "points of the class");
 }
 
 } // namespace

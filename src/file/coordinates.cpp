@@ -19,7 +19,7 @@ Coordinate coordinate_of(const Dimension& dimension)
     const auto* range = std::get_if<AxisRange>(&axis.definition());
     const bool is_log = range != nullptr && range->spacing == Spacing::log;
     const double roundings = is_log ? of_one_function : exact;
-    return {name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units, roundings};
+    return {{name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units}, roundings};
 }
 
 Coordinate restitution_ratio(const Plane& plane)
@@ -30,12 +30,12 @@ Coordinate restitution_ratio(const Plane& plane)
             values.push_back(plane.restitution_ratio(i, j));
         }
     }
-    return {layout::restitution_ratio,
-            {"slenderness", "restitution"},
-            {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
-            std::move(values),
-            "energy ratio at an impact, r",
-            "1",
+    return {{layout::restitution_ratio,
+             {"slenderness", "restitution"},
+             {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
+             std::move(values),
+             "energy ratio at an impact, r",
+             "1"},
             plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
 }
 
@@ -47,12 +47,12 @@ Coordinate pulse_period(const Plane& plane)
     for (const double frequency : plane.frequency.values()) {
         periods.push_back(2 * std::numbers::pi / (frequency * p));
     }
-    return {layout::pulse_period,
-            {"frequency"},
-            {periods.size()},
-            periods,
-            "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2",
-            "s",
+    return {{layout::pulse_period,
+             {"frequency"},
+             {periods.size()},
+             periods,
+             "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2",
+             "s"},
             of_several};
 }
 
@@ -64,12 +64,12 @@ Coordinate peak_ground_acceleration(const Job& job)
     for (const double amplitude : job.plane.amplitude.values()) {
         accelerations.push_back(amplitude * threshold);
     }
-    return {layout::peak_ground_acceleration,
-            {"amplitude"},
-            {accelerations.size()},
-            accelerations,
-            "peak ground acceleration, over g",
-            "1",
+    return {{layout::peak_ground_acceleration,
+             {"amplitude"},
+             {accelerations.size()},
+             accelerations,
+             "peak ground acceleration, over g",
+             "1"},
             of_several};
 }
 

@@ -2,26 +2,18 @@
 // against when it is read back.
 #pragma once
 
-#include "overturn/job/job.hpp"
+#include "netcdf.hpp"
 
-#include <hdf5.h>
+#include "overturn/job/job.hpp"
 
 #include <vector>
 
 namespace overturn {
 
-struct Coordinate {
-    const char* name;
-    std::vector<const char*> dimensions; ///< slowest first; its own name: it is a dimension itself
-    std::vector<hsize_t> shape;
-    std::vector<double> values; ///< in `units`
-    const char* long_name;
-    const char* units;
+struct Coordinate : netcdf::Variable {
     /// What the C libraries of two machines may make of it, in units of its last place: where no
     /// function of theirs takes part, nothing.
-    double roundings;
-
-    bool is_dimension() const { return dimensions.front() == name; }
+    double roundings = 0;
 };
 
 /// A dimension of every field; it has a coordinate variable of its name.

@@ -54,4 +54,14 @@ Handle file_access()
     return access;
 }
 
+Handle open_to_read(const std::string& path)
+{
+    return Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose);
+}
+
+Handle open_dataset(hid_t file, std::string_view name)
+{
+    return Handle(H5Dopen2(file, std::string(name).c_str(), H5P_DEFAULT), H5Dclose);
+}
+
 } // namespace overturn::hdf5

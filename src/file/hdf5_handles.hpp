@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace overturn::hdf5 {
@@ -75,5 +76,8 @@ private:
 
 /// Access to a file without locks, which network file systems often lack.
 Handle file_access();
+
+Handle open_to_read(const std::string& path);
+Handle open_dataset(hid_t file, std::string_view name);
 
 } // namespace overturn::hdf5

@@ -3,16 +3,12 @@
 #include "layout.hpp"
 #include "whole_file.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <string>
 
 namespace overturn {
 
 namespace {
 
-using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
@@ -26,6 +22,8 @@ struct Quantity {
     double HistorySample::*value;
 };
 
+constexpr Quantity time_of_sample{"time", "tau = p t since the beginning of the pulse", "1",
+                                  &HistorySample::time};
 constexpr Quantity quantities[] = {
     {"angle", "theta", "rad", &HistorySample::angle},
     {"velocity", "theta' = d theta / d tau, tau = p t", "rad", &HistorySample::velocity},
@@ -36,90 +34,46 @@ constexpr Quantity quantities[] = {
     {"ground", "acceleration of the ground over g", "1", &HistorySample::ground},
 };
 
-/// Variables along one dimension.
-class Along {
-public:
-    Along(hid_t file, const char* dimension, std::size_t length)
-        : file_(file), dimension_(dimension)
-    {
-        add_bare_dimension(file, dimension, std::int64_t(length));
-    }
-
-    void add(const std::string& name, const std::vector<double>& values, const char* long_name,
-             const char* units) const
-    {
-        add_numbers(file_, name.c_str(), {values.size()}, values, long_name, units);
-        attach(name);
-    }
-
-    void attach(const std::string& name) const
-    {
-        const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-        attach_dimensions(file_, dataset, std::array{dimension_});
-    }
-
-private:
-    hid_t file_;
-    const char* dimension_;
-};
-
-template <class Rows, class Value>
-std::vector<double> column(const Rows& rows, const Value& value)
+/// `when` completes the long name of the quantity.
+void add_quantity(hid_t file, const char* dimension, const std::string& name,
+                  const Quantity& quantity, const std::vector<HistorySample>& samples,
+                  const std::string& when = "")
 {
     std::vector<double> values;
-    for (const auto& row : rows) {
-        values.push_back(value(row));
+    for (const HistorySample& sample : samples) {
+        values.push_back(sample.*quantity.value);
     }
-    return values;
+    add_variable(
+        file,
+        {name, {dimension}, {values.size()}, values, quantity.long_name + when, quantity.units});
 }
 
 void add_samples(hid_t file, const std::vector<HistorySample>& samples)
 {
-    const Along along(file, "sample", samples.size());
-    along.add("time", column(samples, [](const auto& sample) { return sample.time; }),
-              "tau = p t since the beginning of the pulse", "1");
+    add_bare_dimension(file, "sample", std::int64_t(samples.size()));
+    add_quantity(file, "sample", time_of_sample.name, time_of_sample, samples);
     for (const Quantity& quantity : quantities) {
-        along.add(quantity.name,
-                  column(samples, [&](const auto& sample) { return sample.*quantity.value; }),
-                  quantity.long_name, quantity.units);
+        add_quantity(file, "sample", quantity.name, quantity, samples);
     }
-}
-
-void add_event_kinds(hid_t file, const std::vector<HistoryEvent>& events)
-{
-    std::vector<std::uint8_t> codes;
-    for (const HistoryEvent& event : events) {
-        codes.push_back(std::uint8_t(event.kind));
-    }
-    const Handle kinds =
-        create_dataset(file, "event_kind", H5T_STD_U8LE, {codes.size()}, dataset_creation());
-    hdf5::check(H5Dwrite(kinds, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, codes.data()));
-    std::vector<std::uint8_t> all;
-    for (std::size_t i = 0; i < event_names.size(); ++i) {
-        all.push_back(std::uint8_t(i));
-    }
-    write_attribute(kinds, "long_name", "what happens");
-    write_attribute(kinds, "flag_values", all);
-    write_attribute(kinds, "flag_meanings", fmt::format("{}", fmt::join(event_names, " ")));
 }
 
 void add_events(hid_t file, const std::vector<HistoryEvent>& events)
 {
-    const Along along(file, "event", events.size());
-    along.add("event_time", column(events, [](const auto& event) { return event.after.time; }),
-              "tau = p t since the beginning of the pulse", "1");
-    add_event_kinds(file, events);
-    along.attach("event_kind");
+    std::vector<HistorySample> before;
+    std::vector<HistorySample> after;
+    std::vector<std::uint8_t> kinds;
+    for (const HistoryEvent& event : events) {
+        before.push_back(event.before);
+        after.push_back(event.after);
+        kinds.push_back(std::uint8_t(event.kind));
+    }
+    add_bare_dimension(file, "event", std::int64_t(events.size()));
+    add_quantity(file, "event", "event_time", time_of_sample, after);
+    add_codes(file, "event_kind", "event", kinds, "what happens", event_names);
     for (const Quantity& quantity : quantities) {
-        const std::string name = quantity.name;
-        along.add("event_" + name + "_before",
-                  column(events, [&](const auto& event) { return event.before.*quantity.value; }),
-                  (std::string(quantity.long_name) + ", just before the event").c_str(),
-                  quantity.units);
-        along.add("event_" + name + "_after",
-                  column(events, [&](const auto& event) { return event.after.*quantity.value; }),
-                  (std::string(quantity.long_name) + ", just after the event").c_str(),
-                  quantity.units);
+        const std::string name = std::string("event_") + quantity.name;
+        add_quantity(file, "event", name + "_before", quantity, before, ", just before the event");
+        add_quantity(file, "event", name + "_after", quantity, after, ", just after the event");
     }
 }
 

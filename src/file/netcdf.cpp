@@ -5,14 +5,17 @@
 #include "overturn/file/provenance.hpp"
 
 #include <fmt/format.h>
+#include <hdf5_hl.h>
 
-#include <array>
+#include <numeric>
 
 namespace overturn::netcdf {
 
 using hdf5::check;
 using hdf5::Handle;
 using hdf5::write_attribute;
+
+namespace {
 
 // Readers of netCDF-4 want attributes and links in order of creation; times would make equal runs
 // differ.
@@ -26,48 +29,9 @@ Handle file_creation()
     return creation;
 }
 
-Handle dataset_creation()
-{
-    Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    check(H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED));
-    check(H5Pset_obj_track_times(creation, false));
-    return creation;
-}
-
-Handle create_dataset(hid_t file, const char* name, hid_t type, const DatasetShape& shape,
-                      hid_t creation)
-{
-    const Handle space(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose);
-    return Handle(H5Dcreate2(file, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                  H5Dclose);
-}
-
-void add_numbers(hid_t file, const char* name, const DatasetShape& shape,
-                 const std::vector<double>& values, const char* long_name, const char* units)
-{
-    const Handle dataset = create_dataset(file, name, H5T_IEEE_F64LE, shape, dataset_creation());
-    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-    write_attribute(dataset, "long_name", long_name);
-    write_attribute(dataset, "units", units);
-}
-
-void make_dimension(hid_t file, const char* name)
-{
-    const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-    check(H5DSset_scale(dataset, name));
-}
-
-void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length)
-{
-    const Handle creation = dataset_creation();
-    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
-    const Handle dataset =
-        create_dataset(file, name.c_str(), H5T_IEEE_F32BE, {hsize_t(length)}, creation);
-    const std::string mark =
-        fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", length);
-    check(H5DSset_scale(dataset, mark.c_str()));
-}
-
+/// Variables, because a compact attribute ends at 64 KiB and lists can be longer; arrays of
+/// characters, because HDF5 1.10 crashes when it reads a damaged heap of variable-length strings.
+/// An empty text is left out.
 void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
 {
     if (text.empty()) {
@@ -75,10 +39,9 @@ void add_text(hid_t file, const std::string& name, const std::string& text, cons
     }
     const std::string dimension = name + "_length";
     add_bare_dimension(file, dimension, std::int64_t(text.size()));
-    const Handle dataset =
-        create_dataset(file, name.c_str(), H5T_C_S1, {text.size()}, dataset_creation());
+    const Handle dataset = create_dataset(file, name, H5T_C_S1, {text.size()}, dataset_creation());
     check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
-    attach_dimensions(file, dataset, std::array{dimension.c_str()});
+    attach_dimensions(file, dataset, {dimension});
     write_attribute(dataset, "long_name", long_name);
     write_attribute(dataset, "_Encoding", "utf-8");
 }
@@ -113,6 +76,91 @@ void add_job(hid_t file, const Job& job)
     add_text(file, layout::job_overrides, fmt::format("{}", fmt::join(job.overrides, "\n")),
              "settings laid over the job file, one per line");
     add_text(file, layout::job_resolved, job.resolved, "job as resolved, with every default");
+}
+
+/// A variable that is a dimension itself has no other.
+void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name,
+                              const std::vector<std::string>& dimensions)
+{
+    if (dimensions.front() == name) {
+        check(H5DSset_scale(dataset, name.c_str()));
+    } else {
+        attach_dimensions(file, dataset, dimensions);
+    }
+}
+
+} // namespace
+
+Handle dataset_creation()
+{
+    Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    check(H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED));
+    check(H5Pset_obj_track_times(creation, false));
+    return creation;
+}
+
+Handle create_dataset(hid_t file, const std::string& name, hid_t type, const DatasetShape& shape,
+                      hid_t creation)
+{
+    const Handle space(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose);
+    return Handle(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                  H5Dclose);
+}
+
+void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>& names)
+{
+    unsigned position = 0;
+    for (const std::string& name : names) {
+        check(H5DSattach_scale(dataset, hdf5::open_dataset(file, name), position++));
+    }
+}
+
+void add_variable(hid_t file, const Variable& variable)
+{
+    const Handle dataset =
+        create_dataset(file, variable.name, H5T_IEEE_F64LE, variable.shape, dataset_creation());
+    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                   variable.values.data()));
+    write_attribute(dataset, "long_name", variable.long_name);
+    write_attribute(dataset, "units", variable.units);
+    attach_or_make_dimension(file, dataset, variable.name, variable.dimensions);
+}
+
+void add_codes(hid_t file, const char* name, const char* dimension,
+               const std::vector<std::uint8_t>& codes, const char* long_name,
+               std::span<const std::string_view> names)
+{
+    std::vector<std::uint8_t> all(names.size());
+    std::iota(all.begin(), all.end(), std::uint8_t(0));
+    const Handle dataset =
+        create_dataset(file, name, H5T_STD_U8LE, {codes.size()}, dataset_creation());
+    check(H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, codes.data()));
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "flag_values", all);
+    write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(names, " ")));
+    attach_or_make_dimension(file, dataset, name, {dimension});
+}
+
+void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length)
+{
+    const Handle creation = dataset_creation();
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
+    const Handle dataset = create_dataset(file, name, H5T_IEEE_F32BE, {hsize_t(length)}, creation);
+    const std::string mark =
+        fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", length);
+    check(H5DSset_scale(dataset, mark.c_str()));
+}
+
+void make_file(const std::string& path, const Job& job, const char* kind,
+               const std::function<void(hid_t file)>& write)
+{
+    hdf5::start();
+    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
+                H5Fclose);
+    write_origin(file, job, kind);
+    write(file);
+    add_job(file, job);
+    file.close();
 }
 
 } // namespace overturn::netcdf

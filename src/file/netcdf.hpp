@@ -7,50 +7,51 @@
 
 #include "overturn/job/job.hpp"
 
-#include <hdf5_hl.h>
-
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace overturn::netcdf {
 
 using DatasetShape = std::vector<hsize_t>;
 
-hdf5::Handle file_creation();
-hdf5::Handle dataset_creation();
-hdf5::Handle create_dataset(hid_t file, const char* name, hid_t type, const DatasetShape& shape,
-                            hid_t creation);
+/// Numbers over named dimensions.
+struct Variable {
+    std::string name;
+    std::vector<std::string> dimensions; ///< slowest first; its own name: it is a dimension itself
+    DatasetShape shape;
+    std::vector<double> values; ///< in `units`
+    std::string long_name;
+    std::string units;
 
-/// Values over dimensions that are not attached yet.
-void add_numbers(hid_t file, const char* name, const DatasetShape& shape,
-                 const std::vector<double>& values, const char* long_name, const char* units);
+    bool is_dimension() const { return dimensions.front() == name; }
+};
 
-/// Makes the named variable the coordinate of the dimension of its name.
-void make_dimension(hid_t file, const char* name);
+/// Its dimensions are in the file already, unless it is one itself.
+void add_variable(hid_t file, const Variable& variable);
+
+/// A variable of codes, which count the names from 0, along one dimension.
+void add_codes(hid_t file, const char* name, const char* dimension,
+               const std::vector<std::uint8_t>& codes, const char* long_name,
+               std::span<const std::string_view> names);
 
 /// A dimension without a variable, in the words of netCDF-4. Its dataset takes no space.
 void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length);
 
+/// For a dataset of another type: to be followed by attach_dimensions().
+hdf5::Handle dataset_creation();
+hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
+                            const DatasetShape& shape, hid_t creation);
+
 /// Names the dimensions of a dataset, slowest first.
-template <class Names>
-void attach_dimensions(hid_t file, hid_t dataset, const Names& names)
-{
-    unsigned position = 0;
-    for (const char* name : names) {
-        const hdf5::Handle scale(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-        hdf5::check(H5DSattach_scale(dataset, scale, position++));
-    }
-}
+void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>& names);
 
-/// Variables, because a compact attribute ends at 64 KiB and lists can be longer; arrays of
-/// characters, because HDF5 1.10 crashes when it reads a damaged heap of variable-length strings.
-/// An empty text is left out.
-void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name);
-
-/// The job as given, the settings laid over it, and as resolved.
-void add_job(hid_t file, const Job& job);
-
-/// Attributes of the file: what it is, which program made it, and the scene.
-void write_origin(hid_t file, const Job& job, const char* kind);
+/// Makes a file of this kind (its attribute `kind`): what it is, which program made it and the
+/// scene, as attributes; what `write` puts into it; and the job as given, the settings laid over
+/// it, and as resolved. Throws Hdf5Error.
+void make_file(const std::string& path, const Job& job, const char* kind,
+               const std::function<void(hid_t file)>& write);
 
 } // namespace overturn::netcdf

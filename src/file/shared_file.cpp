@@ -25,8 +25,8 @@ struct Token {
 
 std::int64_t place_of_token(const std::string& path)
 {
-    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
-    const Handle dataset(H5Dopen2(file, layout::run_token, H5P_DEFAULT), H5Dclose);
+    const Handle file = hdf5::open_to_read(path);
+    const Handle dataset = hdf5::open_dataset(file, layout::run_token);
     const haddr_t place = H5Dget_offset(dataset);
     if (place == HADDR_UNDEF) {
         throw hdf5::Hdf5Error("its run_token is not stored");

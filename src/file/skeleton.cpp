@@ -10,12 +10,10 @@
 #include "tile_access.hpp"
 #include "working_file.hpp"
 
-#include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -29,25 +27,11 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-void add_coordinates(hid_t file, const std::vector<Coordinate>& coordinates)
+std::vector<std::string> names_of(const std::vector<Dimension>& dimensions)
 {
-    for (const Coordinate& coordinate : coordinates) {
-        add_numbers(file, coordinate.name, coordinate.shape, coordinate.values,
-                    coordinate.long_name, coordinate.units);
-        if (coordinate.is_dimension()) {
-            make_dimension(file, coordinate.name);
-        } else {
-            const Handle dataset(H5Dopen2(file, coordinate.name, H5P_DEFAULT), H5Dclose);
-            attach_dimensions(file, dataset, coordinate.dimensions);
-        }
-    }
-}
-
-std::vector<const char*> names_of(const std::vector<Dimension>& dimensions)
-{
-    std::vector<const char*> names;
+    std::vector<std::string> names;
     for (const Dimension& dimension : dimensions) {
-        names.push_back(dimension.name);
+        names.emplace_back(dimension.name);
     }
     return names;
 }
@@ -96,7 +80,8 @@ Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
     check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
     std::visit([&](auto fill) { check(H5Pset_fill_value(creation, stored.memory, &fill)); },
                stored.fill);
-    Handle dataset = create_dataset(file, name_of(field).data(), stored.file, shape, creation);
+    Handle dataset =
+        create_dataset(file, std::string(name_of(field)), stored.file, shape, creation);
     attach_dimensions(file, dataset, names_of(dimensions_of(job)));
     write_field_attributes(dataset, field, coordinates);
     return dataset;
@@ -123,7 +108,7 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
 {
     const Handle dataset = create_dataset(file, layout::checksum, H5T_STD_U64LE,
                                           {hsize_t(tiling.size())}, early_allocated());
-    attach_dimensions(file, dataset, std::array{layout::tile});
+    attach_dimensions(file, dataset, {layout::tile});
     write_attribute(dataset, "long_name", "checksum of the tile, 0 where it is not computed yet");
     write_attribute(dataset, "algorithm",
                     "xxHash64, seed 0, over the stored values of the tile, field by field in the "
@@ -136,12 +121,9 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
     write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
 }
 
-void write_skeleton(const std::string& path, const Job& job, const Tiling& tiling,
+void write_skeleton(hid_t file, const std::string& path, const Job& job, const Tiling& tiling,
                     const BetweenTiles& between_tiles)
 {
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
-                H5Fclose);
-    write_origin(file, job, layout::kind_of(job.product));
     if (job.product == Product::spectrum) { // a boundary settles every verdict
         write_attribute(file, "method", name_of(job.numerics.method));
         write_attribute(file, "tolerance", job.numerics.tolerance);
@@ -149,17 +131,17 @@ void write_skeleton(const std::string& path, const Job& job, const Tiling& tilin
     }
     add_run_token(file); // first, so that a limit of file sizes does not exclude it
     const std::vector<Coordinate> coordinates = coordinates_of(job);
-    add_coordinates(file, coordinates);
-    const Handle restitution(H5Dopen2(file, "restitution", H5P_DEFAULT), H5Dclose);
-    write_attribute(restitution, "of", name_of(job.plane.restitution_of));
+    for (const Coordinate& coordinate : coordinates) {
+        add_variable(file, coordinate);
+    }
+    write_attribute(hdf5::open_dataset(file, "restitution"), "of",
+                    name_of(job.plane.restitution_of));
     add_bare_dimension(file, layout::tile, tiling.size());
     for (const Field field : job.fields) {
         fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates)), field, tiling,
              path, between_tiles);
     }
     add_checksums(file, job, tiling);
-    add_job(file, job);
-    file.close();
 }
 
 } // namespace
@@ -211,8 +193,9 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
                         path, needed, available));
     }
     try {
-        hdf5::start();
-        write_skeleton(part.path(), job, tiling, between_tiles);
+        make_file(part.path(), job, layout::kind_of(job.product), [&](hid_t file) {
+            write_skeleton(file, part.path(), job, tiling, between_tiles);
+        });
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
             fmt::format("cannot create \"{}\" of {:.0f} bytes: {}. Choose another name with "

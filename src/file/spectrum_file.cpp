@@ -137,10 +137,9 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
         open_->file =
             Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, unbuffered_access(communicator)), H5Fclose);
         for (const Field field : job.fields) {
-            open_->datasets.emplace_back(H5Dopen2(open_->file, name_of(field).data(), H5P_DEFAULT),
-                                         H5Dclose);
+            open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
         }
-        open_->checksums = Handle(H5Dopen2(open_->file, layout::checksum, H5P_DEFAULT), H5Dclose);
+        open_->checksums = hdf5::open_dataset(open_->file, layout::checksum);
         if (stat(path.c_str(), &open_->as_opened) != 0) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }

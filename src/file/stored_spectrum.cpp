@@ -48,12 +48,12 @@ unsigned count_names(hid_t object)
 
 /// A dataset that lies in the file itself, under one name. HDF5 also follows links and storage into
 /// other files, to read them, and to write to them when a run goes on.
-Handle open_dataset(hid_t file, const char* name)
+Handle open_own_dataset(hid_t file, const std::string& name)
 {
     H5L_info_t link = {};
-    check(H5Lget_info(file, name, &link, H5P_DEFAULT));
+    check(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
     demand(link.type == H5L_TYPE_HARD, "a dataset is a link to elsewhere");
-    Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    Handle dataset = hdf5::open_dataset(file, name);
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
            "the values of a dataset lie in another file");
@@ -103,7 +103,7 @@ bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsiz
 
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
-    const Handle dataset = open_dataset(file, name);
+    const Handle dataset = open_own_dataset(file, name);
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == 1 && shape[0] <= bytes && is_stored(dataset, shape[0]) &&
                has_type(dataset, H5T_C_S1),
@@ -115,7 +115,7 @@ std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 
 StoredAxis read_axis(hid_t file, const char* name, std::uint64_t bytes)
 {
-    const Handle dataset = open_dataset(file, name);
+    const Handle dataset = open_own_dataset(file, name);
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == 1 && shape[0] >= 1 && shape[0] <= bytes / sizeof(double) &&
                is_stored(dataset, shape[0] * sizeof(double)) && has_type(dataset, H5T_IEEE_F64LE),
@@ -148,7 +148,7 @@ std::vector<Field> read_fields(hid_t file)
 
 void check_field(const StoredSpectrum& spectrum, Field field)
 {
-    const Handle dataset = open_dataset(spectrum.file, name_of(field).data());
+    const Handle dataset = open_own_dataset(spectrum.file, std::string(name_of(field)));
     const std::vector<hsize_t> shape = shape_of(dataset);
     demand(shape.size() == spectrum.axes.size() && has_type(dataset, layout::stored_as(field).file),
            "a field is malformed");
@@ -165,7 +165,7 @@ void check_field(const StoredSpectrum& spectrum, Field field)
 /// The names of the dimensions, slowest first. Files of the first format had four.
 std::vector<std::string> read_dimensions(const StoredSpectrum& spectrum)
 {
-    const Handle checksums = open_dataset(spectrum.file, layout::checksum);
+    const Handle checksums = open_own_dataset(spectrum.file, layout::checksum);
     std::istringstream words(hdf5::read_text_attribute(checksums, layout::dimensions));
     std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
     if (spectrum.format == 1) {
@@ -187,7 +187,7 @@ Shape read_tile_shape(hid_t checksums)
 
 void read_checksums_of_tiles(StoredSpectrum& spectrum)
 {
-    const Handle dataset = open_dataset(spectrum.file, layout::checksum);
+    const Handle dataset = open_own_dataset(spectrum.file, layout::checksum);
     spectrum.tile_shape = read_tile_shape(dataset);
     const Shape& tile = spectrum.tile_shape;
     demand(tile.size() == spectrum.axes.size() &&
@@ -208,7 +208,7 @@ StoredFile read_origin(const std::string& path, FileKind last, const char* wante
     StoredFile stored;
     stored.path = path;
     stored.bytes = std::filesystem::file_size(path);
-    stored.file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
+    stored.file = hdf5::open_to_read(path);
     const std::string kind = hdf5::read_text_attribute(stored.file, "kind");
     stored.kind = FileKind(std::find(layout::kinds.begin(), layout::kinds.end(), kind) -
                            layout::kinds.begin());
@@ -251,8 +251,8 @@ StoredSpectrum read_spectrum(const std::string& path)
 /// In the words of HDF5.
 std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
 {
-    const auto has_shape = [&](const char* name, const std::vector<hsize_t>& shape) {
-        const Handle dataset = open_dataset(stored.file, name);
+    const auto has_shape = [&](const std::string& name, const std::vector<hsize_t>& shape) {
+        const Handle dataset = open_own_dataset(stored.file, name);
         return shape_of(dataset) == shape && has_type(dataset, H5T_IEEE_F64LE);
     };
     std::vector<std::string> foreign;
@@ -271,7 +271,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     for (const Coordinate& coordinate : coordinates_of(job)) {
         std::vector<double> values(coordinate.values.size());
         if (has_shape(coordinate.name, coordinate.shape)) {
-            const Handle dataset = open_dataset(stored.file, coordinate.name);
+            const Handle dataset = open_own_dataset(stored.file, coordinate.name);
             check(
                 H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
         }
@@ -280,7 +280,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
             return std::abs(value - computed) <= tolerance * std::abs(computed);
         };
         if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {
-            foreign.emplace_back(coordinate.name);
+            foreign.push_back(coordinate.name);
         }
     }
     return foreign;

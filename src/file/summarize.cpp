@@ -38,8 +38,7 @@ BoundaryLines count_lines(const std::string& path)
     BoundaryLines lines;
     try {
         const auto regions = [&](const Tile& tile, Field field) {
-            const hdf5::Handle dataset(H5Dopen2(stored.file, name_of(field).data(), H5P_DEFAULT),
-                                       H5Dclose);
+            const hdf5::Handle dataset = hdf5::open_dataset(stored.file, name_of(field));
             return std::get<std::vector<std::uint8_t>>(read_tile(dataset, tile, field));
         };
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
@@ -89,8 +88,7 @@ std::vector<std::int64_t> damaged_tiles(const std::string& path,
     try {
         std::vector<hdf5::Handle> datasets;
         for (const Field field : stored.fields) {
-            datasets.emplace_back(H5Dopen2(stored.file, name_of(field).data(), H5P_DEFAULT),
-                                  H5Dclose);
+            datasets.push_back(hdf5::open_dataset(stored.file, name_of(field)));
         }
         std::vector<std::int64_t> damaged;
         for (std::int64_t number = 0; number < tiling.size(); ++number) {

@@ -8,8 +8,6 @@
 
 namespace overturn {
 
-using hdf5::Handle;
-
 void expect_room_for(const std::string& path, const char* kind)
 {
     static_cast<void>(PartFile(path)); // which throws if there is no folder, or none to write in
@@ -19,8 +17,7 @@ void expect_room_for(const std::string& path, const char* kind)
     hdf5::start();
     std::string found;
     try {
-        const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, hdf5::file_access()), H5Fclose);
-        found = hdf5::read_text_attribute(file, "kind");
+        found = hdf5::read_text_attribute(hdf5::open_to_read(path), "kind");
     } catch (const hdf5::Hdf5Error&) {
         found = "";
     }
@@ -37,14 +34,7 @@ void write_whole_file(const std::string& path, const char* kind, const Job& job,
     expect_room_for(path, kind);
     PartFile part(path);
     try {
-        hdf5::start();
-        Handle file(H5Fcreate(part.path().c_str(), H5F_ACC_TRUNC, netcdf::file_creation(),
-                              hdf5::file_access()),
-                    H5Fclose);
-        netcdf::write_origin(file, job, kind);
-        write(file);
-        netcdf::add_job(file, job);
-        file.close();
+        netcdf::make_file(part.path(), job, kind, write);
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(fmt::format("cannot create \"{}\": {}. Choose another name with -o.", path,
                                     error.what()));
