@@ -2,7 +2,6 @@
 
 #include "layout.hpp"
 #include "stored_spectrum.hpp"
-#include "tile_access.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
@@ -96,8 +95,8 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
             path, stored.program_version, stored.program_commit, program_version(),
             program_commit()));
     }
-    if (stored.tile_shape != tiling.tile_shape() || stored.fields != job.fields ||
-        stored.checksums.size() != std::size_t(tiling.size())) {
+    if (stored.tile_shape != tiling.tile_shape() || stored.tiles != tiling.size() ||
+        !std::ranges::equal(stored.fields, job.fields, {}, &FieldSummary::field)) {
         throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles are not those of its "
                                     "job. Remove it, or choose another name with -o.",
                                     path));
@@ -108,9 +107,7 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
                         "choose another name with -o.",
                         path, fmt::join(foreign, ", ")));
     }
-    const bool unfinished = std::find(stored.checksums.begin(), stored.checksums.end(),
-                                      not_computed_checksum) != stored.checksums.end();
-    return unfinished ? Existing::unfinished : Existing::complete;
+    return stored.tiles_done < stored.tiles ? Existing::unfinished : Existing::complete;
 }
 
 } // namespace overturn

@@ -75,12 +75,18 @@ bool has_type(hid_t dataset, hid_t expected)
     return check(H5Tequal(type, expected)) > 0;
 }
 
-// Sizes are held against what is stored, so that a damaged one cannot make us allocate without
-// bound.
-
-bool is_stored(hid_t dataset, hsize_t bytes)
+/// The length of a list of this type. It is held against what is stored, so that a damaged one
+/// cannot make us allocate without bound.
+hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
+                       const char* what_is_wrong)
 {
-    return H5Dget_storage_size(dataset) >= bytes;
+    const std::vector<hsize_t> shape = shape_of(dataset);
+    const hsize_t bytes_per_value = H5Tget_size(type);
+    demand(shape.size() == 1 && shape[0] <= bytes_of_file / bytes_per_value &&
+               shape[0] * bytes_per_value <= H5Dget_storage_size(dataset) &&
+               has_type(dataset, type),
+           what_is_wrong);
+    return shape[0];
 }
 
 /// Whether all values are stored. Reads the whole index of chunks as well, so that a damaged one
@@ -104,34 +110,28 @@ bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsiz
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
     const Handle dataset = open_own_dataset(file, name);
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == 1 && shape[0] <= bytes && is_stored(dataset, shape[0]) &&
-               has_type(dataset, H5T_C_S1),
-           "a text is malformed");
-    std::string text(shape[0], '\0');
+    std::string text(length_of_list(dataset, H5T_C_S1, bytes, "a text is malformed"), '\0');
     check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
     return text;
 }
 
-StoredAxis read_axis(hid_t file, const char* name, std::uint64_t bytes)
+AxisSummary read_axis(hid_t file, const std::string& name, std::uint64_t bytes)
 {
+    constexpr const char* malformed = "an axis is malformed";
     const Handle dataset = open_own_dataset(file, name);
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == 1 && shape[0] >= 1 && shape[0] <= bytes / sizeof(double) &&
-               is_stored(dataset, shape[0] * sizeof(double)) && has_type(dataset, H5T_IEEE_F64LE),
-           "an axis is malformed");
-    StoredAxis axis{name, hdf5::read_text_attribute(dataset, "units"), {}};
-    axis.values.resize(shape[0]);
-    check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, axis.values.data()));
-    return axis;
+    std::vector<double> values(length_of_list(dataset, H5T_IEEE_F64LE, bytes, malformed));
+    demand(!values.empty(), malformed);
+    check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    return {name, std::int64_t(values.size()), values.front(), values.back(),
+            hdf5::read_text_attribute(dataset, "units")};
 }
 
 /// The fields in the order of their creation, which is the job's.
-std::vector<Field> read_fields(hid_t file)
+std::vector<FieldSummary> read_fields(hid_t file)
 {
     H5G_info_t group = {};
     check(H5Gget_info(file, &group));
-    std::vector<Field> fields;
+    std::vector<FieldSummary> fields;
     for (hsize_t i = 0; i < group.nlinks; ++i) {
         std::string name(64, '\0');
         const auto length = check(H5Lget_name_by_idx(file, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i,
@@ -139,7 +139,8 @@ std::vector<Field> read_fields(hid_t file)
         name.resize(std::min(std::size_t(length), name.size()));
         const auto* found = std::find(field_names.begin(), field_names.end(), name);
         if (found != field_names.end()) {
-            fields.push_back(Field(found - field_names.begin()));
+            const auto field = Field(found - field_names.begin());
+            fields.push_back({field, name, layout::stored_as(field).name});
         }
     }
     demand(!fields.empty(), "there are no fields");
@@ -154,7 +155,7 @@ void check_field(const StoredSpectrum& spectrum, Field field)
            "a field is malformed");
     std::uint64_t room = spectrum.bytes / bytes_per_point(field);
     for (std::size_t i = 0; i < shape.size(); ++i) {
-        demand(shape[i] == spectrum.axes[i].values.size(), "a field does not fit the axes");
+        demand(shape[i] == hsize_t(spectrum.axes[i].size), "a field does not fit the axes");
         demand(shape[i] <= room, "a field is larger than the file");
         room /= shape[i];
     }
@@ -193,56 +194,58 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
     demand(tile.size() == spectrum.axes.size() &&
                std::all_of(tile.begin(), tile.end(), [](auto size) { return size >= 1; }),
            "the tiles are malformed");
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == 1 && shape[0] == hsize_t(spectrum.tiling().size()) &&
-               shape[0] <= spectrum.bytes / sizeof(std::uint64_t) &&
-               is_stored(dataset, shape[0] * sizeof(std::uint64_t)) &&
-               has_type(dataset, H5T_STD_U64LE),
-           "the checksums do not fit the tiles");
+    constexpr const char* foreign = "the checksums do not fit the tiles";
+    spectrum.tiles = spectrum.tiling().size();
+    demand(length_of_list(dataset, H5T_STD_U64LE, spectrum.bytes, foreign) ==
+               hsize_t(spectrum.tiles),
+           foreign);
     spectrum.checksums = read_checksums(dataset);
+    spectrum.tiles_done =
+        spectrum.tiles -
+        std::count(spectrum.checksums.begin(), spectrum.checksums.end(), not_computed_checksum);
 }
 
 /// A file of the kinds up to the last one; `wanted` tells what it should have been.
-StoredFile read_origin(const std::string& path, FileKind last, const char* wanted)
+FileOrigin read_origin(hid_t file, const std::string& path, FileKind last, const char* wanted)
 {
-    StoredFile stored;
-    stored.path = path;
-    stored.bytes = std::filesystem::file_size(path);
-    stored.file = hdf5::open_to_read(path);
-    const std::string kind = hdf5::read_text_attribute(stored.file, "kind");
-    stored.kind = FileKind(std::find(layout::kinds.begin(), layout::kinds.end(), kind) -
+    FileOrigin origin;
+    origin.bytes = std::filesystem::file_size(path);
+    const std::string kind = hdf5::read_text_attribute(file, "kind");
+    origin.kind = FileKind(std::find(layout::kinds.begin(), layout::kinds.end(), kind) -
                            layout::kinds.begin());
-    if (stored.kind > last) {
+    if (origin.kind > last) {
         throw FileError(fmt::format("\"{}\" is an HDF5 file, but not a {} of overturn{}.", path,
                                     wanted,
                                     kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
     }
-    stored.format = hdf5::has_attribute(stored.file, layout::format_version)
-                        ? hdf5::read_integer_attribute(stored.file, layout::format_version)
+    origin.format = hdf5::has_attribute(file, layout::format_version)
+                        ? hdf5::read_integer_attribute(file, layout::format_version)
                         : 1;
-    if (stored.format < 1 || stored.format > layout::newest_format) {
+    if (origin.format < 1 || origin.format > layout::newest_format) {
         throw FileError(fmt::format("\"{}\" has the format version {}, and this program reads "
                                     "those up to {}. Use a newer one.",
-                                    path, stored.format, layout::newest_format));
+                                    path, origin.format, layout::newest_format));
     }
-    stored.title = hdf5::read_text_attribute(stored.file, "title");
-    stored.program_version = hdf5::read_text_attribute(stored.file, "program_version");
-    stored.program_commit = hdf5::read_text_attribute(stored.file, "program_commit");
-    stored.resolved_job = read_text(stored.file, layout::job_resolved, stored.bytes);
-    return stored;
+    origin.title = hdf5::read_text_attribute(file, "title");
+    origin.program_version = hdf5::read_text_attribute(file, "program_version");
+    origin.program_commit = hdf5::read_text_attribute(file, "program_commit");
+    origin.resolved_job = read_text(file, layout::job_resolved, origin.bytes);
+    return origin;
 }
 
-StoredSpectrum read_spectrum(const std::string& path)
+StoredSpectrum read_spectrum(Handle file, const std::string& path)
 {
     StoredSpectrum spectrum;
-    static_cast<StoredFile&>(spectrum) = read_origin(path, FileKind::boundary, "spectrum");
+    static_cast<FileOrigin&>(spectrum) = read_origin(file, path, FileKind::boundary, "spectrum");
     spectrum.product = Product(spectrum.kind);
+    spectrum.path = path;
+    spectrum.file = std::move(file);
     for (const std::string& name : read_dimensions(spectrum)) {
-        spectrum.axes.push_back(read_axis(spectrum.file, name.c_str(), spectrum.bytes));
+        spectrum.axes.push_back(read_axis(spectrum.file, name, spectrum.bytes));
     }
     spectrum.fields = read_fields(spectrum.file);
-    for (const Field field : spectrum.fields) {
-        check_field(spectrum, field);
+    for (const FieldSummary& field : spectrum.fields) {
+        check_field(spectrum, field.field);
     }
     read_checksums_of_tiles(spectrum);
     return spectrum;
@@ -286,46 +289,11 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     return foreign;
 }
 
-} // namespace
-
-Tiling StoredSpectrum::tiling() const
-{
-    Shape shape;
-    for (const StoredAxis& axis : axes) {
-        shape.push_back(std::int64_t(axis.values.size()));
-    }
-    return {std::move(shape), tile_shape[tile_shape.size() - 2], tile_shape.back()};
-}
-
-std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)
-{
-    try {
-        return find_foreign_coordinates(stored, job);
-    } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("\"{}\" cannot be read or is damaged: {}.", stored.path, error.what()));
-    }
-}
-
-namespace {
-
-/// What `read` makes of the file at the path; a file that it cannot read is refused by name.
+/// What `read` returns; a file that it cannot read is refused by name.
 template <class Read>
-auto read_file(const std::string& path, const Read& read)
+auto or_refused(const std::string& path, const Read& read)
 {
-    std::error_code reason;
-    if (!std::filesystem::is_regular_file(path, reason)) {
-        throw FileError(
-            fmt::format("cannot read \"{}\": {}.", path,
-                        reason ? in_sentence(reason.message()) : std::string("it is not a file")));
-    }
-    hdf5::start();
-    const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
-    if (is_hdf5 == 0) {
-        throw FileError(fmt::format("\"{}\" is not an HDF5 file.", path));
-    }
     try {
-        check(is_hdf5);
         return read();
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
@@ -335,17 +303,46 @@ auto read_file(const std::string& path, const Read& read)
     }
 }
 
+Handle open_file(const std::string& path)
+{
+    std::error_code reason;
+    if (!std::filesystem::is_regular_file(path, reason)) {
+        throw FileError(
+            fmt::format("cannot read \"{}\": {}.", path,
+                        reason ? in_sentence(reason.message()) : std::string("it is not a file")));
+    }
+    hdf5::start();
+    if (check(H5Fis_hdf5(path.c_str())) == 0) {
+        throw FileError(fmt::format("\"{}\" is not an HDF5 file.", path));
+    }
+    return hdf5::open_to_read(path);
+}
+
 } // namespace
+
+Tiling StoredSpectrum::tiling() const
+{
+    Shape shape;
+    for (const AxisSummary& axis : axes) {
+        shape.push_back(axis.size);
+    }
+    return {std::move(shape), tile_shape[tile_shape.size() - 2], tile_shape.back()};
+}
+
+std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)
+{
+    return or_refused(stored.path, [&] { return find_foreign_coordinates(stored, job); });
+}
 
 StoredSpectrum open_stored_spectrum(const std::string& path)
 {
-    return read_file(path, [&] { return read_spectrum(path); });
+    return or_refused(path, [&] { return read_spectrum(open_file(path), path); });
 }
 
 FileOrigin origin_of(const std::string& path)
 {
-    return read_file(
-        path, [&]() -> FileOrigin { return read_origin(path, FileKind::accuracy, "result"); });
+    return or_refused(
+        path, [&] { return read_origin(open_file(path), path, FileKind::accuracy, "result"); });
 }
 
 } // namespace overturn

@@ -6,7 +6,6 @@
 
 #include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/tile.hpp"
 
 #include <cstdint>
@@ -15,23 +14,9 @@
 
 namespace overturn {
 
-struct StoredAxis {
-    std::string name;
-    std::string units;
-    std::vector<double> values; ///< in `units`
-};
-
-/// A result file of any kind.
-struct StoredFile : FileOrigin {
+struct StoredSpectrum : SpectrumSummary {
     std::string path;
     hdf5::Handle file;
-};
-
-struct StoredSpectrum : StoredFile {
-    Product product = Product::spectrum;
-    std::vector<StoredAxis> axes;         ///< slowest first
-    std::vector<Field> fields;            ///< in the job's order
-    Shape tile_shape;                     ///< 1 in each dimension but the last two
     std::vector<std::uint64_t> checksums; ///< by tile number
 
     Tiling tiling() const;

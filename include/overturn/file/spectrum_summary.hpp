@@ -20,6 +20,7 @@ struct AxisSummary {
 };
 
 struct FieldSummary {
+    Field field = Field::region;
     std::string name;
     std::string type; ///< "uint8", "uint16", "uint32" or "float64"
 };
