@@ -4,8 +4,8 @@
 #include "exit_code.hpp"
 #include "output_lines.hpp"
 
-#include "overturn/file/accuracy_file.hpp"
 #include "overturn/file/sole_writer.hpp"
+#include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ int accuracy(const AccuracyOptions& options)
     const Job job = read_job(options.job.path, options.job.overrides);
     const SoleWriter sole_writer(options.output);
     const int refusal =
-        run_in_child(options.output, [&] { expect_room_for_accuracy_file(options.output); });
+        run_in_child(options.output, [&] { expect_room_for(options.output, FileKind::accuracy); });
     if (refusal != exit_code::complete) {
         return refusal;
     }

@@ -4,8 +4,8 @@
 #include "exit_code.hpp"
 #include "output_lines.hpp"
 
-#include "overturn/file/history_file.hpp"
 #include "overturn/file/sole_writer.hpp"
+#include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 
 #include <fmt/format.h>
@@ -128,7 +128,7 @@ int history(const HistoryOptions& options)
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
     const int refusal =
-        run_in_child(options.output, [&] { expect_room_for_history_file(options.output); });
+        run_in_child(options.output, [&] { expect_room_for(options.output, FileKind::history); });
     if (refusal != exit_code::complete) {
         return refusal;
     }

@@ -1,6 +1,3 @@
-#include "overturn/file/accuracy_file.hpp"
-
-#include "layout.hpp"
 #include "whole_file.hpp"
 
 #include <array>
@@ -14,7 +11,6 @@ namespace {
 using hdf5::write_attribute;
 using namespace netcdf;
 
-constexpr const char* kind = layout::accuracy_kind;
 constexpr char setting[] = "setting";
 
 /// Numbers along one dimension.
@@ -76,19 +72,16 @@ private:
     const std::vector<AccuracyRow>& rows_;
 };
 
-void add_settings(const Table& table)
-{
-    table.add("method", "0 rk45, 1 taylor", "1",
-              [](const AccuracyRow& row) { return int(row.numerics.method); });
-    table.add("tolerance", "local error per step over the size of the motion", "1",
-              [](const AccuracyRow& row) { return row.numerics.tolerance; });
-    table.add("resolve", "1 where verdicts in doubt were settled with more digits", "1",
-              [](const AccuracyRow& row) { return row.numerics.resolve; });
-}
-
-void add_results(const Table& table)
+/// The settings, and what became of each.
+void add_columns(const Table& table)
 {
     using Row = AccuracyRow;
+    table.add("method", "0 rk45, 1 taylor", "1",
+              [](const Row& row) { return int(row.numerics.method); });
+    table.add("tolerance", "local error per step over the size of the motion", "1",
+              [](const Row& row) { return row.numerics.tolerance; });
+    table.add("resolve", "1 where verdicts in doubt were settled with more digits", "1",
+              [](const Row& row) { return row.numerics.resolve; });
     table.add("seconds_per_point", "time per point on one core, of regions alone", "s",
               &Row::seconds_per_point);
     table.add("steps", "steps tried per point", "1", &Row::steps);
@@ -118,24 +111,17 @@ void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyR
     write_attribute(file, "points_settled", sample.settled);
     write_attribute(file, "points_in_50_digits", sample.in_digits);
     add_coordinates(file, rows);
-    const Table table(file, rows);
-    add_settings(table);
-    add_results(table);
+    add_columns(Table(file, rows));
     add_list(file, "points_by_region", "region", sample.by_region, "points of the region");
     add_list(file, "points_by_distance", "distance", sample.by_distance, "points of the class");
 }
 
 } // namespace
 
-void expect_room_for_accuracy_file(const std::string& path)
-{
-    expect_room_for(path, kind);
-}
-
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows)
 {
-    write_whole_file(path, kind, job, [&](hid_t file) { write(file, sample, rows); });
+    write_whole_file(path, FileKind::accuracy, job, [&](hid_t file) { write(file, sample, rows); });
 }
 
 } // namespace overturn

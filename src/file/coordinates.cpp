@@ -30,7 +30,7 @@ Coordinate restitution_ratio(const Plane& plane)
             values.push_back(plane.restitution_ratio(i, j));
         }
     }
-    return {{layout::restitution_ratio,
+    return {{"restitution_ratio",
              {"slenderness", "restitution"},
              {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
              std::move(values),
@@ -47,7 +47,7 @@ Coordinate pulse_period(const Plane& plane)
     for (const double frequency : plane.frequency.values()) {
         periods.push_back(2 * std::numbers::pi / (frequency * p));
     }
-    return {{layout::pulse_period,
+    return {{"pulse_period",
              {"frequency"},
              {periods.size()},
              periods,
@@ -64,7 +64,7 @@ Coordinate peak_ground_acceleration(const Job& job)
     for (const double amplitude : job.plane.amplitude.values()) {
         accelerations.push_back(amplitude * threshold);
     }
-    return {{layout::peak_ground_acceleration,
+    return {{"peak_ground_acceleration",
              {"amplitude"},
              {accelerations.size()},
              accelerations,

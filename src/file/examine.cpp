@@ -74,8 +74,8 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
     if (stored.product != job.product) {
         throw FileError(fmt::format("\"{}\" is an {}, and an {} is to be computed. Choose another "
                                     "name with -o.",
-                                    path, layout::kind_of(stored.product),
-                                    layout::kind_of(job.product)));
+                                    path, layout::name_of(stored.kind),
+                                    layout::name_of(FileKind(job.product))));
     }
     if (stored.resolved_job != job.resolved) {
         throw FileError(fmt::format("\"{}\" holds another job: {}Choose another name with -o.",

@@ -1,6 +1,3 @@
-#include "overturn/file/history_file.hpp"
-
-#include "layout.hpp"
 #include "whole_file.hpp"
 
 #include <string>
@@ -11,8 +8,6 @@ namespace {
 
 using hdf5::write_attribute;
 using namespace netcdf;
-
-constexpr const char* kind = layout::history_kind;
 
 /// What is told of a sample.
 struct Quantity {
@@ -95,14 +90,9 @@ void add_outcome(hid_t file, const Job& job, const History& history)
 
 } // namespace
 
-void expect_room_for_history_file(const std::string& path)
-{
-    expect_room_for(path, kind);
-}
-
 void write_history_file(const std::string& path, const Job& job, const History& history)
 {
-    write_whole_file(path, kind, job, [&](hid_t file) {
+    write_whole_file(path, FileKind::history, job, [&](hid_t file) {
         add_outcome(file, job, history);
         add_samples(file, history.samples);
         add_events(file, history.events);

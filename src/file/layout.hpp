@@ -3,7 +3,7 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/job/job.hpp"
+#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/sweep/fields.hpp"
 
 #include <array>
@@ -13,34 +13,26 @@
 
 namespace overturn::layout {
 
-/// Global attribute `kind`: tells what a file holds, in the order of FileKind; the first two in
-/// that of Product.
+/// Global attribute `kind`: tells what a file holds, in the order of FileKind.
 inline constexpr std::array<const char*, 4> kinds{"overturning spectrum", "overturning boundary",
                                                   "rocking history", "accuracy study"};
+
+inline constexpr const char* name_of(FileKind kind)
+{
+    return kinds[std::size_t(kind)];
+}
 
 /// Global attribute: what a reader must know of. Files without it are of version 1: they had four
 /// dimensions and the attributes amplitude_extent and frequency_extent.
 inline constexpr char format_version[] = "format_version";
 inline constexpr std::int64_t newest_format = 2;
 
-inline constexpr const char* kind_of(Product product)
-{
-    return kinds[std::size_t(product)];
-}
-inline constexpr const char* history_kind = kinds[2];
-inline constexpr const char* accuracy_kind = kinds[3];
-
 inline constexpr char scan[] = "scan_amplitude";
-inline constexpr char pulse_period[] = "pulse_period";
-inline constexpr char peak_ground_acceleration[] = "peak_ground_acceleration";
-inline constexpr char restitution_ratio[] = "restitution_ratio";
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
 inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
 inline constexpr char tile_shape[] = "tile_shape";
-inline constexpr char job_given[] = "job_given";
-inline constexpr char job_overrides[] = "job_overrides";
 inline constexpr char job_resolved[] = "job_resolved";
 
 /// The types of a field in the file and in memory, and the value of a point not computed yet.

@@ -46,12 +46,12 @@ void add_text(hid_t file, const std::string& name, const std::string& text, cons
     write_attribute(dataset, "_Encoding", "utf-8");
 }
 
-void write_origin(hid_t file, const Job& job, const char* kind)
+void write_origin(hid_t file, const Job& job, FileKind kind)
 {
     write_attribute(file, "Conventions", "CF-1.8");
     write_attribute(file, layout::format_version, layout::newest_format);
     write_attribute(file, "title", job.title);
-    write_attribute(file, "kind", kind);
+    write_attribute(file, "kind", layout::name_of(kind));
     write_attribute(file, "source", fmt::format("overturn {}", program_version()));
     write_attribute(file, "program_version", program_version());
     write_attribute(file, "program_commit", program_commit());
@@ -72,8 +72,8 @@ void write_origin(hid_t file, const Job& job, const char* kind)
 
 void add_job(hid_t file, const Job& job)
 {
-    add_text(file, layout::job_given, job.given, "job file as given");
-    add_text(file, layout::job_overrides, fmt::format("{}", fmt::join(job.overrides, "\n")),
+    add_text(file, "job_given", job.given, "job file as given");
+    add_text(file, "job_overrides", fmt::format("{}", fmt::join(job.overrides, "\n")),
              "settings laid over the job file, one per line");
     add_text(file, layout::job_resolved, job.resolved, "job as resolved, with every default");
 }
@@ -151,7 +151,7 @@ void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length
     check(H5DSset_scale(dataset, mark.c_str()));
 }
 
-void make_file(const std::string& path, const Job& job, const char* kind,
+void make_file(const std::string& path, const Job& job, FileKind kind,
                const std::function<void(hid_t file)>& write)
 {
     hdf5::start();

@@ -5,6 +5,7 @@
 #include "attributes.hpp"
 #include "hdf5_handles.hpp"
 
+#include "overturn/file/spectrum_summary.hpp"
 #include "overturn/job/job.hpp"
 
 #include <functional>
@@ -51,7 +52,7 @@ void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>
 /// Makes a file of this kind (its attribute `kind`): what it is, which program made it and the
 /// scene, as attributes; what `write` puts into it; and the job as given, the settings laid over
 /// it, and as resolved. Throws Hdf5Error.
-void make_file(const std::string& path, const Job& job, const char* kind,
+void make_file(const std::string& path, const Job& job, FileKind kind,
                const std::function<void(hid_t file)>& write);
 
 } // namespace overturn::netcdf

@@ -22,12 +22,10 @@ std::string quoted(std::string_view text)
 {
     std::string result = "\"";
     for (const char character : text) {
-        if (character == '"' || character == '\\') {
-            result += '\\';
-            result += character;
-        } else if (static_cast<unsigned char>(character) < 0x20) {
+        if (static_cast<unsigned char>(character) < 0x20) {
             result += fmt::format("\\u{:04x}", int(character));
         } else {
+            result += character == '"' || character == '\\' ? "\\" : "";
             result += character;
         }
     }

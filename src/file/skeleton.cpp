@@ -193,7 +193,7 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
                         path, needed, available));
     }
     try {
-        make_file(part.path(), job, layout::kind_of(job.product), [&](hid_t file) {
+        make_file(part.path(), job, FileKind(job.product), [&](hid_t file) {
             write_skeleton(file, part.path(), job, tiling, between_tiles);
         });
     } catch (const hdf5::Hdf5Error& error) {

@@ -1,5 +1,6 @@
 #include "whole_file.hpp"
 
+#include "layout.hpp"
 #include "working_file.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 
 namespace overturn {
 
-void expect_room_for(const std::string& path, const char* kind)
+void expect_room_for(const std::string& path, FileKind kind)
 {
     static_cast<void>(PartFile(path)); // which throws if there is no folder, or none to write in
     if (!std::filesystem::exists(path)) {
@@ -21,14 +22,14 @@ void expect_room_for(const std::string& path, const char* kind)
     } catch (const hdf5::Hdf5Error&) {
         found = "";
     }
-    if (found != kind) {
+    if (found != layout::name_of(kind)) {
         throw FileError(fmt::format("\"{}\" exists and is no {}. Remove it, or choose another name "
                                     "with -o.",
-                                    path, kind));
+                                    path, layout::name_of(kind)));
     }
 }
 
-void write_whole_file(const std::string& path, const char* kind, const Job& job,
+void write_whole_file(const std::string& path, FileKind kind, const Job& job,
                       const std::function<void(hid_t file)>& write)
 {
     expect_room_for(path, kind);

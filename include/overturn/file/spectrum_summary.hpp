@@ -25,6 +25,7 @@ struct FieldSummary {
     std::string type; ///< "uint8", "uint16", "uint32" or "float64"
 };
 
+/// The first two as in Product.
 enum class FileKind { spectrum, boundary, history, accuracy };
 
 /// What a result file of any kind says of itself.
