@@ -46,15 +46,16 @@ Number number_from(std::string_view text)
 
 int about()
 {
+    const Kernel kernel = widest_kernel();
+    const int lanes = kernel == Kernel::avx512 ? 8 : kernel == Kernel::avx2 ? 4 : 1;
     std::string solvers;
     for (const Solver& solver : all_solvers()) {
         solvers += fmt::format("{}\"{}\"", solvers.empty() ? "" : ", ", solver.name);
     }
     fmt::print("{{\"solvers\": [{}], \"kernel\": \"{}\", \"lanes\": {}, \"compiler\": \"{}\", "
                "\"boost\": \"{}.{}.{}\", \"gsl\": \"{}\", \"sundials\": \"{}\"}}\n",
-               solvers, name_of(widest_kernel()), lanes_of(widest_kernel()),
-               OVERTURN_BENCHMARK_COMPILER, BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000,
-               BOOST_VERSION % 100, GSL_VERSION, SUNDIALS_VERSION);
+               solvers, name_of(kernel), lanes, OVERTURN_BENCHMARK_COMPILER, BOOST_VERSION / 100000,
+               BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, GSL_VERSION, SUNDIALS_VERSION);
     return 0;
 }
 

@@ -17,12 +17,6 @@ constexpr std::string_view name_of(Kernel kernel)
     return kernel_names[std::size_t(kernel)];
 }
 
-/// Points that the kernel integrates in lockstep.
-constexpr int lanes_of(Kernel kernel)
-{
-    return kernel == Kernel::avx512 ? 8 : kernel == Kernel::avx2 ? 4 : 1;
-}
-
 /// CMake's option OVERTURN_KERNELS decides.
 bool is_compiled(Kernel kernel);
 
