@@ -21,7 +21,7 @@ State<double> state_after(const Event<double>& event, const Block<double>& block
                           const Excitation<double>& excitation, double phase)
 {
     const Rocking<double>& from = event.rocking;
-    const double unit = 1 / std::max(1.0, excitation.frequency); // as a stepper's, see there
+    const double unit = 1 / std::max(1.0, excitation.frequency); // as in TaylorStepper
     const double phase_per_unit = excitation.frequency * unit;
     const auto push = excitation.motion.series<path_order>(from.side * excitation.acceleration,
                                                            from.phase, phase_per_unit);

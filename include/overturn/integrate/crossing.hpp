@@ -1,5 +1,5 @@
-// The first time within a step at which a polynomial falls below zero, also if it dips and comes
-// back. Bernstein coefficients bound the polynomial, so nothing is sampled and nothing missed.
+// The first time within a step at which a polynomial falls below zero, even if it rises again.
+// The polynomial is not sampled but bounded by its Bernstein coefficients, so no root is missed.
 #pragma once
 
 #include "overturn/integrate/step.hpp"
@@ -17,7 +17,7 @@ T lower_bound(const Quintic<T>& c)
                      lesser<T>(c[4], c[5]));
 }
 
-/// The largest one: an upper bound.
+/// The largest Bernstein coefficient: an upper bound of the polynomial.
 template <Number T>
 T upper_bound(const Quintic<T>& c)
 {
@@ -25,7 +25,7 @@ T upper_bound(const Quintic<T>& c)
                       greater<T>(c[4], c[5]));
 }
 
-/// The polynomial on [left, right], again with s running from 0 to 1 (de Casteljau, twice).
+/// The polynomial on [left, right] as a function of s from 0 to 1 (de Casteljau, twice).
 template <Number T>
 Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
 {
@@ -36,7 +36,7 @@ Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
             c[i] = fma(left, c[i + 1] - c[i], c[i]);
         }
     }
-    // A march that has arrived asks for nothing: left = right = 1.
+    // In lanes whose search has finished, left = right = 1.
     const T share = (right - left) / select<T>(left < one, one - left, one);
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = c.size() - 1; i >= level; --i) {
@@ -46,7 +46,7 @@ Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
     return c;
 }
 
-/// The room between a tilt [rad] and pi/2.
+/// pi/2 - tilt [rad].
 template <Number T>
 Quintic<T> room_above(Quintic<T> tilt)
 {
@@ -56,7 +56,7 @@ Quintic<T> room_above(Quintic<T> tilt)
     return tilt;
 }
 
-/// A dip that the round-off of an acceleration of order alpha can make within a step h is none.
+/// The largest dip that the round-off of an acceleration of order alpha can cause within a step h.
 template <Number T>
 T dip_of_round_off(const T& slenderness, const T& h)
 {
@@ -64,8 +64,8 @@ T dip_of_round_off(const T& slenderness, const T& h)
     return slenderness * h * h * T(8 * std::numeric_limits<S>::epsilon());
 }
 
-/// The root of a polynomial that falls all along from zero or above to below it, to within `enough`
-/// of itself: Newton's method on de Casteljau's scheme, kept inside the bracket by halving.
+/// The root of a decreasing polynomial with c[0] >= 0 and c[5] < 0, to the relative accuracy
+/// `enough`: Newton's method on de Casteljau's scheme, with bisection if it leaves the bracket.
 template <Number T>
 T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 {
@@ -89,7 +89,7 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
         const auto below = value < T(S(0));
         high = select<T>(open && below, s, high);
         low = select<T>(open && !below, s, low);
-        const auto sloping = slope != T(S(0)); // a piece may set out level
+        const auto sloping = slope != T(S(0)); // the slope may be 0 where a piece begins
         const T newton = s - value / select<T>(sloping, slope, T(S(1)));
         const auto inside = sloping && newton > low && newton < high;
         const T next = select<T>(inside, newton, (low + high) * T(S(0.5)));
@@ -101,11 +101,11 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
     return s;
 }
 
-/// Per lane of `wanted`: the first s in [0, 1] at which the polynomial falls below -noise; more
-/// than 1 where it never does. A dip of at most `noise` >= 0 is none.
+/// For each lane in `wanted`: the first s in [0, 1] at which the polynomial falls below -noise;
+/// more than 1 if it does not. Dips of at most `noise` >= 0 are ignored.
 ///
-/// Marches from 0: a piece whose coefficients are all above -noise is passed; a piece that falls
-/// all along and ends below holds the root; any other is halved.
+/// The search starts at 0. A piece whose coefficients are all at least -noise is skipped; a piece
+/// that decreases and ends below -noise contains the root; any other piece is halved.
 template <Number T>
 T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wanted)
 {
@@ -119,7 +119,7 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
     mask_t<T> searching = wanted;
     mask_t<T> found = wanted && !wanted;
     Quintic<T> piece = c;
-    Quintic<T> found_piece{one, one, half, -half, -one, -one}; // harmless where none is found
+    Quintic<T> found_piece{one, one, half, -half, -one, -one}; // for lanes without a root
     while (true) {
         const T right = left + width;
         const auto clear = lower_bound(piece) >= -noise;
@@ -138,7 +138,7 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
         left = select<T>(pass, right, left);
         width = select<T>(pass, select<T>(width + width < one - left, width + width, one - left),
                           select<T>(searching && !hit, width * half, width));
-        // Negated so that lanes full of NaN leave as well.
+        // The last condition ends the search in lanes with NaN.
         searching = searching && !hit && left < one && piece.back() == piece.back();
         if (!any<T>(searching)) {
             break;
@@ -148,7 +148,7 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
     if (!any<T>(found)) {
         return one + one;
     }
-    // Whoever uses the root corrects it to second order, so a third of the digits is enough.
+    // Callers correct the root to second order, so a third of the digits is sufficient.
     using std::cbrt;
     const T enough(cbrt(std::numeric_limits<S>::epsilon()));
     const T s = root_of_falling(found_piece, enough, found);

@@ -1,7 +1,7 @@
-// The error of a run so far, as an ellipse that holds it: the local errors of all steps, each
-// passed on by the linearised motion to where the block is now. A local error is known in size, not
-// in sign, so what is carried along is a matrix P, and no combination c . e of the errors e in
-// tilt and rate exceeds sqrt(c^T P c).
+// The error of a run so far, bounded by an ellipse: the local errors of all steps, propagated to
+// the current state by the linearised motion. Only the size of a local error is known, not its
+// sign, so a matrix P is propagated: no combination c . e of the errors e in tilt and rate exceeds
+// sqrt(c^T P c).
 #pragma once
 
 #include "overturn/mechanics/variation.hpp"
@@ -10,17 +10,17 @@
 
 namespace overturn {
 
-/// Instead of an infinite error, which would multiply zeros. [rad]
+/// Used instead of an infinite error, which would give NaN when multiplied by 0 [rad].
 template <class S>
 inline const S unknown_error = S(0x1p+200);
 
-/// What a step tells of its own errors.
+/// The local errors of a step, and the quantities that propagate errors over it.
 template <Number T>
 struct StepErrors {
-    Variation<T> variation; ///< of its end with its beginning
-    T tilt;                 ///< at most left out by its formula [rad]
-    T rate;                 ///< [rad]
-    T acceleration;         ///< at its end [rad]
+    Variation<T> variation; ///< of the end with respect to the beginning
+    T tilt;                 ///< bound of the local error of the tilt [rad]
+    T rate;                 ///< bound of the local error of the rate [rad]
+    T acceleration;         ///< at the end [rad]
     T turning_tilt;         ///< the tilt where the rate changes its sign, if it does [rad]
 };
 
@@ -30,7 +30,7 @@ class ErrorGrowth {
     using Mask = mask_t<T>;
 
 public:
-    /// Of a block at rest nothing is left of former errors; of one in doubt they mean nothing.
+    /// Resets the errors: earlier errors do not affect a block at rest, and mean nothing in doubt.
     void forget(const Mask& lanes)
     {
         tilt_tilt_ = select<T>(lanes, zero_, tilt_tilt_);
@@ -38,9 +38,9 @@ public:
         rate_rate_ = select<T>(lanes, zero_, rate_rate_);
     }
 
-    /// P becomes V P V^T. What V is unsure of, and round-off, come on top: where errors shrink
-    /// along one direction while they grow along another, P is a small difference of large numbers,
-    /// and would lose what is left.
+    /// Replaces P by V P V^T and adds the error of V and round-off: if errors shrink in one
+    /// direction and grow in another, P is a small difference of large numbers and would be lost to
+    /// cancellation.
     void pass(const Variation<T>& by, const Mask& lanes)
     {
         using arithmetic::fma;
@@ -52,7 +52,7 @@ public:
         const T tilt_rate = fma(tt, tilt_rate_, tr * rate_rate_);
         const T rate_tilt = fma(rt, tilt_tilt_, rr * tilt_rate_);
         const T rate_rate = fma(rt, tilt_rate_, rr * rate_rate_);
-        // At most four roundings of twice these sums, and as much off the diagonal.
+        // At most four roundings of twice these sums, and the same for the off-diagonal entry.
         const T round_off(8 * std::numeric_limits<S>::epsilon());
         const T lost_tilt = round_off * fma(tt * tt, tilt_tilt_, tr * tr * rate_rate_);
         const T lost_rate = round_off * fma(rt * rt, tilt_tilt_, rr * rr * rate_rate_);
@@ -66,21 +66,21 @@ public:
                                rate_rate_);
     }
 
-    /// Adds the error of a step, at most `tilt` and `rate` in size. Of all ellipses of their kind
-    /// the smallest that holds this rectangle has diag(tilt, rate) (tilt + rate), and one that
-    /// holds the sum of two is
+    /// Adds the error of a step, at most `tilt` and `rate` in size. The smallest axis-parallel
+    /// ellipse that contains this rectangle has the matrix diag(tilt, rate) (tilt + rate), and the
+    /// sum of two ellipses is contained in
     ///
     ///     (1 + 1 / w) P + (1 + w) Q     for any w > 0.
     ///
-    /// Where errors pile up along one direction, the ratio of sizes (square roots of traces) is the
-    /// best w. After thousands of bounces P is long and thin, as those with more energy are ahead
-    /// by more and more: a rectangle as small as its width is then not to be weighed by its length,
-    /// and the number of steps, as in Cauchy's inequality, is the better w.
+    /// If errors accumulate in one direction, the ratio of sizes (square roots of traces) is the
+    /// best w. After thousands of bounces, P is long and thin, because bounces with more energy get
+    /// further and further ahead. The length of P is then the wrong weight for a rectangle as small
+    /// as its width, and the number of steps, as in Cauchy's inequality, is the better w.
     void add(const T& tilt, const T& rate, const Mask& lanes)
     {
         using arithmetic::fma;
         using std::sqrt;
-        const T tiny(S(0x1p-500)); // instead of 0 / 0
+        const T tiny(S(0x1p-500)); // avoids 0 / 0
         const T own = tilt + rate;
         const T size = sqrt(tilt_tilt_ + rate_rate_);
         steps_ = select<T>(lanes, steps_ + T(S(1)), steps_);
@@ -91,8 +91,8 @@ public:
         rate_rate_ = select<T>(lanes, fma(grown, rate_rate_, (weight + own) * rate), rate_rate_);
     }
 
-    /// Adds round-off, which is random, so that its squares simply add up: of tilt and rate each
-    /// for itself, and of the time, which shifts both along the motion. [rad, 1/p]
+    /// Adds round-off, whose squares add up because it is random: independent errors of tilt and
+    /// rate [rad], and an error of the time [1/p], which shifts both along the motion.
     void add_round_off(const T& tilt, const T& rate, const T& time, const T& speed,
                        const T& acceleration, const Mask& lanes)
     {
@@ -107,7 +107,7 @@ public:
         rate_rate_ = sum(rate_rate_, rate, faster * faster);
     }
 
-    /// The largest error of by_tilt * tilt + by_rate * rate.
+    /// The error bound of by_tilt * tilt + by_rate * rate.
     T bound(const T& by_tilt, const T& by_rate) const
     {
         using arithmetic::fma;
@@ -115,9 +115,9 @@ public:
         const T a = by_tilt * by_tilt * tilt_tilt_;
         const T b = by_rate * by_rate * rate_rate_;
         const T mixed = by_tilt * by_rate * tilt_rate_;
-        // Variations are good to a percent or so, which is left where the terms cancel.
+        // Variations are accurate to about a percent, which remains where the terms cancel.
         const T sum = fma(T(S(0x1p-12)), a + b, (a + b) + (mixed + mixed));
-        return sqrt(select<T>(sum < zero_, zero_, sum)); // not a number stays one
+        return sqrt(select<T>(sum < zero_, zero_, sum)); // NaN stays NaN
     }
 
 private:
@@ -125,7 +125,7 @@ private:
     T tilt_tilt_ = zero_;
     T tilt_rate_ = zero_;
     T rate_rate_ = zero_;
-    T steps_ = T(S(64)); // so that the first ones are weighed by their size
+    T steps_ = T(S(64)); // so that the first steps are weighted by their size
 };
 
 } // namespace overturn

@@ -1,4 +1,4 @@
-// What happens to a block on its way, by name.
+// The kinds of events and their names.
 #pragma once
 
 #include <array>
@@ -7,10 +7,10 @@
 
 namespace overturn {
 
-/// Steps are recorded, but not stored.
+/// The end of a step is recorded like an event but not stored in result files.
 enum class EventKind : std::uint8_t { uplift, impact, rest, end_of_pulse, fall, step };
 
-/// Names as they stand in result files, in the order of the enumerators.
+/// Names in result files, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 5> event_names{"uplift", "impact", "rest",
                                                              "end_of_pulse", "fall"};
 

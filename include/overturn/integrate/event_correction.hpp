@@ -1,4 +1,4 @@
-// The last correction of a step that was made to end at an event.
+// The final correction of a step that ends at an event.
 #pragma once
 
 #include "overturn/integrate/rocking_step.hpp"
@@ -8,16 +8,16 @@
 
 namespace overturn {
 
-/// Where a gap vanishes near the end of a step.
+/// The zero of a gap near the end of a step.
 template <Number T>
 struct EventCorrection {
-    T delay;        ///< time from the end of the step to the event, of either sign
-    T closing;      ///< speed there, towards it
-    mask_t<T> hits; ///< not so where the gap is open and has its minimum above zero
+    T delay;        ///< time from the end of the step to the event; may be negative
+    T closing;      ///< speed at which the gap closes at the event
+    mask_t<T> hits; ///< false if the gap is open and its minimum is above zero
 };
 
-/// Newton's correction to second order, from the gap at the end of the step, its rate (negative
-/// where it closes) and its acceleration:
+/// Newton's correction to second order, from the gap at the end of the step, its rate (negative if
+/// it closes) and its acceleration:
 ///
 ///     gap + rate delay + acceleration delay^2 / 2 = 0,   closing^2 = rate^2 - 2 acceleration gap
 template <Number T>
@@ -28,16 +28,16 @@ EventCorrection<T> event_correction(const T& gap, const T& rate, const T& accele
     const T zero(scalar_t<T>(0));
     const T one(scalar_t<T>(1));
     const T square = fma(rate, rate, -(acceleration + acceleration) * gap);
-    // Within round-off a closed gap may seem never to have been open: then it closes as it is.
+    // With round-off, a closed gap may seem never to have been open; it then closes at its rate.
     const T closing = sqrt(select<T>(square > zero, square, rate * rate));
     const T denominator = closing - rate;
     const T delay = (gap + gap) / select<T>(denominator > zero, denominator, one);
     return {select<T>(denominator > zero, delay, zero), closing, square >= zero || gap <= zero};
 }
 
-/// Moves a step's end onto the event beside it: the ground in the lanes that strike it, pi/2 in
-/// those that fall. acceleration: d^2|theta| / d tau^2 at the step's end. Returns by how much later
-/// it ends, of either sign [1/p].
+/// Moves the end of a step to the event next to it: to the ground in the lanes in `strikes`, to
+/// pi/2 in those in `falls`. acceleration: d^2|theta| / d tau^2 at the end of the step. Returns the
+/// delay of the end, which may be negative [1/p].
 template <Number T>
 T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
                 const T& acceleration, const Excitation<T>& excitation)

@@ -1,4 +1,4 @@
-// How a block leaves the forced stage, and what that means (Eqs. 11-20).
+// The end of the forced stage of a block, with its region and margin (Eqs. 11-20).
 #pragma once
 
 #include "overturn/mechanics/energy_criteria.hpp"
@@ -7,20 +7,20 @@
 
 namespace overturn {
 
-/// The end of the forced stage. Counts are whole numbers held in T.
+/// The end of the forced stage. Counts are whole numbers stored as T.
 template <Number T>
 struct ForcedEnd {
     State<T> state;       ///< at the end of the pulse, or where |theta| reached pi/2
     mask_t<T> fell;       ///< |theta| reached pi/2
     mask_t<T> rested;     ///< came to rest after a bounce series
-    mask_t<T> capped;     ///< stopped after too many steps: the state means nothing
-    mask_t<T> not_finite; ///< stopped at a number that is not finite: likewise
-    T impacts;            ///< counted only if asked for; a bounce series that died out is not
+    mask_t<T> capped;     ///< stopped after too many steps: the state is meaningless
+    mask_t<T> not_finite; ///< stopped at a non-finite number: the state is meaningless
+    T impacts;            ///< without a bounce series that died out; only if recorded
     T steps;              ///< steps tried
-    T phase;              ///< of the pulse: its end, or less where it fell [rad]
-    /// Only if asked for:
-    T error;            ///< of the margin, at most, to first order; infinite where unknown
-    mask_t<T> in_doubt; ///< the error is not smaller than the margin, or there is none
+    T phase;              ///< of the pulse: its end, or that of the fall [rad]
+    /// Only if recorded:
+    T error;            ///< bound of the error of the margin, to first order; infinite if unknown
+    mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
     T peak;             ///< the largest tilt [rad]
 
     mask_t<T> is_stopped() const { return capped || not_finite; }
@@ -46,7 +46,7 @@ Region region_of(const ForcedEnd<T>& end, const Block<T>& block)
     return Region(int(region_code_of<theory>(end, block)));
 }
 
-/// The margin of each lane [1]; not a number where the point is undecided.
+/// The margin of each lane [1]; NaN if the point is undecided.
 template <Theory theory, Number T>
 T margin_of(const ForcedEnd<T>& end, const Block<T>& block)
 {

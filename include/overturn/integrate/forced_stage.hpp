@@ -1,6 +1,6 @@
-// The forced stage: a block from rest through uplift, rocking, impacts and rest to the end of the
-// pulse or its fall (Eq. 47). The free stage is never integrated.
-// Lanes run in lockstep, each with its own step size; a lane that is done is frozen.
+// The forced stage: uplift, rocking, impacts and rest of a block until the end of the pulse or its
+// fall (Eq. 47). The free stage is never integrated.
+// Lanes run in lockstep, each with its own step size; a finished lane is frozen.
 #pragma once
 
 #include "overturn/integrate/event.hpp"
@@ -15,12 +15,12 @@
 
 namespace overturn {
 
-/// Trial steps after which a point is given up: half a million impacts, or a tolerance of 1e-14
-/// over thousands of periods of 1/p. A block lifted by less than 1e-4 of the threshold makes more
-/// impacts than that if it hardly loses energy (r within 1e-5 of 1), and stays undecided.
+/// The largest number of trial steps of a point. It allows half a million impacts, or a tolerance
+/// of 1e-14 over thousands of periods of 1/p. A block lifted by less than 1e-4 of the threshold
+/// makes more impacts if it loses little energy (r within 1e-5 of 1), and remains undecided.
 inline constexpr double most_steps = 1 << 20;
 
-/// A block just after an event. Until the next one it rocks on its side, or rests.
+/// A block just after an event. Until the next event, it rocks on its side or rests.
 template <Number T>
 struct Event {
     EventKind kind;
@@ -34,7 +34,7 @@ class ForcedStage {
     using Mask = mask_t<T>;
 
 public:
-    /// on_unknown_error: matters only where errors are recorded.
+    /// on_unknown_error: used only if errors are recorded.
     ForcedStage(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance,
                 OnUnknownError on_unknown_error = OnUnknownError::go_on)
         : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
@@ -60,15 +60,15 @@ public:
         wait_for_uplift(active_);
     }
 
-    /// What has happened so far, in order; only if asked for.
+    /// The events so far, in order; only if recorded.
     const auto& events() const { return events_; }
 
     const Block<T>& block() const { return block_; }
 
-    /// Whether a lane has still to go on.
+    /// Whether any lane is still active.
     bool is_active() const { return any<T>(active_); }
 
-    /// One step in every lane that is active; acts on the event at its end.
+    /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
         const auto step = straight_line<T>([&] { return stepper_.step(now_, active_); });
@@ -99,7 +99,7 @@ public:
         }
     }
 
-    /// Where the lanes have ended, once none is active.
+    /// The ends of all lanes, once none is active.
     ForcedEnd<T> end() const
     {
         ForcedEnd<T> end = end_of_run_;
@@ -119,8 +119,7 @@ private:
         }
     }
 
-    /// Puts the lanes to rest until the ground lifts the block next; those that it lifts no more
-    /// are done.
+    /// Sets the lanes to rest until the next uplift. Lanes without another uplift are finished.
     void wait_for_uplift(const Mask& lanes)
     {
         const T never(std::numeric_limits<S>::infinity());
@@ -141,7 +140,7 @@ private:
         stepper_.lift(now_, lifted);
     }
 
-    /// Freezes the lanes with the state that they have.
+    /// Freezes the lanes in their current state.
     void finish(const Mask& lanes)
     {
         State<T>& state = end_of_run_.state;
@@ -164,13 +163,13 @@ private:
         }
     }
 
-    /// The lanes strike the ground.
+    /// Handles the impact of these lanes.
     void strike(const Mask& lanes)
     {
         const State<T> after =
             state_after_impact<T>({zero_, now_.rate, now_.side}, sqrt_restitution_);
         Mask rests = lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, after.rate);
-        if constexpr (records.events) { // who looks wants to see the bounces, not their sum
+        if constexpr (records.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
         if constexpr (records.error) {
@@ -209,7 +208,7 @@ private:
                                       Records{.error = records.error, .peak = records.peak}>
         stepper_;
     Rocking<T> now_;
-    T lifted_; // phase of the latest uplift: no flank of a lobe lifts a block twice
+    T lifted_; // phase of the latest uplift; the flank of a lobe lifts a block only once
     Mask active_;
     ForcedEnd<T> end_of_run_;
 
@@ -222,22 +221,22 @@ private:
     OnUnknownError on_unknown_error_;
 };
 
-/// Steps every stage in turn until all are done, or for so many turns, from which those that it
-/// took are subtracted. Returns whether they have to go on.
+/// Advances all stages in turn until all are finished, but at most `turns` times; subtracts the
+/// turns taken from `turns`. Returns whether any stage is still active.
 template <class Stage, std::size_t count>
 bool run_in_turns(std::array<Stage, count>& stages, int& turns)
 {
-    bool goes_on = true;
-    for (; goes_on && turns > 0; --turns) {
-        goes_on = false;
+    bool active = true;
+    for (; active && turns > 0; --turns) {
+        active = false;
         for (Stage& stage : stages) {
             if (stage.is_active()) {
                 stage.advance();
-                goes_on = true;
+                active = true;
             }
         }
     }
-    return goes_on;
+    return active;
 }
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step

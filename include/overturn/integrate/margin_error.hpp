@@ -1,5 +1,5 @@
-// How wrong the margin of a run may be, to first order: the local errors of its steps, passed on by
-// the linearised motion over steps and impacts, and what they come to in the margin (Eqs. 11-20).
+// The error bound of the margin of a run, to first order: the local errors of its steps, propagated
+// by the linearised motion over steps and impacts, and their effect on the margin (Eqs. 11-20).
 #pragma once
 
 #include "overturn/integrate/forced_end.hpp"
@@ -14,13 +14,13 @@ class MarginError {
     using Mask = mask_t<T>;
 
 public:
-    /// Whether an event may or may not have happened: no error is known any more.
+    /// Whether it is uncertain that an event has happened, so that the error is unknown.
     const Mask& is_doubtful() const { return doubtful_; }
 
-    /// Of a block at rest nothing is left of former errors.
+    /// Resets the errors of lanes at rest, which earlier errors do not affect.
     void forget(const Mask& lanes) { growth_.forget(lanes); }
 
-    /// Errors grow over a step, and its own come on top.
+    /// Propagates the errors over a step and adds its local errors.
     void pass_step(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
                    const StepEndWithErrors<T>& step, const Mask& lanes)
     {
@@ -28,9 +28,9 @@ public:
         using std::abs;
         const T rounding(std::numeric_limits<S>::epsilon());
         const T rate = abs(now.rate) + abs(step.rate);
-        const T acceleration = abs(excitation.acceleration) + block.slenderness; // at most
-        // What is wrong by a rounding all the time, such as the peak of the pulse, adds up; that of
-        // the phase and the state is random.
+        const T acceleration = abs(excitation.acceleration) + block.slenderness; // upper bound
+        // A constant rounding error, e.g. that of the peak of the pulse, adds up; those of the
+        // phase and the state are random.
         const T duration = (step.phase - now.phase) / excitation.frequency;
         const T late = abs(step.phase) / excitation.frequency;
         growth_.pass(step.errors.variation, lanes);
@@ -39,7 +39,7 @@ public:
         growth_.add_round_off(T(rounding * step.tilt), T(rounding * rate), T(rounding * late),
                               step.rate, step.errors.acceleration, lanes);
 
-        // A block that turned nearer to the ground, or to pi/2, than its error may have met it.
+        // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const Mask inward = lanes && now.rate < zero_ && step.rate > zero_ && !step.falls;
         const Mask outward = lanes && now.rate > zero_ && step.rate < zero_ && !step.strikes;
         if (any<T>(inward || outward)) {
@@ -51,10 +51,10 @@ public:
         }
     }
 
-    /// What is known to first order is trusted as long as the square of the speed is known to a
-    /// quarter of itself; that a series of bounces dies out, to a 64th. A block that stood on its
-    /// edge for long before it came back may as well have overturned: its distance from the top has
-    /// grown since, like its error, which must still be small beside alpha.
+    /// The first-order error is trusted if the relative error of the squared speed is below 1/4, or
+    /// below 1/64 where a series of bounces dies out. A block that stood on its edge for a long
+    /// time before it came back may also have overturned: its distance from the top has grown since
+    /// then, as has its error, which must still be small compared with alpha.
     void pass_impact(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
                      const Mask& lanes, const Mask& rests)
     {
@@ -69,12 +69,12 @@ public:
         const Mask known =
             share * square_error < speed * speed && T(S(4)) * radius < block.slenderness;
         doubtful_ = doubtful_ || (lanes && !(known && now.rate < zero_));
-        growth_.forget(doubtful_); // it would only grow to numbers that are too large
+        growth_.forget(doubtful_); // it would only grow until it overflows
         growth_.pass(variation_over_impact<T>(sqrt(block.restitution), speed, before, after),
                      lanes);
     }
 
-    /// The end of the lanes, at `now`, with its error and whether that leaves it in doubt.
+    /// The end of the lanes, at `now`, with its error and whether its verdict is in doubt.
     ForcedEnd<T> at_end(const Block<T>& block, const Excitation<T>& excitation,
                         const Rocking<T>& now, ForcedEnd<T> end) const
     {
@@ -85,24 +85,24 @@ public:
         const T radius = growth_.bound(one, zero_);
         const T largest = separatrix_rate<theory>(zero_, block.slenderness);
         const Distance standing = distance_to_separatrix(block, now, radius, largest);
-        // Just before an impact and just after, the margin differs by sqrt r.
+        // An impact changes the margin by the factor sqrt r.
         const T jump = abs(standing.margin) * (one / sqrt(block.restitution) - one);
         const T near_impact = select<T>(now.tilt < radius, jump, zero_);
 
-        // On its way to pi/2, at the acceleration a, the square of its speed v changes by
+        // For a fall at the speed v with the acceleration a, v^2 changes by
         // 2 v d(rate) - 2 a d(tilt).
         const T push = now.side * excitation.ground(now.phase);
         const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
         const T lying = (growth_.bound(T(pull + pull), T(now.rate + now.rate)) +
                          roundings() * now.rate * now.rate) /
                         (largest * largest);
-        // Whether it lies before the pulse ends.
+        // It is uncertain whether the block falls before the pulse ends.
         const T left = (excitation.motion.end - now.phase) / excitation.frequency;
         const Mask either =
             (fell && left * now.rate < radius) || (!fell && T(pi<S>() / 2) - now.tilt < radius);
-        // Nor whether it lies at all, unless it comes down with some energy. That is bounded away
-        // from zero, its distance from the separatrix is not: that distance has grown like the
-        // error, which must be a small share of it.
+        // It is also uncertain whether the block falls at all, unless it falls with some energy.
+        // That energy is bounded away from zero; the distance from the separatrix is not. It has
+        // grown like its error, which must be a small share of it.
         const Mask barely = fell && !(T(S(4)) * standing.error < abs(standing.margin) &&
                                       lying * largest * largest < now.rate * now.rate);
         const T error = select<T>(fell, lying, standing.error + near_impact);
@@ -122,8 +122,8 @@ private:
         T error;
     };
 
-    /// The margin is the smaller of two distances, and either may turn out smaller than it looks.
-    /// The lower one is convex in c, so its gradient is largest at one end of what c may be.
+    /// The margin is the smaller of two distances, and either may be overestimated. The lower one
+    /// is convex in c, so its gradient is largest at one end of the range of c.
     Distance distance_to_separatrix(const Block<T>& block, const Rocking<T>& now, const T& radius,
                                     const T& largest) const
     {
@@ -154,7 +154,7 @@ private:
 
     T zero_ = T(S(0));
     ErrorGrowth<T> growth_;
-    Mask doubtful_ = !(zero_ == zero_); // an event may or may not have happened
+    Mask doubtful_ = !(zero_ == zero_); // see is_doubtful()
 };
 
 } // namespace overturn

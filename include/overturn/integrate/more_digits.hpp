@@ -1,5 +1,5 @@
-// The forced stage in more digits than doubles have: what settles a verdict that they cannot, and
-// what accuracy is measured against.
+// The forced stage in more digits than double: settles verdicts that doubles cannot settle, and is
+// the reference for accuracy.
 #pragma once
 
 #include "overturn/integrate/forced_stage.hpp"
@@ -7,12 +7,12 @@
 
 namespace overturn {
 
-/// How a number type with more digits is used. most_steps: whoever needs more is long in bouncing,
-/// and given up.
+/// How a number type with more digits is used. most_steps: points with more steps bounce for a long
+/// time and are not computed.
 template <class T>
 struct MoreDigits;
 
-/// 19 digits, a dozen microseconds per step or less.
+/// 19 digits, at most a dozen microseconds per step.
 template <>
 struct MoreDigits<long double> {
     using Method = Taylor<20>;
@@ -20,7 +20,7 @@ struct MoreDigits<long double> {
     static constexpr int most_steps = 20000;
 };
 
-/// 25 digits and more at the end of a pulse, after a hundred steps or so of half a millisecond.
+/// At least 25 digits at the end of a pulse, after about a hundred steps of half a millisecond.
 template <>
 struct MoreDigits<Digits50> {
     using Method = Taylor<30>;
@@ -28,8 +28,8 @@ struct MoreDigits<Digits50> {
     static constexpr int most_steps = 2000;
 };
 
-/// run_forced_stage() for one block, which counts impacts and bounds its error, and after
-/// `step_limit` steps gives up as capped. T: long double or Digits50. Compiled in src/integrate.
+/// Like run_forced_stage(), for one block, with impacts and error recorded. A run that exceeds
+/// `step_limit` steps is capped. T: long double or Digits50. Compiled in src/integrate.
 template <class T, Theory theory>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& excitation,
                                 double tolerance = MoreDigits<T>::tolerance,

@@ -1,4 +1,4 @@
-// Values and bounds of power series within their first step. They know nothing of rocking.
+// Values and bounds of power series over a step.
 #pragma once
 
 #include "overturn/integrate/step.hpp"
@@ -6,8 +6,8 @@
 
 namespace overturn {
 
-/// c[first] + c[first + 1] t + c[first + 2] t^2 + ..., the even and the odd powers apart: two short
-/// chains instead of a long one. term(k) is what to add for c[k].
+/// c[first] + c[first + 1] t + c[first + 2] t^2 + ..., with the even and the odd powers summed
+/// separately: two short dependency chains instead of a long one. term(k) returns c[k].
 template <int first, int count, Number T, class Term>
 T sum_of_powers(const T& t, const Term& term)
 {
@@ -40,7 +40,7 @@ T slope_of_series(const std::array<T, count>& c, const T& t)
                                             [&]<int k>() -> T { return c[k] * T(scalar_t<T>(k)); });
 }
 
-/// A bound of the derivative's absolute value over [0, t], t >= 0.
+/// An upper bound of the absolute value of the derivative over [0, t], t >= 0.
 template <Number T, std::size_t count>
 T steepest(const std::array<T, count>& c, const T& t)
 {
@@ -49,8 +49,8 @@ T steepest(const std::array<T, count>& c, const T& t)
         t, [&]<int k>() -> T { return abs(c[k]) * T(scalar_t<T>(k)); });
 }
 
-/// A series over [0, t], t >= 0, lies between `center` - slack s^5 and `center` + slack s^5, where
-/// s runs from 0 to 1.
+/// Bounds of a series over [0, t], t >= 0: from `center` - slack s^5 to `center` + slack s^5 for s
+/// from 0 to 1.
 template <Number T>
 struct Enclosure {
     Quintic<T> center;
@@ -70,7 +70,7 @@ struct Enclosure {
     }
 };
 
-/// Its terms below t^5, as Bernstein coefficients, and the absolute sum of all others.
+/// Center: the terms below t^5, as Bernstein coefficients; slack: the absolute sum of all others.
 template <Number T, std::size_t count>
 Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
 {

@@ -1,25 +1,25 @@
-// What is recorded of a forced stage: said once, from the fields of a job down to the kernels.
+// The quantities recorded of a forced stage. Used at all levels, from job fields to kernels.
 #pragma once
 
 namespace overturn {
 
-/// What is wanted beside the state in which the pulse leaves a block.
+/// The quantities recorded in addition to the state at the end of the pulse.
 struct Records {
-    // Recorded on the way: a choice at compile time, so that the others pay nothing in a step.
+    // Recorded in every step. Chosen at compile time, so that they cost nothing if not recorded.
     bool impacts = false;
     bool error = false;  ///< of the margin
     bool peak = false;   ///< the largest tilt; not together with the error
-    bool events = false; ///< of a single block only
+    bool events = false; ///< for a single block only
 
     // Known at the end of any run.
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false; ///< of the pulse: its end, or where the block fell
+    bool phase = false; ///< of the pulse: its end, or that of the fall
 };
 
-/// Whether a run continues once it is not certain whether the block struck the ground, or how fast.
-/// One that will be integrated again anyway need not: thousands of bounces may follow.
+/// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.
+/// A run that will be repeated anyway can stop: thousands of bounces may follow.
 enum class OnUnknownError { go_on, stop };
 
 } // namespace overturn

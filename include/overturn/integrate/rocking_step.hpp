@@ -1,5 +1,5 @@
-// What the two steppers share: where a rocking block is, and where a step has brought it.
-// A stepper follows the motion on one side; impacts, rest and uplift are the forced stage's.
+// Common types of the two steppers: the state of a rocking block and the end of a step.
+// A stepper integrates the motion on one side; ForcedStage handles impacts, rest and uplift.
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"
@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// A block on its way through the pulse.
+/// The state of a rocking block during the pulse.
 template <Number T>
 struct Rocking {
     T phase; ///< of the pulse [rad]
@@ -16,16 +16,16 @@ struct Rocking {
     T side;  ///< +1 or -1: the sign of theta
 };
 
-/// The end of a step: after as long as the stepper dared, or at the first event on the way.
+/// The end of a step: after the step size chosen by the stepper, or at the first event before.
 template <Number T>
 struct StepEnd {
-    T phase;           ///< exactly the pulse's last one where it is reached [rad]
-    T tilt;            ///< 0 where it strikes, pi/2 where it falls [rad]
+    T phase;           ///< exactly the end of the pulse if that is reached [rad]
+    T tilt;            ///< 0 at an impact, pi/2 at a fall [rad]
     T rate;            ///< [rad]
-    mask_t<T> moved;   ///< elsewhere the step was given up, and is tried again
-    mask_t<T> strikes; ///< the ground, with -rate
-    mask_t<T> falls;   ///< tilt has reached pi/2
-    mask_t<T> broken;  ///< a number is not finite, and no other step would be
+    mask_t<T> moved;   ///< false if the step was rejected and must be repeated
+    mask_t<T> strikes; ///< the block strikes the ground at the speed -rate
+    mask_t<T> falls;   ///< the tilt has reached pi/2
+    mask_t<T> broken;  ///< a number is not finite, and would not be with any other step
 };
 
 /// A step whose errors are recorded.
@@ -40,7 +40,7 @@ struct StepEndWithPeak : StepEnd<T> {
     T peak; ///< the largest tilt within the step [rad]
 };
 
-/// The motion at one point of a step, by its share of the step.
+/// The motion at one point of a step, as a function of the share of the step.
 template <Number T>
 struct MotionSample {
     T tilt;         ///< [rad]
@@ -48,11 +48,11 @@ struct MotionSample {
     T acceleration; ///< [rad per step^2]
 };
 
-/// The largest tilt within a step [rad]. most: a bound of it; look(share) is a MotionSample. Of
-/// eight parts of the step that are looked at, Newton's method goes on from the highest to where
-/// the rate is zero.
-template <Number T, class Look>
-T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
+/// The largest tilt within a step [rad]. most: an upper bound of it; sample_at(share) returns a
+/// MotionSample. Newton's method starts from the highest of the samples that divide the step into
+/// eight parts and finds the zero of the rate.
+template <Number T, class SampleAt>
+T highest_tilt(const T& start, const T& end, const T& most, const SampleAt& sample_at)
 {
     using S = scalar_t<T>;
     const T zero(S(0));
@@ -65,7 +65,7 @@ T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
     constexpr int parts = 8;
     for (int i = 1; i < parts; ++i) {
         const T share(S(i) / parts);
-        const T tilt = look(share).tilt;
+        const T tilt = sample_at(share).tilt;
         best = select<T>(tilt > highest, share, best);
         highest = greater<T>(tilt, highest);
     }
@@ -74,17 +74,17 @@ T highest_tilt(const T& start, const T& end, const T& most, const Look& look)
     const T last = lesser<T>(best + part, one);
     T share = best;
     for (int i = 0; i < 3; ++i) {
-        const MotionSample<T> here = look(share);
+        const MotionSample<T> here = sample_at(share);
         const mask_t<T> bends = here.acceleration < zero;
         const T newton = share - here.rate / select<T>(bends, here.acceleration, -one);
         share = lesser<T>(greater<T>(newton, first), last);
     }
-    return greater<T>(look(share).tilt, highest);
+    return greater<T>(sample_at(share).tilt, highest);
 }
 
-/// Where the rate changes its sign within a step: the tilt there, if the ground or pi/2 may be
-/// near, and otherwise one that is nearer. lowest, highest: bounds of the tilt within the step
-/// [rad]; tilt_at_turn(lanes) finds it in the lanes in which there is a turn.
+/// The tilt where the rate changes its sign within a step, if it may be near the ground or pi/2;
+/// otherwise a tilt nearer to them. lowest, highest: bounds of the tilt within the step [rad];
+/// tilt_at_turn(lanes) computes it in the lanes in which the block turns.
 template <Number T, class Find>
 T turning_tilt(const T& slenderness, const T& start_rate, const T& end_rate, const T& lowest,
                const T& highest, const Find& tilt_at_turn)

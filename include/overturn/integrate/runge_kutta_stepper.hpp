@@ -1,5 +1,5 @@
-// Steps of Dormand-Prince 5(4) along the motion of a rocking block (Eq. 47). An event within a step
-// is found on its dense output; the step is then taken again, to end there.
+// Integrates the motion of a rocking block (Eq. 47) by Dormand-Prince 5(4). An event within a step
+// is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
@@ -19,7 +19,7 @@ template <Theory theory, Number T, Records records = Records{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
-    /// Of the pulse, within a step whose error is known [rad].
+    /// The largest phase difference of a step whose error can be estimated [rad].
     static constexpr double longest_angle = 2;
 
 public:
@@ -35,10 +35,10 @@ public:
         step_size_ = first_step_;
         if (is_wavelet_) {
             longest_seen_ = T(S(longest_angle)) / frequency;
-            const T unfelt = T(tolerance) * T(S(1) / 128) * block.slenderness;
-            tail_end_ =
-                end_of_tail(excitation.motion.pulse,
-                            T(rough_log2(unfelt) - rough_log2(T(abs(excitation.acceleration)))));
+            const T negligible = T(tolerance) * T(S(1) / 128) * block.slenderness;
+            tail_end_ = end_of_tail(
+                excitation.motion.pulse,
+                T(rough_log2(negligible) - rough_log2(T(abs(excitation.acceleration)))));
         }
         if constexpr (records.error) {
             embedded_share_ =
@@ -47,14 +47,14 @@ public:
         }
     }
 
-    /// Uplift: nothing is known of how long a step may be.
+    /// Uplift: the step size is reset.
     void lift(const Rocking<T>& now, const Mask& lanes)
     {
         step_size_ = select<T>(lanes, first_step_, step_size_);
         turn(now, lanes);
     }
 
-    /// The block goes on about its other corner.
+    /// The block continues to rock about its other corner.
     void turn(const Rocking<T>& now, const Mask& lanes)
     {
         const T push = now.side * excitation_.ground(now.phase);
@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// One trial step in every lane; what the lanes that are not active do means nothing.
+    /// One trial step in every lane; the results of inactive lanes are meaningless.
     auto step(const Rocking<T>& now, const Mask& active)
     {
         const Motion<T> start{now.tilt, now.rate, acceleration_};
@@ -75,8 +75,8 @@ public:
         const Mask last = !ends_at_event_ && longest >= left;
         const T h = select<T>(ends_at_event_, step_to_event_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
-        // The stages of each pulse are compiled apart: pushes that are computed before them all, or
-        // by a choice in each of them, cost a tenth more, as they fill no gaps between the stages.
+        // The stages are compiled for each pulse. To compute the pushes before the stages, or to
+        // select the pulse in each stage, costs a tenth more, as it prevents overlapping execution.
         const Step<T> step = with_pulse(excitation_.motion.pulse, [&]<class Pulse>() {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
                 using arithmetic::fma;
@@ -88,11 +88,11 @@ public:
         const T error = relative_error(step, h);
         const Mask accepted = error <= T(S(1));
 
-        const Mask looked_at = active && accepted && !ends_at_event_;
-        const Mask event = looked_at && find_event(start, step, h, looked_at);
+        const Mask checked = active && accepted && !ends_at_event_;
+        const Mask event = checked && find_event(start, step, h, checked);
         const Mask moved = active && accepted && !event;
         acceleration_ = select<T>(moved, step.end.acceleration, acceleration_);
-        // A step that ends at an event says nothing of how long a step may be.
+        // A step that ends at an event does not change the step size.
         const T resized = h * step_size_factor(error);
         const Mask resize = active && !event && !(ends_at_event_ && accepted);
         step_size_ = select<T>(resize && !(last && accepted), resized, step_size_);
@@ -119,7 +119,7 @@ public:
                 sample(now.side, step.end.position, step.end.rate, phase, now.phase);
             const StepErrors<T> errors = this->errors(now, start, step, h, delay, last_sample);
             remember(last_sample, moved);
-            if (excitation_.motion.has_kink()) { // where another piece begins the jerk is its own
+            if (excitation_.motion.has_kink()) { // the jerk is different on the next piece
                 remember(sample(now.side, step.end.position, step.end.rate, phase, end.phase),
                          moved);
             }
@@ -127,23 +127,24 @@ public:
         } else if constexpr (records.peak) {
             const Quintic<T> tilt = dense_output(start, step.end, h);
             const T one(S(1));
-            const auto look = [&](const T& share) -> MotionSample<T> {
+            const auto sample_at = [&](const T& share) -> MotionSample<T> {
                 const Quintic<T> before = restricted(tilt, zero_, share);
                 const T slope = before[5] - before[4];
                 const T bend = slope - (before[4] - before[3]);
                 const T part = one / select<T>(share > zero_, share, one);
                 return {before[5], T(S(5)) * slope * part, T(S(20)) * bend * part * part};
             };
-            return StepEndWithPeak<T>{end,
-                                      highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), look)};
+            return StepEndWithPeak<T>{
+                end, highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), sample_at)};
         } else {
             return end;
         }
     }
 
 private:
-    /// What the step size control wants; in a wavelet no more than an angle that its lobes are seen
-    /// in, as long as it is felt: a step over all of its tail finds it flat at every node.
+    /// The step size from the step size control. Before the tail of a wavelet, it is limited to a
+    /// phase difference that resolves the lobes: a step across the whole tail would find the
+    /// wavelet flat at every node.
     T longest_step(const Rocking<T>& now) const
     {
         return is_wavelet_ ? lesser<T>(step_size_,
@@ -151,11 +152,11 @@ private:
                            : step_size_;
     }
 
-    /// Local error in units of what is allowed: the tolerance times the size of the motion, at
-    /// most alpha, and round-off on top: of the motion, and of an acceleration of order alpha over
-    /// the step. Were it alpha throughout, a block lifted by a millionth
-    /// of alpha would come down 1e-6 beside its true speed at a tolerance of 1e-10, and a series of
-    /// bounces would carry that on.
+    /// Local error over the allowed error. The latter is the tolerance times the size of the
+    /// motion, at most alpha, plus the round-off of the motion and of an acceleration of order
+    /// alpha over the step. If the size were always alpha, a block lifted by a millionth of alpha
+    /// would strike with a speed that is wrong by 1e-6 at a tolerance of 1e-10, and a series of
+    /// bounces would propagate this error.
     T relative_error(const Step<T>& step, const T& h) const
     {
         using arithmetic::fma;
@@ -168,20 +169,20 @@ private:
         const T allowed = fma(T(tolerance_), size, round_off);
         const T position_error = abs(step.position_error);
         const T rate_error = abs(step.rate_error);
-        // Written so that an error that is not a number stays one.
+        // Written so that NaN propagates.
         const T error = select<T>(position_error < rate_error, rate_error,
                                   position_error + (rate_error - rate_error));
         return error / allowed;
     }
 
-    /// The equation of motion at one point of the motion.
+    /// The terms of the equation of motion at one point.
     struct Sample {
         T acceleration;
-        T jerk; // its derivative by tau, along the motion
+        T jerk; // derivative of the acceleration with respect to tau, along the motion
         T stiffness;
     };
 
-    /// At a phase of the smooth piece that begins or continues at `on`.
+    /// At a phase of the smooth piece that contains or begins at the phase `on`.
     Sample sample(const T& side, const T& tilt, const T& rate, const T& phase, const T& on) const
     {
         using arithmetic::fma;
@@ -203,21 +204,21 @@ private:
         sample_.stiffness = select<T>(lanes, sample.stiffness, sample_.stiffness);
     }
 
-    /// The step against the integrals of its own acceleration, by a formula of order 6 from the
+    /// Compares the step with the integrals of its acceleration, by a formula of order 6 from the
     /// accelerations at its ends and, on its dense output, in the middle, and the jerks at its
     /// ends:
     ///
     ///     int a dt = h (7 a0 + 16 am + 7 a1) / 30 + h^2 (j0 - j1) / 60
     ///     int (h - t) a dt = h^2 (13 a0 + 16 am + a1) / 60 + h^3 j0 / 60
     ///
-    /// What is amiss is the error of the solution of order 5, and a smaller one of the formula. For
-    /// that a part of the embedded estimate e, an error of order 5, comes on top: of order 7, as
-    /// (e / size)^(2/5) goes with h^2. Twice the sum covers what still longer steps miss; of
-    /// steps that are longer than an angle of the pulse of 2 nothing is known. In 4 of 10^6 points
-    /// it was up to twice too small.
+    /// The difference is the error of the solution of order 5, plus a smaller error of the formula.
+    /// The latter is covered by a share of the embedded estimate e, an error of order 5; the share
+    /// is of order 7, because (e / size)^(2/5) is proportional to h^2. Twice the sum covers the
+    /// additional error of longer steps; for steps with a phase difference above 2, the error is
+    /// unknown. In 4 of 10^6 points, the bound was too small, by a factor of up to two.
     ///
-    /// delay: of an event after the step's end. Left out of the variation it would turn errors of
-    /// the time into errors of the energy, at each of thousands of bounces.
+    /// delay: time from the end of the step to the event. If the variation did not include it,
+    /// errors of the time would become errors of the energy at each of thousands of bounces.
     StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
                          const T& h, const T& delay, const Sample& last) const
     {
@@ -242,15 +243,14 @@ private:
                                     start.rate);
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
-        // Where the push is linear, or is not felt any more, the block's own time says what is
-        // long.
+        // Where the push is linear or negligible, the length is measured in the time of the block.
         T length = traits_of(excitation_.motion.pulse).is_linear ? h : phase_step;
         if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
         }
         const T longest = T(S(longest_variation));
-        const T longest_length(S(1.001 * longest_angle)); // whatever its rounding
-        const T blind =
+        const T longest_length(S(1.001 * longest_angle)); // allows for rounding
+        const T unknown =
             select<T>(length > longest_length || h > longest, T(unknown_error<S>), zero_);
         const T two(S(2));
         const T one(S(1));
@@ -269,15 +269,15 @@ private:
         return {.variation = variation_over<T>(lesser<T>(h + delay, longest), first.stiffness,
                                                middle.stiffness, last.stiffness),
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
-                .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), blind),
+                .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
                 .turning_tilt =
                     turning_tilt<T>(block_.slenderness, start.rate, end.rate, lower_bound(tilt),
                                     upper_bound(tilt), tilt_at_turn)};
     }
 
-    /// Finds the first impact or fall within an accepted step; the next step of the lanes that have
-    /// one ends there.
+    /// Finds the first impact or fall within an accepted step. In lanes with an event, the next
+    /// step ends at it.
     Mask find_event(const Motion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
         const T noise = dip_of_round_off(block_.slenderness, h);
@@ -307,21 +307,21 @@ private:
     T first_step_;
 
     T acceleration_;  // at the beginning of the next step
-    T step_size_;     // the next step, unless an event or a smooth piece ends before [1/p]
-    T step_to_event_; // the step that ends at an event found before [1/p]
+    T step_size_;     // next step, unless an event or the end of a smooth piece comes first [1/p]
+    T step_to_event_; // step that ends at an event found previously [1/p]
     T towards_fall_;  // 1 if that event is the fall, 0 if it is an impact
     Mask ends_at_event_;
-    T tail_end_ = T(S(0));     // of what is felt of a wavelet [rad]
-    T longest_seen_ = T(S(0)); // of a wavelet [1/p]
+    T tail_end_ = T(S(0));     // phase after which a wavelet is negligible [rad]
+    T longest_seen_ = T(S(0)); // longest step that resolves a wavelet [1/p]
 
     struct Nothing {};
     [[no_unique_address]] std::conditional_t<records.error, Sample, Nothing>
-        sample_; // at the beginning
+        sample_; // at the beginning of the next step
     [[no_unique_address]] std::conditional_t<records.error, T, Nothing>
         embedded_share_; // see errors()
 };
 
-/// The method as a choice: Dormand-Prince 5(4).
+/// Selects Dormand-Prince 5(4).
 struct RungeKutta {
     template <Theory theory, Number T, Records records>
     using Stepper = RungeKuttaStepper<theory, T, records>;

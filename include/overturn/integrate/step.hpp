@@ -1,5 +1,5 @@
 // One Runge-Kutta step of x'' = acceleration(time, x): order 5, with an embedded solution of order
-// 4 and dense output, and how long the next one may be. It knows nothing of rocking.
+// 4, dense output and step size control.
 #pragma once
 
 #include "overturn/integrate/tableau.hpp"
@@ -10,7 +10,7 @@
 
 namespace overturn {
 
-/// Where a step begins, and its acceleration there: the last stage of the step before.
+/// The motion at the beginning of a step; the acceleration is the last stage of the previous step.
 template <Number T>
 struct Motion {
     T position;
@@ -18,15 +18,15 @@ struct Motion {
     T acceleration;
 };
 
-/// A polynomial of degree 5 in s on [0, 1], by its Bernstein coefficients: it lies between the
-/// smallest and the largest of them.
+/// A polynomial of degree 5 in s on [0, 1], given by its Bernstein coefficients; the smallest and
+/// the largest coefficient bound the polynomial.
 template <Number T>
 using Quintic = std::array<T, 6>;
 
-/// The position over a step of length h: the polynomial that meets position, rate and acceleration
-/// at both ends. Its error, O(h^6), is below that of the step. Dormand and Prince's own dense
-/// output has order 4 and misses the acceleration at the start, so that a block that uplifts
-/// (position, rate and acceleration 0) seems to sink into the ground first; this one costs less.
+/// The position over a step of length h: the polynomial that matches position, rate and
+/// acceleration at both ends. Its error, O(h^6), is below that of the step. The dense output of
+/// Dormand and Prince has order 4, costs more, and does not match the acceleration at the start: a
+/// block at uplift (position, rate and acceleration 0) would sink into the ground first.
 template <Number T>
 Quintic<T> dense_output(const Motion<T>& start, const Motion<T>& end, const T& h)
 {
@@ -51,7 +51,7 @@ struct Step {
     T rate_error;
 };
 
-/// sum of row[j] x[j] over j < count, leaving out the zeros.
+/// The sum of row[j] x[j] over j < count; zeros are skipped.
 template <auto row, std::size_t count, Number T>
 T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 {
@@ -69,8 +69,8 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
     return sum;
 }
 
-/// A step of length h from `start`. acceleration(stage, position) gives x'' at the time of a stage,
-/// 1 to 6: node[stage] h after the start.
+/// A step of length h from `start`. acceleration(stage, position) returns x'' at the time of a
+/// stage, 1 to 6: node[stage] h after the start.
 template <Number T, class Acceleration>
 Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration& acceleration)
 {
@@ -93,8 +93,8 @@ Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration&
             .rate_error = h * weighted_sum<Table::error, 7>(pull)};
 }
 
-/// error^(3/16), from square roots: IEEE rounds them alike at every lane width. The exponent for a
-/// method of order 5 is 1/5; a little less damps the control.
+/// error^(3/16), computed by square roots, which IEEE 754 rounds identically at every lane width.
+/// The exponent for a method of order 5 is 1/5; a slightly smaller one damps the control.
 template <Number T>
 T step_error_power(const T& error)
 {
@@ -111,7 +111,7 @@ T step_size_factor(const T& error)
     using S = scalar_t<T>;
     const T shortest(S(1) / 5);
     const S safety = S(9) / 10;
-    // 4 is the bound of the factor, set where nothing is divided by an error of 0 yet.
+    // 4 is the upper bound of the factor, applied here to avoid a division by an error of 0.
     const T power = greater<T>(step_error_power(error), T(safety / 4));
     const T factor = T(safety) / power;
     const T grown = select<T>(factor > shortest, factor, shortest);

@@ -1,4 +1,4 @@
-// Dormand-Prince 5(4): exact rationals as data, nothing else.
+// The coefficients of Dormand-Prince 5(4) as exact ratios.
 // Dormand & Prince, J. Comput. Appl. Math. 6 (1980) 19-26.
 #pragma once
 
@@ -45,7 +45,7 @@ struct DormandPrince {
         {{{35, 384}, {0}, {500, 1113}, {125, 192}, {-2187, 6784}, {11, 84}}},
     }};
 
-    /// Solution of order 5 less the embedded one of order 4.
+    /// The solution of order 5 minus the embedded one of order 4.
     static constexpr Row error{
         {{71, 57600}, {0}, {-71, 16695}, {71, 1920}, {-17253, 339200}, {22, 525}, {-1, 40}}};
 };

@@ -1,6 +1,5 @@
-// Steps along the Taylor series of the motion of a rocking block (Eq. 47). Its last four
-// coefficients say how far it holds; an event on the way is a root of the series itself, and ends
-// the step there. Nothing is tried twice.
+// Integrates the motion of a rocking block (Eq. 47) by Taylor series. The last four coefficients
+// determine the step size. An event is a root of the series and ends the step. No step is repeated.
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
@@ -13,19 +12,20 @@
 
 namespace overturn {
 
-/// order: of the series of the rate. tolerance: its last terms at the end of a step, over the size
-/// of the motion [1].
+/// order: of the series of the rate. tolerance: bound of its last terms at the end of a step, over
+/// the size of the motion [1].
 template <int order, Theory theory, Number T, Records records = Records{}>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     using Series = RockingSeries<order, T>;
-    /// Two may be small by chance: those of an even push from rest are 0 in turn, and now and then
-    /// the one between is small, too. With four, errors are up to ten times smaller at the same
-    /// tolerance; to the same largest error both take the same time.
-    static constexpr int terms_looked_at = 4;
-    /// How far the series is known where its errors are told. In the linear theory a term costs
-    /// next to nothing.
+    /// The number of last terms that determine the step size. Two terms may both be small by
+    /// chance: for an even push from rest, every other term is 0, and the one between may be small.
+    /// With four terms, errors are up to ten times smaller at the same tolerance; two and four take
+    /// the same time for the same largest error.
+    static constexpr int last_terms = 4;
+    /// The order to which the series is known if errors are recorded. In the linear theory, a term
+    /// is almost free.
     static constexpr int known_order =
         !records.error ? order : order + (theory == Theory::linear ? 3 : 1);
     using KnownSeries = RockingSeries<known_order, T>;
@@ -51,8 +51,8 @@ public:
                             T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
         }
         if constexpr (records.error) {
-            unrolled<terms_looked_at>([&]<int i>() {
-                constexpr int k = order + 1 - terms_looked_at + i;
+            unrolled<last_terms>([&]<int i>() {
+                constexpr int k = order + 1 - last_terms + i;
                 T ratio = rough_power_of_two(T(log2_tolerance_ * T(S(1) / k)));
                 if constexpr (theory == Theory::linear) {
                     ratio = lesser<T>(ratio, T(S(1) / 3));
@@ -67,7 +67,7 @@ public:
     void lift(const Rocking<T>&, const Mask&) {}
     void turn(const Rocking<T>&, const Mask&) {}
 
-    /// One step in every lane; what the lanes that are not active do means nothing.
+    /// One step in every lane; the results of inactive lanes are meaningless.
     auto step(const Rocking<T>& now, const Mask& active) const
     {
         const auto push = excitation_.motion.template series<known_order>(
@@ -75,18 +75,18 @@ public:
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
                                                                slenderness_, push, unit_);
         const Series series = leading<order>(known);
-        const T dared = longest_step(now, series);
+        const T longest = longest_step(now, series);
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / phase_per_unit_;
-        Mask last = dared >= left;
-        T h = select<T>(last, left, dared);
+        Mask last = longest >= left;
+        T h = select<T>(last, left, longest);
 
         const Mask none = active && !active;
         FirstEvent event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
         const Mask suspect = active && may_meet(bounds, noise(h));
         if (any<T>(suspect)) {
-            event = seldom_first_event(series, bounds, h, suspect);
+            event = first_event_not_inlined(series, bounds, h, suspect);
             last = last && event.time == h;
             h = event.time;
         }
@@ -109,21 +109,21 @@ public:
         if constexpr (records.error) {
             return StepEndWithErrors<T>{end, errors(now, known, push, bounds, end, h)};
         } else if constexpr (records.peak) {
-            const auto look = [&](const T& share) -> MotionSample<T> {
+            const auto sample_at = [&](const T& share) -> MotionSample<T> {
                 const T time = share * h;
                 return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
                         slope_of_series(series.rate, time) * h * h};
             };
             const T most = upper_bound(bounds.upper());
-            return StepEndWithPeak<T>{end, highest_tilt<T>(now.tilt, end.tilt, most, look)};
+            return StepEndWithPeak<T>{end, highest_tilt<T>(now.tilt, end.tilt, most, sample_at)};
         } else {
             return end;
         }
     }
 
 private:
-    /// Of the ground towards the block, over g, at the peak of the pulse; nothing from where on a
-    /// wavelet is lost in the round-off of the block's own acceleration.
+    /// The peak ground acceleration towards the block, over g; 0 once a wavelet is below the
+    /// round-off of the acceleration of the block.
     T acceleration(const Rocking<T>& now) const
     {
         const T towards = now.side * excitation_.acceleration;
@@ -131,14 +131,14 @@ private:
     }
 
     struct FirstEvent {
-        T time; ///< the end of the step: at the event, or before one that is not certain yet
+        T time; ///< the end of the step: at the event, or before an event that is not yet certain
         Mask strikes;
         Mask falls;
     };
 
-    /// How far the series holds, in units: rate[n] h^n, for its last four n, is at most the
-    /// tolerance times the size of the motion, that is, times tilt + |rate| at the beginning or at
-    /// the end, whichever is more, but alpha at most; see RungeKuttaStepper.
+    /// The longest step, in units: for the last four n, rate[n] h^n is at most the tolerance times
+    /// the size of the motion, which is the larger of tilt + |rate| at the beginning and at the
+    /// end, but at most alpha; see RungeKuttaStepper.
     T longest_step(const Rocking<T>& now, const Series& series) const
     {
         using std::abs;
@@ -155,30 +155,31 @@ private:
             return lesser<T>(greater<T>(growing, at_start), at_most);
         };
         T longest = log2_longest.template operator()<order>();
-        unrolled<terms_looked_at - 1>([&]<int i>() {
+        unrolled<last_terms - 1>([&]<int i>() {
             longest = lesser<T>(longest, log2_longest.template operator()<order - 1 - i>());
         });
         if (!is_wavelet_) {
             return rough_power_of_two(longest);
         }
-        // In a wavelet's tail terms are small that grow. They shall fall by a quarter each.
+        // In the tail of a wavelet, the terms are small but grow; each must decrease by a quarter.
         const T ratio =
             following_ratio<order>(excitation_.motion.pulse, now.phase, phase_per_unit_);
         const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
         return lesser<T>(rough_power_of_two(longest), falling);
     }
 
-    /// What the series leaves out: the next terms, which are known, and all that follow. Those go
-    /// on falling like a geometric series from the size of the motion on: with a step of the chosen
-    /// length the k-th term is the tolerance or less, the ratio its k-th root, and what begins at
-    /// k = last sums up to
+    /// The truncation error: the next terms, which are known, and all that follow. The latter
+    /// decrease like a geometric series that starts from the size of the motion: at the chosen step
+    /// size, the k-th term is at most the tolerance, whose k-th root is the ratio, and the terms
+    /// from k = last on sum up to
     ///
     ///     |rate[k] h^k| ratio^(last - k) / (1 - ratio)
     ///
-    /// The largest of these: where all of the last terms happen to be small, those that follow are
-    /// not. In the linear theory the motion's own terms fall faster than any geometric series,
-    /// beyond the known ones by a third each and more. The push of a wavelet comes on top. Twice
-    /// the sum of all this: in one of 10^5 points it was up to 1.6 times too small.
+    /// The largest of these is used: if all of the last terms are small by chance, those that
+    /// follow are not. In the linear theory, the terms of the motion decrease faster than any
+    /// geometric series; after the known terms, the ratio is at most a third. The push of a wavelet
+    /// is added. The bound is twice the sum; in one of 10^5 points it was up to 1.6 times too
+    /// small.
     StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known,
                          const Coefficients<known_order, T>& push, const Enclosure<T>& bounds,
                          const StepEnd<T>& end, const T& h) const
@@ -188,12 +189,12 @@ private:
         T next(S(0));
         T following(S(0));
         T power = h;
-        unrolled<order - terms_looked_at>([&]<int>() { power = power * h; });
+        unrolled<order - last_terms>([&]<int>() { power = power * h; });
         if (is_wavelet_) {
             next = left_out_of(push, now.phase, h, power);
         }
-        unrolled<terms_looked_at + known_order - order>([&]<int i>() {
-            constexpr int k = order + 1 - terms_looked_at + i;
+        unrolled<last_terms + known_order - order>([&]<int i>() {
+            constexpr int k = order + 1 - last_terms + i;
             const T term = abs(known.rate[k]) * power;
             power = power * h;
             if constexpr (k > order) {
@@ -226,28 +227,28 @@ private:
         };
         const T duration = h * unit_;
         const T longest = T(S(longest_variation));
-        const T blind = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
+        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
         return {.variation =
                     variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, ground[0]),
                                       stiffness(value_of_series(series.tilt, middle), ground[1]),
                                       stiffness(end.tilt, ground[2])),
                 .tilt = left_out * h * T(S(1) / (order + 2)),
-                .rate = fma(left_out, fastest_, blind),
+                .rate = fma(left_out, fastest_, unknown),
                 .acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_),
                 .turning_tilt =
                     turning_tilt<T>(slenderness_, now.rate, end.rate, lower_bound(bounds.lower()),
                                     upper_bound(bounds.upper()), tilt_at_turn)};
     }
 
-    /// What the push of a wavelet adds to the rate beyond the known series: its term f[k] h^k gives
-    /// f[k] h^(k+1) / (k + 1), and they fall at least as fast as a geometric series.
-    /// power: h^(order + 1 - terms_looked_at).
+    /// The contribution of the push of a wavelet to the rate beyond the known series: the term
+    /// f[k] h^k adds f[k] h^(k+1) / (k + 1), and the terms decrease at least geometrically.
+    /// power: h^(order + 1 - last_terms).
     T left_out_of(const Coefficients<known_order, T>& push, const T& phase, const T& h,
                   T power) const
     {
         using std::abs;
         constexpr int last = known_order - 1;
-        unrolled<last - 1 - (order + 1 - terms_looked_at)>([&]<int>() { power = power * h; });
+        unrolled<last - 1 - (order + 1 - last_terms)>([&]<int>() { power = power * h; });
         const T ratio =
             following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
         const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
@@ -269,17 +270,17 @@ private:
 
     T noise(const T& h) const { return dip_of_round_off(slenderness_, T(h * unit_)); }
 
-    /// Lanes in which the block may touch the ground or fall flat within the step.
+    /// Lanes in which the block may strike the ground or reach pi/2 within the step.
     static Mask may_meet(const Enclosure<T>& tilt, const T& noise)
     {
         return lower_bound(tilt.lower()) < -noise ||
                T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
     }
 
-    /// The first impact or fall within the step. Up to the first zero of the enclosure's bound
-    /// there is none. From there, at a gap g that closes at speed v while |acceleration| <= M, the
-    /// gap closes for sure, and only once, if v^2 > 2 M g; if that is not clear the step ends here,
-    /// and the next one will see more sharply.
+    /// The first impact or fall within the step. There is none before the first zero of the bound
+    /// of the enclosure. From there on, a gap g that closes at the speed v with |acceleration| <= M
+    /// is certain to close, exactly once, if v^2 > 2 M g. Otherwise the step ends there, and the
+    /// next one has a tighter enclosure.
     FirstEvent first_event(const Series& series, const Enclosure<T>& bounds, const T& h,
                            const Mask& suspect) const
     {
@@ -304,12 +305,12 @@ private:
         const Mask stuck = share < T(S(0x1p-40));
         const Mask closes =
             here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
-        // To third order, and once more. The correction at the end of the step is the third time,
-        // and enough for doubles: what was 0.2 of the time is less than 1e-18.
+        // Corrections of third order. Together with the one at the end of the step, three of them
+        // are sufficient for doubles: an error of 0.2 of the time becomes less than 1e-18.
         T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
         constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
         for (int i = 0; i < more; ++i) {
-            const T somewhere = select<T>(near && closes, event_time, time); // and not far out
+            const T somewhere = select<T>(near && closes, event_time, time); // within the step
             const Gap there = gap_at(series, somewhere, falls);
             event_time = event_time + event_correction(there.width, there.rate, acceleration).delay;
         }
@@ -318,9 +319,9 @@ private:
         return {select<T>(sure, event_time, end), sure && !falls, sure && falls};
     }
 
-    [[gnu::noinline]] FirstEvent seldom_first_event(const Series& series,
-                                                    const Enclosure<T>& bounds, const T& h,
-                                                    const Mask& suspect) const
+    [[gnu::noinline]] FirstEvent first_event_not_inlined(const Series& series,
+                                                         const Enclosure<T>& bounds, const T& h,
+                                                         const Mask& suspect) const
     {
         return straight_line<T>([&] { return first_event(series, bounds, h, suspect); });
     }
@@ -328,17 +329,17 @@ private:
     const T slenderness_;
     const Excitation<T> excitation_;
     const bool is_wavelet_;
-    T unit_;           // of time: 1/p, or the pulse's 1/omega_p if that is shorter [1/p]
+    T unit_;           // of time: 1/p, or 1/omega_p if that is shorter [1/p]
     T fastest_;        // its reciprocal
     T phase_per_unit_; // [rad]
     T tolerance_;
     T log2_tolerance_;
     T log2_most_allowed_;
-    T lost_ = T(S(0));                                                 // see acceleration()
-    std::array<T, records.error ? terms_looked_at : 0> following_per_; // see errors()
+    T lost_ = T(S(0));                                            // see acceleration()
+    std::array<T, records.error ? last_terms : 0> following_per_; // see errors()
 };
 
-/// The method as a choice.
+/// Selects Taylor series of this order.
 template <int order>
 struct Taylor {
     template <Theory theory, Number T, Records records>

@@ -14,8 +14,8 @@ struct Block {
     T restitution; ///< r: ratio of the energies after and before an impact [1]
 };
 
-/// A rocking block. The side is a state of its own: at uplift and after an impact theta is 0 and
-/// tells nothing.
+/// The state of a rocking block. The side is stored separately, because theta is 0 at uplift and
+/// after an impact.
 template <Number T>
 struct State {
     T tilt; ///< |theta| [rad]
@@ -23,11 +23,11 @@ struct State {
     T side; ///< +1 or -1: the sign of theta
 };
 
-/// The largest restitution with which a block rocks (Eq. 17); alpha [rad]:
+/// The largest restitution of a rocking block (Eq. 17); alpha [rad]:
 ///
 ///     r_max = (1 - 3/2 sin^2(alpha))^2
 ///
-/// Meaningful for alpha < arcsin(sqrt(2/3)), where it reaches 0.
+/// Valid for alpha < arcsin(sqrt(2/3)), where it reaches 0.
 template <Number T>
 T largest_restitution(const T& slenderness)
 {
@@ -36,7 +36,7 @@ T largest_restitution(const T& slenderness)
     return root * root;
 }
 
-/// Ground acceleration, over g, that lifts a block at rest [1].
+/// The ground acceleration over g that lifts a block at rest [1].
 template <Theory theory, Number T>
 T uplift_acceleration(const T& slenderness)
 {
@@ -65,8 +65,9 @@ T rocking_acceleration(const T& tilt, const T& slenderness, const T& push)
     }
 }
 
-/// Just after an impact: the block pivots about its other corner, and its angular velocity has
-/// fallen by sqrt(r) (Eq. 40). The sign of theta' stays, so the inward rate becomes outward.
+/// Just after an impact: the block pivots about its other corner, its angular velocity is
+/// multiplied by sqrt(r) (Eq. 40). The sign of theta' does not change, so the inward rate becomes
+/// outward.
 template <Number T>
 State<T> state_after_impact(const State<T>& before, const T& sqrt_restitution)
 {

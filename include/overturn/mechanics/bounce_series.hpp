@@ -6,21 +6,20 @@
 
 namespace overturn {
 
-/// Per lane: whether the bounces that follow an impact at `phase` [rad], from which the block rises
-/// at the rate v >= 0, surely die out before the pulse ends and before the ground can lift the
-/// block.
+/// Per lane: whether the bounces after an impact at `phase` [rad] are certain to die out before the
+/// pulse ends and before the ground can lift the block. v >= 0 is the rate just after the impact.
 ///
 /// Let g(t) be the pull towards the ground on one side, sin(alpha) +- A cos(alpha), A = ground
-/// acceleration / g. Between two extrema of the pulse one side's pull rises and the other's falls.
-/// A flight under a falling pull ends no faster than it began, one under a rising pull faster by at
-/// most sqrt(g(end) / g(begin)); so after n impacts the speed is at most
-/// v r^(n/2) sqrt(rise(t) / rise(0)), and the flights, each 2 speed / g at most, last
+/// acceleration / g. Between two extrema of the pulse, the pull increases on one side, rise(t), and
+/// decreases on the other, fall(t). A flight under a decreasing pull ends no faster than it began;
+/// under an increasing pull, it ends faster by at most the factor sqrt(g(end) / g(begin)). After n
+/// impacts, the speed is at most v r^(n/2) sqrt(rise(t) / rise(0)). Each flight lasts at most
+/// 2 speed / g, so that all flights together last at most
 ///
 ///     2 v / (1 - sqrt r) max(1 / rise(0), sqrt(rise(D) / rise(0)) / fall(D))
 ///
-/// in all if that is at most D. D is 3 v / (1 - sqrt r) over the weaker pull: 1 1/2 times the sum
-/// under constant pulls. The pull changes with the tilt, too, which stays below v^2 / 2g: by less
-/// than a twentieth.
+/// if this is at most D. D is 3 v / (1 - sqrt r) over the weaker pull, 1.5 times the sum under
+/// constant pulls. The tilt stays below v^2 / 2g and changes the pull by less than a twentieth.
 template <Theory theory, Number T>
 mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<T>& excitation, const T& phase,
                           const T& rate)
@@ -30,7 +29,7 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<T>& excitation
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));
-    // No pull exceeds alpha. Most impacts are too fast for any series to end, and are told here.
+    // The weaker pull is at most alpha. Most impacts are too fast and need no further check.
     const T& alpha = block.slenderness;
     const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
     if (!any<T>(slow)) {
@@ -43,13 +42,13 @@ mask_t<T> bounces_die_out(const Block<T>& block, const Excitation<T>& excitation
     const T plus = pull(ground_now);
     const T minus = pull(-ground_now);
     const T weaker = select<T>(plus < minus, plus, minus);
-    // Without loss or pull no series ends; 1 stands in for what would divide by zero.
+    // Without loss or pull, no series ends; 1 avoids divisions by zero.
     const T loss = one - T(sqrt(block.restitution));
     const mask_t<T> fades = loss > zero && weaker > zero;
     const T series = rate / select<T>(fades, loss, one);                 // v (1 + sqrt r + r + ...)
     const T duration = T(S(3)) * series / select<T>(fades, weaker, one); // D
 
-    // A lane without an impact may have a negative rate, and would look far before the pulse.
+    // A lane without an impact may have a negative rate and thus a phase far before the pulse.
     const T over = phase + duration * excitation.frequency;
     mask_t<T> in_time = fades && over >= phase && over <= T(excitation.motion.end);
     for (const S& peak : excitation.motion.peaks) {

@@ -1,5 +1,5 @@
-// What becomes of a block that rocks freely from the end of the pulse on (Eqs. 11-20, Fig. 4).
-// All in units of p: q over p^2, velocities d theta / d tau.
+// Region and margin of a block that rocks freely after the end of the pulse (Eqs. 11-20, Fig. 4).
+// Dimensionless: q over p^2, velocities d theta / d tau.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// Distance below the top of the rocking arc, signed: beyond the top it is negative.
+/// Signed distance to the top of the rocking arc, negative beyond the top.
 ///
 ///     c = 2 sin((alpha - |theta|) / 2)          linear theory: alpha - |theta|
 template <Theory theory, Number T>
@@ -26,9 +26,9 @@ T separatrix_rate(const T& tilt, const T& slenderness)
 /// outward rate u satisfies -inward <= u <= outward.
 template <Number T>
 struct SafeRates {
-    T outward; ///< c: above it the block falls on its own side, without impact
-    T inward;  ///< sqrt(c^2 - q_min): beyond it the block falls on the other side, after one impact
-    T largest; ///< sqrt(q_max): the rate with which an upright block just does not fall (Eq. 16)
+    T outward; ///< c: if u > outward, the block overturns on its side, without impact
+    T inward;  ///< sqrt(c^2 - q_min): if u < -inward, on the other side, after one impact
+    T largest; ///< sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16)
     T minus_q_min; ///< [rad^2]
 };
 
@@ -45,8 +45,8 @@ SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
     return {c, sqrt(fma(c, c, minus_q_min)), largest, minus_q_min};
 }
 
-/// How far the verdict is from flipping, over sqrt(q_max): positive where the block is safe,
-/// negative where it overturns, continuous between impacts.
+/// The margin: distance to a change of the verdict, over sqrt(q_max). Positive if the block is
+/// safe, negative if it overturns, continuous between impacts.
 ///
 ///     margin = min(c - u, u + sqrt(c^2 - q_min)) / sqrt(q_max)
 template <Theory theory, Number T>
@@ -58,7 +58,7 @@ T margin_after_pulse(const State<T>& state, const Block<T>& block)
     return select<T>(above < below, above, below) / safe.largest;
 }
 
-/// The slope of the separatrix: d c / d|theta|, between -1 and 0 on the block's side of the top.
+/// The slope of the separatrix: d c / d|theta|, between -1 and 0 below the top.
 template <Theory theory, Number T>
 T separatrix_slope(const T& tilt, const T& slenderness)
 {
@@ -78,8 +78,8 @@ T margin_of_fall(const T& rate, const Block<T>& block)
     return -(ratio * ratio);
 }
 
-/// The code of the region, as a number, of a block that the pulse left standing (Eq. 20).
-/// q0 = (c - u)(c + u) is never formed: its sign is that of c - |u| where c >= 0.
+/// The region code, as a number, of a block that did not fall during the pulse (Eq. 20).
+/// q0 = (c - u)(c + u) is not computed: for c >= 0, its sign is that of c - |u|.
 template <Theory theory, Number T>
 T region_code_after_pulse(const State<T>& state, const Block<T>& block)
 {
@@ -89,7 +89,7 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
     const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
     const T beyond_impact = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
     const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
-    // Below, -inward <= u <= c. Beyond the top c < 0, and u <= c alone puts the block in a blade.
+    // From here on, -inward <= u <= c. Beyond the top, c < 0, so u <= c implies a blade region.
     const T safely = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
     const T standing = select<T>(state.rate < -safe.inward, beyond_impact, safely);
     return select<T>(state.rate > safe.outward, beyond_top, standing);

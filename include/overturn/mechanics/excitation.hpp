@@ -1,5 +1,5 @@
-// What shakes the ground under one block, dimensionless: a ground motion with an amplitude, a
-// frequency and the phases at which it lifts the block from rest.
+// The excitation of one block, dimensionless: a ground motion with an amplitude, a frequency and
+// the phases at which it lifts the block from rest.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -14,7 +14,7 @@ struct Excitation {
     T frequency;    ///< Omega = omega_p / p [1]
     UpliftPhases<T> uplifts;
 
-    /// Acceleration of the ground over g at some phases [1].
+    /// Ground acceleration over g at these phases [1].
     template <std::size_t count>
     std::array<T, count> ground(const std::array<T, count>& phases) const
     {

@@ -1,6 +1,6 @@
-// Free rocking after the pulse (Eqs. 21-46): arc after arc, with a loss at each impact between
-// them, until the block lies. A block that does not fall strikes infinitely often in a finite time,
-// if it loses energy at all. Scalars only.
+// Free rocking after the pulse (Eqs. 21-46): a sequence of arcs, with a loss at each impact between
+// them, until the block lies flat. A block that does not fall strikes infinitely often in a finite
+// time, unless it loses no energy. Scalars only.
 #pragma once
 
 #include "overturn/mechanics/energy_criteria.hpp"
@@ -15,8 +15,8 @@
 
 namespace overturn {
 
-/// What q is computed in. Next to the separatrix it has lost most digits of the state, and the time
-/// that a block stands on its edge goes with their logarithm.
+/// The type in which q is computed. Near the separatrix, q loses most digits of the state, and the
+/// time that a block spends near the top depends on the logarithm of q.
 template <class T>
 using MoreExact = std::conditional_t<
     std::is_floating_point_v<T>,
@@ -24,8 +24,8 @@ using MoreExact = std::conditional_t<
                                   boost::multiprecision::et_off>,
     T>;
 
-/// q0 of a state (Eq. 12), of which T is right to its last digits unless the state is within
-/// epsilon^2 of the separatrix [rad^2]:
+/// q0 of a state (Eq. 12) [rad^2], accurate to the last digits of T unless the state is within
+/// epsilon^2 of the separatrix:
 ///
 ///     q0 = 4 sin^2((alpha - |theta|) / 2) - theta'^2
 ///
@@ -43,8 +43,8 @@ MoreExact<T> conserved_q(const State<T>& state, const T& slenderness)
     return (c - rate) * (c + rate);
 }
 
-/// The paper's restitution: at every impact the same share of the energy stays. Others tell it from
-/// the number of the impact, the first being 1, and the side from which the block comes down.
+/// The paper's restitution: the same energy ratio at every impact. Other models may depend on the
+/// number of the impact, starting at 1, and on the side from which the block strikes.
 template <Number T>
 struct ConstantRestitution {
     T ratio; ///< r [1]
@@ -61,16 +61,16 @@ public:
           q_(conserved_q<theory>(begin, slenderness)), arc_(begin, slenderness, T(q_))
     {}
 
-    /// The arc in hand, when it begins, and how many impacts were before it.
+    /// The current arc, the time at which it begins, and the number of impacts before it.
     const RockingArc<theory, T>& arc() const { return arc_; }
     const T& begin() const { return begin_; }
     int impacts() const { return impacts_; }
 
-    /// When it ends: with an impact, or with the block flat. Infinite if it never does.
+    /// The time at which the arc ends with an impact or with the block flat; infinite if never.
     T impact_time() const { return begin_ + arc_.time_to_impact(); }
     T fall_time() const { return begin_ + arc_.time_to_fall(); }
 
-    /// Goes on to the arc after the impact; there must be one (Eqs. 40, 41).
+    /// Advances to the arc after the impact, which must exist (Eqs. 40, 41).
     void strike()
     {
         using std::sqrt;
@@ -79,7 +79,7 @@ public:
         const T r = restitution_(impacts_, arc_.side());
         const State<T> upright{
             .tilt = T(0), .rate = sqrt(r) * arc_.impact_speed(), .side = -arc_.side()};
-        // q_max - q after it is r (q_max - q before it).
+        // q_max - q is multiplied by r.
         const MoreExact<T> at_rest = conserved_q<theory>({T(0), T(0), T(1)}, slenderness_);
         q_ = at_rest * (1 - MoreExact<T>(r)) + MoreExact<T>(r) * q_;
         arc_ = RockingArc<theory, T>(upright, slenderness_, T(q_));
@@ -94,8 +94,8 @@ private:
     RockingArc<theory, T> arc_;
 };
 
-/// The largest tilt of a block that does not fall, from this state on [rad]: where it turns next,
-/// before or after an impact. It turns lower every time.
+/// The largest tilt of a block that does not fall, from this state on [rad]: that of its next turn,
+/// before or after an impact. Every later turn is lower.
 template <Theory theory, Number T>
 T largest_free_tilt(const State<T>& state, const Block<T>& block)
 {
@@ -111,8 +111,8 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
     return lesser<T>(greater<T>(block.slenderness - top, T(0)), block.slenderness);
 }
 
-/// How long a block that will fall takes to lie, |theta| = pi/2, from this state on [1/p]. Infinite
-/// if it is so near to the boundary that T cannot tell.
+/// The time from this state until a block that overturns lies flat, |theta| = pi/2 [1/p]. Infinite
+/// if the state cannot be distinguished from the boundary in T.
 template <Theory theory, Number T>
 T free_fall_time(const State<T>& state, const Block<T>& block)
 {
@@ -132,16 +132,16 @@ T free_fall_time(const State<T>& state, const Block<T>& block)
     return impact + RockingArc<theory, T>(upright, block.slenderness, q_after).time_to_fall();
 }
 
-/// How long a block rocks that leaves the ground at the rate v, and after each arc at sqrt(r) times
-/// the rate before (the limit of Eq. 43): the sum of all half periods (Eq. 42), in 1/p. v is below
-/// the rate that would let it fall, 2 sin(alpha/2), r below 1. With s = sin(alpha), c = cos(alpha),
-/// w = v^2 / 2s, Legendre's generating function makes the half period
+/// The duration of rocking of a block that leaves the ground at the rate v, and after each arc at
+/// sqrt(r) times the previous rate (the limit of Eq. 43): the sum of all half periods (Eq. 42)
+/// [1/p]. r < 1, and v < 2 sin(alpha/2), the rate at which it would overturn. With s = sin(alpha),
+/// c = cos(alpha), w = v^2 / 2s, Legendre's generating function gives the half period
 ///
 ///     T(v) = 2v/s sum of p[k] b[k],    b[k] = (2k)!! / (2k+1)!!,
 ///     p[0] = 1,   p[1] = w c/s,   (k+1) p[k+1] = (2k+1) (c/s) w p[k] + k w^2 p[k-1],
 ///
-/// in the linear theory 2 artanh(v / alpha); and term k of all half periods is a geometric series.
-/// The terms fall like (v^2 / q_max)^k.
+/// or 2 artanh(v / alpha) in the linear theory. Term k of all half periods is a geometric series.
+/// The terms decrease like (v^2 / q_max)^k.
 template <Theory theory, Number T>
 T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
 {
@@ -179,14 +179,14 @@ T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
     }
 }
 
-/// The same for r next to 1, to first order in 1 - r: twice the integral of T(v) / v over -log r,
-/// and half of the first term. q belongs to the first rate v.
+/// The same sum for r close to 1, to first order in 1 - r: twice the integral of T(v) / v, divided
+/// by -log r, plus half of the first term. q: its value at the first rate v.
 template <Theory theory, Number T>
 T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
 {
     using std::log;
     using std::sqrt;
-    const auto half_period = [&](const T& rate, const T& gained) -> T { // where q has grown so much
+    const auto half_period = [&](const T& rate, const T& gained) -> T { // gained: increase of q
         const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
         return RockingArc<theory, T>(upright, block.slenderness, q + gained).time_to_impact();
     };
@@ -194,7 +194,7 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
     const T fine = root * sqrt(root);
     boost::math::quadrature::tanh_sinh<T> integrator;
     const T integral = integrator.integrate(
-        [&](const T& share, const T& from_end) -> T { // of v; the distance from 1, or from 0
+        [&](const T& share, const T& from_end) -> T { // from_end: distance from 1, or from 0
             const bool near_first = from_end > 0;
             const T kept = near_first ? T(1 - from_end) : share;
             const T lost = near_first ? T(from_end * (2 - from_end)) : T((1 - share) * (1 + share));
@@ -204,8 +204,8 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
     return 2 * integral / -log(block.restitution) + half_period(v, T(0)) / 2;
 }
 
-/// When a block comes to rest [1/p]; infinite if it falls, stands on its edge for ever, or rocks
-/// for ever because it loses nothing.
+/// The time at which a block comes to rest [1/p]; infinite if it falls, stays on its edge forever,
+/// or rocks forever without energy loss.
 template <Theory theory, Number T>
 T time_of_rest(const State<T>& begin, const Block<T>& block)
 {
@@ -227,9 +227,9 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
     if (!(q > 0) || !(r < 1)) {
         return never;
     }
-    // A bounce more makes the series shorter, which takes that many terms, roughly; so the work
-    // goes with 1 / sqrt(1 - r). Where that is too much, r is so near to 1 that a sum over bounces
-    // is an integral over the rate: from one to the next its logarithm falls by half of -log r.
+    // Every bounce shortens the series, whose number of terms is about that of these bounces, so
+    // the work is proportional to 1 / sqrt(1 - r). If that is too much, r is so close to 1 that the
+    // sum is an integral over the rate, whose logarithm decreases by half of -log r per bounce.
     const T at_rest(conserved_q<theory>({T(0), T(0), T(1)}, block.slenderness));
     const int digits = std::numeric_limits<T>::digits;
     constexpr int most_bounces = 200'000;

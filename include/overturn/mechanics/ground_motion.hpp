@@ -1,5 +1,5 @@
-// How the ground moves: what all blocks of a spectrum share. A run-time value; whoever integrates
-// asks it once per step for what the step needs, so that the choice of the pulse costs one branch.
+// The ground motion, which all blocks of a spectrum share. It is a run-time value; an integrator
+// evaluates it once per step, so that selecting the pulse costs one branch.
 #pragma once
 
 #include "overturn/mechanics/pulse_series.hpp"
@@ -12,13 +12,13 @@ namespace overturn {
 template <class S>
 struct GroundMotion {
     PulseKind pulse;
-    S begin; ///< phases at which the ground starts and stops to move [rad]
+    S begin; ///< phases at which the ground motion begins and ends [rad]
     S end;
-    S kink;                          ///< where two smooth pieces meet [rad]; `begin`: nowhere
-    S bends;                         ///< 1, or 0 of a pulse that is linear on its pieces
+    S kink;  ///< where two smooth pieces meet [rad]; `begin` if there is none
+    S bends; ///< 0 for a piecewise linear pulse, otherwise 1
     std::array<S, most_lobes> peaks; ///< phases of the extrema [rad]; infinite beyond the last
 
-    /// The end of the smooth piece that holds the phase [rad]: no step may cross it.
+    /// The end of the smooth piece that contains the phase [rad]. No step may cross it.
     template <Number T>
     T end_of_piece(const T& phase) const
     {
@@ -37,7 +37,7 @@ struct GroundMotion {
     }
 
     /// The first `count` Taylor coefficients in t of scale f(phase + rate t), on the smooth piece
-    /// that begins or continues at the phase `on`; scale [1], phases [rad], rate [rad per unit of
+    /// that contains or begins at the phase `on`; scale [1], phases [rad], rate [rad per unit of
     /// t].
     template <int count, Number T>
     Coefficients<count, T> series(const T& scale, const T& phase, const T& rate, const T& on) const
@@ -62,7 +62,7 @@ struct GroundMotion {
     bool has_kink() const { return kink != begin; }
 
 private:
-    /// Not inlined: within a step its registers would cost all other pulses 7 %.
+    /// Not inlined: its use of registers would make a step with any other pulse 7 % slower.
     template <int count, Number T>
     [[gnu::noinline]] Coefficients<count, T> series_of_wavelet(const T& scale, const T& phase,
                                                                const T& rate) const
@@ -73,7 +73,7 @@ private:
     }
 };
 
-/// window: half width of a wavelet [pulse periods]; without meaning for other pulses.
+/// window: half width of a wavelet [pulse periods]; ignored for other pulses.
 template <class S>
 GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
 {
@@ -101,9 +101,9 @@ GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
 template <class S>
 using UpliftPhases = std::array<S, most_lobes>;
 
-/// For each lobe of the pulse the first phase [rad] at which amplitude * |f| exceeds 1 and a block
-/// at rest uplifts; infinity where the lobe stays below, lies outside the window, or does not
-/// exist. amplitude [1].
+/// For each lobe of the pulse, the first phase [rad] at which amplitude * |f| exceeds 1 and a block
+/// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
+/// amplitude [1].
 template <class S>
 UpliftPhases<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
 {
@@ -116,8 +116,8 @@ UpliftPhases<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
         for (std::size_t i = 0; i < flanks.size(); ++i) {
             const Flank<S>& whole = flanks[i];
             const S next_foot = i + 1 < flanks.size() ? flanks[i + 1].foot : motion.end;
-            // The part of the flank within the pulse; a pulse that begins past the peak has none
-            // left, and its first instant is then the highest of the lobe.
+            // The part of the flank within the pulse. If the pulse begins past the peak, |f| has
+            // its largest value of the lobe at the beginning of the pulse.
             const bool begins_past_peak = whole.peak < motion.begin && motion.begin < next_foot;
             const Flank<S> flank{whole.foot < motion.begin ? motion.begin : whole.foot,
                                  begins_past_peak          ? motion.begin

@@ -1,5 +1,5 @@
-// A block that the ground hardly lifts, and that hardly loses energy, bounces on thousands of
-// times. How low all of its bounces are is told here without following any.
+// A block that the ground barely lifts and that loses little energy bounces thousands of times.
+// The height of its bounces is bounded here without integrating them.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -11,49 +11,49 @@
 
 namespace overturn {
 
-/// Where a block surely is at the end of a pulse.
+/// Upper bounds at the end of a pulse.
 struct LowBounces {
-    double tilt; ///< |theta| is at most this [rad]
-    double rate; ///< likewise |theta'| [rad]
+    double tilt; ///< of |theta| [rad]
+    double rate; ///< of |theta'| [rad]
 };
 
-/// Bounds for any restitution up to 1, if they show that the tilt never exceeds a quarter of alpha.
+/// Bounds for any restitution up to 1; none unless the tilt is at most a quarter of alpha.
 ///
 /// With the pull towards the ground on one side, g(t, x) = sin(alpha - x) +- A(t) cos(alpha - x) at
-/// the tilt x (x - alpha for its negative in the linear theory), the energy of a flight is
+/// the tilt x (alpha - x +- A(t) in the linear theory), the energy of a flight is
 ///
 ///     e = x'^2 / 2 + int_0^x g(t, s) ds,    de/dt <= max(0, dg(t, 0)/dt) x (1 + x tan(alpha))
 ///
-/// No impact adds to it, so one bound E holds for all flights. From g(t, x) >= g(t, 0) - k x,
-/// k = sqrt(1 + A^2) (1 in the linear theory), come bounds of x and x' in turn:
+/// Impacts do not increase e, so one bound E is valid for all flights. g(t, x) >= g(t, 0) - k x
+/// with k = sqrt(1 + A^2) (1 in the linear theory) gives bounds of x and x':
 ///
 ///     |x'|^2 <= 2 E + 2 max(0, -g) x + k x^2,     and where g > 0    g x - k x^2 / 2 <= E.
 ///
-/// These are marched through the pulse in steps, each with the weakest pull and the largest rise of
-/// its ends and between them.
+/// The bounds are advanced through the pulse in steps. Each step uses bounds of the weakest pull
+/// and of the largest increase of the pull within the step.
 template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(double slenderness,
                                                const Excitation<double>& excitation)
 {
-    constexpr int steps = 1 << 12; // in a half turn of the pulse
+    constexpr int steps = 1 << 12; // per half turn of the pulse
     const double turn = pi<double>() / steps;
     const double duration = turn / excitation.frequency;
     const double most = std::abs(excitation.acceleration);
     const double k = theory == Theory::linear ? 1 : std::hypot(1, most);
     const double tangent = theory == Theory::linear ? 0 : std::tan(slenderness);
-    // Between its values at the ends of a step a pulse goes by no more: |f''| < 2 for all of them,
+    // The most by which a pulse exceeds its values at the ends of a step: |f''| < 2 for all pulses,
     // on each of their smooth pieces.
     const double between = 0.25 * turn * turn * most;
     const double highest = slenderness / 4;
     const double growth = duration < 1 ? k * duration * duration : 1;
     if (most > 2 * uplift_acceleration<theory>(slenderness) || growth > 0.01) {
-        return std::nullopt; // a push, or a time, in which it gets up
+        return std::nullopt; // the push is too strong, or the step too long
     }
 
     const auto pull = [&](double phase, double side) -> double {
         return -rocking_acceleration<theory>(0.0, slenderness, side * excitation.ground(phase));
     };
-    // The highest that a flight of the energy e gets against the pull g.
+    // The largest tilt of a flight of the energy e under the pull g.
     const auto height = [&](double e, double g) -> double {
         const double square = g * g - 2 * k * e;
         return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
@@ -74,15 +74,15 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
             rise[i] = std::max(0.0, last - first) + 2 * between;
         }
         const double lifting = std::max(0.0, -std::min(weakest[0], weakest[1]));
-        // x grows by the step's duration times the bound of x', at the x that it grows to: the
-        // larger root of a quadratic equation.
+        // x increases by the duration of the step times the bound of x' at the increased x, which
+        // is the larger root of a quadratic equation.
         const auto after_step = [&](double e) -> double {
             const double linear = tilt + lifting * duration * duration;
             const double constant = tilt * tilt - 2 * e * duration * duration;
             return (linear + std::sqrt(std::max(0.0, linear * linear - (1 - growth) * constant))) /
                    (1 - growth);
         };
-        // An energy that bounds its own growth.
+        // Find an energy that is not exceeded by the growth computed from it.
         double bound = energy;
         double higher = 0;
         for (double guess = energy + std::numeric_limits<double>::min();; guess *= 1.01) {

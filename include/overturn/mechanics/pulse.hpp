@@ -1,7 +1,7 @@
-// The ground pulses f(phase) with peak 1; phase = omega_p t [rad]. Each formula says where its
-// lobes lie; uplift_phases() derives the rest. To add a pulse: its row in pulse_kind.hpp, its
-// formula and its case in with_pulse(), its series in pulse_series.hpp. One-sine Eq. 48, one-cosine
-// Eq. 51, Ricker wavelets Eqs. 53, 54.
+// The ground pulses f(phase) with peak 1; phase = omega_p t [rad]. One-sine: Eq. 48, one-cosine:
+// Eq. 51, Ricker wavelets: Eqs. 53, 54. Each formula defines its lobes for uplift_phases().
+// To add a pulse, add its row in pulse_kind.hpp, its formula, its case in with_pulse(), and its
+// series in pulse_series.hpp.
 #pragma once
 
 #include "overturn/mechanics/pulse_kind.hpp"
@@ -48,7 +48,7 @@ struct OneSine : SmoothPulse {
     {
         return {{{S(0), pi<S>() / 2}, {pi<S>(), 3 * pi<S>() / 2}}};
     }
-    /// Where |f| reaches `level` on the flank.
+    /// The phase at which |f| reaches `level` on the flank.
     template <class S>
     static S phase_at(const Flank<S>& flank, const S& level)
     {
@@ -79,7 +79,7 @@ struct OneCosine : SmoothPulse {
     }
 };
 
-/// A constant push.
+/// A constant acceleration.
 struct Rectangular : SmoothPulse {
     static constexpr int lobes = 1;
 
@@ -131,17 +131,17 @@ struct Triangular {
 /// A wavelet, with one formula for all of its lobes.
 template <class Wavelet>
 struct RickerWavelet : SmoothPulse {
-    /// Between the ends of a flank that encloses the level.
+    /// Searches between the ends of the flank, which must enclose the level.
     template <class S>
     static S phase_at(const Flank<S>& flank, const S& level)
     {
         using std::abs;
         const auto excess = [&](const S& phase) -> S { return abs(Wavelet::value(phase)) - level; };
-        std::uintmax_t iterations = 200; // bisection alone would need the bits of S
+        std::uintmax_t iterations = 200; // bisection needs one per bit of S
         const auto bracket = boost::math::tools::toms748_solve(
             excess, flank.foot, flank.peak,
             boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
-        return bracket.second; // the upper end: the ground is at least about to lift the block
+        return bracket.second; // the upper end, where |f| is not below the level
     }
 };
 
@@ -166,8 +166,8 @@ struct SymmetricRicker : RickerWavelet<SymmetricRicker> {
     }
 };
 
-/// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3). The paper's 1.38 makes the peak
-/// 1.000086.
+/// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3). With the paper's 1.38, the peak
+/// is 1.000086.
 struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
     static constexpr int lobes = 4;
 

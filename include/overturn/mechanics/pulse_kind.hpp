@@ -1,4 +1,4 @@
-// The kinds of ground pulses, by name; pulse.hpp has their formulas.
+// The kinds of ground pulses and their names. The formulas are in pulse.hpp.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ enum class PulseKind {
     triangular
 };
 
-/// What tells a pulse from others that share its formula.
+/// Properties that distinguish a pulse from others with the same formula.
 struct PulseTraits {
-    std::string_view name; ///< as it stands in job files and result files
-    int half_turns; ///< it lasts from phase 0 to half_turns pi; 0: a wavelet, cut by a window
-    bool is_linear; ///< on each of its smooth pieces
+    std::string_view name; ///< in job files and result files
+    int half_turns;        ///< duration: phase 0 to half_turns pi; 0 for a wavelet, cut by a window
+    bool is_linear;        ///< on each of its smooth pieces
 };
 
 /// In the order of the enumerators.
@@ -38,13 +38,13 @@ constexpr const PulseTraits& traits_of(PulseKind kind)
     return pulses[std::size_t(kind)];
 }
 
-/// Whether the pulse is a wavelet without an end of its own: a Ricker wavelet.
+/// Whether the pulse is a Ricker wavelet, which has no end and is cut by a window.
 constexpr bool has_window(PulseKind kind)
 {
     return traits_of(kind).half_turns == 0;
 }
 
-/// The largest number of lobes that a pulse has.
+/// The largest number of lobes of a pulse.
 inline constexpr int most_lobes = 4;
 
 } // namespace overturn

@@ -1,5 +1,5 @@
-// Taylor coefficients of the pulses, by the recurrences of their equations: a phase that advances
-// evenly makes f(phase + rate t) a power series in t. Compare with the values in pulse.hpp.
+// Taylor coefficients in t of the pulses f(phase + rate t), computed by recurrences. Their values
+// are in pulse.hpp.
 #pragma once
 
 #include "overturn/mechanics/pulse.hpp"
@@ -37,7 +37,7 @@ Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slop
     return g;
 }
 
-/// The product with a polynomial of few terms.
+/// The product of a series g with a polynomial p of few terms.
 template <std::size_t count, std::size_t terms, Number T>
 std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, count>& g)
 {
@@ -52,9 +52,9 @@ std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, 
     return f;
 }
 
-/// f and its slope in t, times the scale, at t = 0 of f(phase + rate t), f the pulse on the smooth
-/// piece that begins or continues at the phase `on`; scale [1], phases [rad], rate [rad per unit of
-/// t]. Not of a wavelet: there f'' = -rate^2 f, or f'' = 0 where the pulse is linear.
+/// Value and slope of scale f(phase + rate t) at t = 0, where f is the pulse on the smooth piece
+/// that contains or begins at the phase `on`; scale [1], phases [rad], rate [rad per unit of t].
+/// Not for wavelets. These pulses satisfy f'' = -rate^2 f, or f'' = 0 if they are linear.
 template <class Pulse, Number T>
 Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate,
                                    [[maybe_unused]] const T& on)
@@ -78,7 +78,7 @@ Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate
     }
 }
 
-/// The first `count` Taylor coefficients in t of scale f(phase + rate t), f a wavelet.
+/// The first `count` Taylor coefficients in t of scale f(phase + rate t) for a wavelet f.
 template <class Wavelet, int count, Number T>
 Coefficients<count, T> wavelet_series(const T& scale, const T& phase, const T& rate)
 {
@@ -86,14 +86,14 @@ Coefficients<count, T> wavelet_series(const T& scale, const T& phase, const T& r
     using std::sqrt;
     using S = scalar_t<T>;
     if constexpr (std::same_as<Wavelet, SymmetricRicker>) {
-        // z = phase / sqrt 2 has x^2 = z^2 / 2; 1 - 2 x^2 = 1 - z^2.
+        // With z = phase / sqrt 2, x^2 = z^2 / 2 and 1 - 2 x^2 = 1 - z^2.
         const T to_z(sqrt(S(2)) / 2);
         const T z = phase * to_z;
         const T slope = rate * to_z;
         const std::array<T, 3> p{fma(-z, z, T(S(1))), z * slope * T(S(-2)), -(slope * slope)};
         return product(p, gaussian_series<count>(scale, z, slope));
     } else {
-        // z (z^2 - 3) about z: 3 (z^2 - 1) slope t + 3 z slope^2 t^2 + slope^3 t^3 on top.
+        // z (z^2 - 3) increases by 3 (z^2 - 1) slope t + 3 z slope^2 t^2 + slope^3 t^3.
         const T to_z(sqrt(S(3)) / 3);
         const T z = phase * to_z;
         const T slope = rate * to_z;

@@ -1,4 +1,4 @@
-// What becomes of a block, by name (Fig. 4); energy_criteria.hpp decides it.
+// The regions of a spectrum and their names (Fig. 4). The criteria are in energy_criteria.hpp.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace overturn {
 
-/// The eight regions of a spectrum; F+ and F- are the paper's "failure during the forced stage".
+/// The regions of a spectrum; F+ and F- are the paper's "failure during the forced stage".
 enum class Region : std::uint8_t {
     S = 0,
     S_plus = 1,
@@ -23,7 +23,7 @@ enum class Region : std::uint8_t {
     not_computed = 255
 };
 
-/// Names as they stand in result files, in the order of the codes.
+/// Names in result files, in the order of the codes.
 inline constexpr std::array<std::string_view, 9> region_names{
     "S", "S_plus", "S_minus", "U0_plus", "U0_minus", "U1_plus", "U1_minus", "F_plus", "F_minus"};
 

@@ -1,6 +1,6 @@
 // One arc of free rocking: the motion about one corner between impacts, in closed form (Eqs. 21-45
-// in real form). With y = alpha - |theta| it is y'' = sin y, and q = 4 sin^2(y/2) - y'^2 stays
-// what it is (Eq. 21); linear theory: y'' = y, q = y^2 - y'^2. Scalars only.
+// in real form). With y = alpha - |theta|, y'' = sin y, and q = 4 sin^2(y/2) - y'^2 is conserved
+// (Eq. 21); linear theory: y'' = y, q = y^2 - y'^2. Scalars only.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -12,31 +12,31 @@
 
 namespace overturn {
 
-/// The motion from a state on, until the block strikes the ground or lies flat at |theta| = pi/2.
+/// The motion from a given state until the block strikes the ground or lies flat, |theta| = pi/2.
 ///
-/// The paper's elliptic functions have the modulus 2p/sqrt(q0), which is real for no block at all,
-/// and infinite at q0 = 0. With the hyperbolic amplitude s, the real argument by which the solution
-/// of the linear theory is a hyperbolic cosine or sine,
+/// The modulus of the paper's elliptic functions, 2p/sqrt(q0), is imaginary or above 1 for every
+/// block and infinite at q0 = 0. With the hyperbolic amplitude s, the real argument of the
+/// hyperbolic cosine or sine that solves the linear theory,
 ///
-///     q > 0, it turns back below the top:  tan(y/2) = +-M cosh s,  y' = +-sqrt(q) cos(y/2) sinh s
-///     q < 0, it passes the top:            tan(y/2) = +-M sinh s,  y' = +-sqrt(-q) cos(y/2) cosh s
+///     q > 0, turns back below the top:  tan(y/2) = +-M cosh s,  y' = +-sqrt(q) cos(y/2) sinh s
+///     q < 0, passes the top:            tan(y/2) = +-M sinh s,  y' = +-sqrt(-q) cos(y/2) cosh s
 ///
 ///     tau = sinh s R_F(1, 1 + m sinh^2 s, cosh^2 s) / omega
 ///
-/// with y, 1, s instead of tan(y/2), cos(y/2), tau in the linear theory; tau is counted from the
-/// turn, or from the top. R_F is Carlson's elliptic integral (tau is F(gd s) of the modulus sqrt(1
-/// - m), which is too close to 1 to be told by that modulus);
+/// with y, 1, s instead of tan(y/2), cos(y/2), tau in the linear theory; tau is measured from the
+/// turn or from the top. R_F is Carlson's elliptic integral (tau is F(gd s) with the modulus
+/// sqrt(1 - m), which is too close to 1 to represent m accurately);
 ///
 ///     q > 0:  m = q/4,            M = sqrt(m / (1 - m)),   omega = 1
 ///     q < 0:  m = -q / (4 - q),   M = sqrt(m),             omega = sqrt(1 - q/4)
 ///
-/// On the separatrix, q = 0, tan(y/4) grows or shrinks like exp(tau). Times in 1/p.
+/// On the separatrix, q = 0, tan(y/4) grows or decays exponentially in tau. Times in 1/p.
 template <Theory theory, Number T>
     requires(lanes_v<T> == 1)
 class RockingArc {
 public:
-    /// begin: a tilt from 0 to pi/2. q: as above, for this state; near the separatrix it holds
-    /// digits that the state's own do not, see conserved_q().
+    /// begin: a tilt from 0 to pi/2. q: as above, for this state; near the separatrix it is more
+    /// accurate than a value computed from the state in T, see conserved_q().
     RockingArc(const State<T>& begin, const T& slenderness, const T& q)
         : slenderness_(slenderness), q_(q), side_(begin.side)
     {
@@ -64,13 +64,13 @@ public:
             direction_ = inward < 0 ? -one : one;
             sinh_begin_ = direction_ * measure(y) / scale_;
         } else {
-            direction_ = (y < 0) == (inward < 0) ? one : -one; // from the top, or towards it
+            direction_ = (y < 0) == (inward < 0) ? one : -one; // away from the top or towards it
             begin_ = y;
         }
         after_origin_ = q == 0 ? T(0) : elapsed(sinh_begin_);
     }
 
-    /// Where the block is, `time` after the beginning and no later than it strikes or lies.
+    /// The state at `time` after the beginning, which must not exceed the time to impact or fall.
     State<T> at(const T& time) const
     {
         using std::cosh;
@@ -89,7 +89,7 @@ public:
         return {.tilt = tilt, .rate = rate, .side = side_};
     }
 
-    /// How long until the block strikes the ground; infinite if it never does.
+    /// The time until the block strikes the ground; infinite if it does not.
     T time_to_impact() const
     {
         using std::log;
@@ -101,7 +101,7 @@ public:
                                             : never;
     }
 
-    /// How long until |theta| = pi/2; infinite if it is never reached.
+    /// The time until |theta| = pi/2; infinite if it is not reached.
     T time_to_fall() const
     {
         using std::log;
@@ -113,7 +113,7 @@ public:
         return direction_ > 0 && begin_ < 0 ? T(log(quarter(flat) / quarter(begin_))) : never;
     }
 
-    /// The inward speed at which it strikes the ground, if it does (Eq. 39).
+    /// The inward speed at which the block strikes the ground, if it does (Eq. 39).
     const T& impact_speed() const { return impact_speed_; }
 
     const T& q() const { return q_; }
@@ -125,7 +125,7 @@ private:
 
     static T half_pi() { return boost::math::constants::half_pi<T>(); }
 
-    /// What a function gives in the nonlinear theory; in the linear one it is its argument.
+    /// The value of a function in the nonlinear theory, its argument in the linear theory.
     template <class Value>
     static T in_theory(const T& argument, const Value& nonlinear)
     {
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    /// What is exponential on the separatrix, and its inverse; |y'| there.
+    /// On the separatrix: tan(y/4), which is exponential in time; its inverse; |y'|.
     static T quarter(const T& y)
     {
         using std::tan;
@@ -174,8 +174,8 @@ private:
         return in_theory(y, [&] { return T(2 * sin(y / 2)); });
     }
 
-    /// The square of the speed that the block gains from this tilt to the ground,
-    /// 4 sin^2(alpha/2) - 4 sin^2((alpha - tilt)/2) (Eq. 5), as small as it may be.
+    /// The increase of the squared speed from this tilt to the ground,
+    /// 4 sin^2(alpha/2) - 4 sin^2((alpha - tilt)/2) (Eq. 5), without cancellation.
     T square_gained(const T& tilt) const
     {
         using std::sin;
@@ -213,9 +213,9 @@ private:
         }
     }
 
-    /// The hyperbolic amplitude at this time since the turn or the top: Newton's method. d tau / d
-    /// s falls from 1 / omega on, so that it comes nearer from below, and the last step squares an
-    /// error that was below the root of epsilon.
+    /// The hyperbolic amplitude at this time since the turn or the top, by Newton's method. d tau /
+    /// d s decreases from 1 / omega on, so that the iteration converges from below; the last step
+    /// squares an error below sqrt(epsilon).
     T amplitude_at(const T& since) const
     {
         using std::abs;
@@ -224,7 +224,7 @@ private:
         T s = since * omega_;
         if constexpr (theory == Theory::nonlinear) {
             const T close = sqrt(std::numeric_limits<T>::epsilon());
-            constexpr int most = 64; // seven or fewer, in practice
+            constexpr int most = 64; // at most seven in practice
             for (int i = 0; i < most; ++i) {
                 const T sinh_s = sinh(s);
                 const T step = (since - elapsed(sinh_s)) * omega_ * sqrt(1 + m_ * sinh_s * sinh_s);
@@ -237,8 +237,8 @@ private:
         return s;
     }
 
-    /// The tilt, as small as it may be near an impact, where y is near alpha: by the tangent of a
-    /// difference.
+    /// The tilt. The tangent of a difference avoids cancellation near an impact, where y is close
+    /// to alpha.
     T tilt_at(const T& s) const
     {
         using std::asinh;
@@ -269,8 +269,8 @@ private:
     T direction_; // the sign above
     T impact_speed_;
     T sinh_begin_ = T(0);
-    T after_origin_ = T(0); // when the arc begins, counted from the turn or the top
-    T begin_ = T(0);        // y, where q = 0
+    T after_origin_ = T(0); // time at which the arc begins, measured from the turn or the top
+    T begin_ = T(0);        // y at the beginning, if q = 0
 };
 
 } // namespace overturn

@@ -1,5 +1,5 @@
-// Taylor coefficients of the motion about one corner (Eq. 47), by recurrences, between impacts.
-// Jorba & Zou, Experimental Mathematics 14 (2005) 99-117, tell the method.
+// Taylor coefficients of the motion about one corner (Eq. 47) between impacts, by recurrences.
+// Method: Jorba & Zou, Experimental Mathematics 14 (2005) 99-117.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -9,16 +9,16 @@
 
 namespace overturn {
 
-/// tilt(t) = sum of tilt[k] t^k, and its rate d tilt / d t likewise, one order less; t in the time
-/// unit that the maker of the series chose.
+/// tilt(t) = sum of tilt[k] t^k; its rate d tilt / d t = sum of rate[k] t^k, one order lower. The
+/// time unit of t is the `unit` given to rocking_series().
 template <int order, Number T>
 struct RockingSeries {
     Coefficients<order + 2, T> tilt; ///< |theta| [rad]
     Coefficients<order + 1, T> rate; ///< d|theta| / d t [rad]
 };
 
-/// Calls `body.template operator()<j>()` for 0 <= j < count, the middle first, 0 and count - 1
-/// last: of a sum over j and count - 1 - j the terms that were known first.
+/// Calls `body.template operator()<j>()` for 0 <= j < count from the middle outwards: in a sum over
+/// j and count - 1 - j, the terms that are known first are added first.
 template <int count, class Body>
 constexpr void newest_last(const Body& body)
 {
@@ -28,15 +28,15 @@ constexpr void newest_last(const Body& body)
     });
 }
 
-/// The series of the motion that has this tilt [rad] and rate [rad per unit] at t = 0, under the
-/// series of the push, side * ground acceleration / g. unit: one unit of t [1/p].
+/// The series of the motion with this tilt [rad] and rate [rad per unit] at t = 0. push: the series
+/// of side * ground acceleration / g. unit: one unit of t [1/p].
 ///
 /// With s = sin(tilt - alpha), c = cos(tilt - alpha), v the rate, B the push (Eq. 47):
 ///
 ///     v' = unit^2 (s - B c),   s' = c v,   c' = -s v         linear theory: v' = unit^2 (y - B),
 ///
-/// y = tilt - alpha. Products become sums over coefficients; unit^2 goes into s and c.
-/// The newest terms of each sum come last: the next coefficient waits for nothing else.
+/// y = tilt - alpha. Products become sums over coefficients; s and c include the factor unit^2.
+/// The newest terms of each sum are added last, which shortens the dependency chain.
 template <Theory theory, int order, Number T, std::size_t count>
     requires(count >= order)
 RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& slenderness,
@@ -70,7 +70,7 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
             T c_v(S(0));
             T s_v(S(0));
             newest_last<k>([&]<int j>() {
-                if constexpr (j == k / 2) { // the first
+                if constexpr (j == k / 2) { // the first term
                     c_v = v[j] * c[k - 1 - j];
                     s_v = v[j] * s[k - 1 - j];
                 } else {
@@ -90,7 +90,7 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
     return series;
 }
 
-/// The series up to a lower order.
+/// The series truncated to a lower order.
 template <int order, int known_order, Number T>
 RockingSeries<order, T> leading(const RockingSeries<known_order, T>& known)
 {

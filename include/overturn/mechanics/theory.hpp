@@ -1,4 +1,4 @@
-// The two theories of the block: Eq. 47, and its linearisation for slender blocks.
+// The two theories of the block: Eq. 47 and its linearisation for slender blocks.
 #pragma once
 
 namespace overturn {

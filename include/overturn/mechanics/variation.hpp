@@ -1,6 +1,6 @@
-// How a small change of a rocking block's state is passed on: by the linearised Eq. 47 between
-// impacts, and by the impact itself. The upright block is an inverted pendulum, so changes grow; a
-// slow impact amplifies them.
+// Propagation of a small change of the state of a rocking block: by the linearised Eq. 47 between
+// impacts, and by the impact itself. The block is an inverted pendulum, so changes grow; a slow
+// impact amplifies them.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -14,8 +14,8 @@ struct Variation {
     T tilt_by_rate; ///< [1/p]
     T rate_by_tilt; ///< [p]
     T rate_by_rate; ///< [1]
-    /// How far off rate_by_tilt may be [p]; the entries of its row and column are by this times
-    /// `time` [1/p], tilt_by_rate by this times its square.
+    /// Error bound of rate_by_tilt [p]. The bound of the diagonal entries is `unsure` times `time`
+    /// [1/p], that of tilt_by_rate is `unsure` times the square of `time`.
     T unsure = T(scalar_t<T>(0));
     T time = T(scalar_t<T>(0));
 };
@@ -35,15 +35,15 @@ T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
     }
 }
 
-/// Of longer times variation_over() knows nothing [1/p].
+/// The longest time for which variation_over() is valid [1/p].
 inline constexpr double longest_variation = 12;
 
-/// Over a time h [1/p] without an event, from the stiffness at its beginning, its middle and its
-/// end: the classical Runge-Kutta step for delta'' = k(t) delta, written out, and beyond it the
-/// series of cosh and sinh for the mean of k, as steps of the linear theory are long. For a
-/// constant k it is off by less than 2 % of its largest entry at the longest h, and by 3e-10 at 3.
-/// What it is unsure of grows with d, what k varies by, and is seldom too little, and in the median
-/// ten times too much.
+/// The variation over a time h [1/p] without an event, from the stiffness k at its beginning,
+/// middle and end: the classical Runge-Kutta step for delta'' = k(t) delta, written out, plus the
+/// higher terms of the series of cosh and sinh for the mean of k, because steps in the linear
+/// theory are long. For a constant k, its error is below 2 % of its largest entry at the longest h,
+/// and 3e-10 at h = 3. The error bound `unsure` grows with the variation of k; it is seldom too
+/// small, and ten times too large in the median.
 template <Number T>
 Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T& end)
 {
@@ -78,8 +78,8 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
             .time = h};
 }
 
-/// Over an impact at the speed w: a tilt that is too large by d strikes later by d / w, and has
-/// another acceleration meanwhile. a, b: d^2|theta| / d tau^2 just before and just after.
+/// The variation over an impact at the speed w: a block whose tilt is larger by d strikes later by
+/// d / w, with a different acceleration until then. a, b: d^2|theta| / d tau^2 before and after.
 ///
 ///     tilt+ = -sqrt(r) tilt-,   rate+ = -sqrt(r) rate- - (sqrt(r) a + b) tilt- / w
 template <Number T>

@@ -1,4 +1,4 @@
-// What the Ricker wavelets need beside other pulses: bounds of their tails and of their series.
+// Bounds of the tails and of the series of the Ricker wavelets.
 #pragma once
 
 #include "overturn/mechanics/pulse.hpp"
@@ -11,7 +11,7 @@ constexpr int derivative_of_gaussian(PulseKind wavelet)
     return wavelet == PulseKind::symmetric_ricker ? 2 : 3;
 }
 
-/// The phase [rad] from which on |f| of a wavelet stays below 2^log2_level, to within a percent; at
+/// The phase [rad] after which |f| of a wavelet stays below 2^log2_level, to within a percent; at
 /// least 6 sqrt(2). With z = phase / sqrt m, |f| <= z^3 exp(-z^2 / 2).
 template <Number T>
 T end_of_tail(PulseKind wavelet, const T& log2_level)
@@ -28,10 +28,9 @@ T end_of_tail(PulseKind wavelet, const T& log2_level)
     return sqrt(square * T(S(derivative_of_gaussian(wavelet))));
 }
 
-/// How fast the terms of a wavelet's series at most go on: with q = following_ratio, if two terms
-/// f[k] t^k in a row are at most M / q and M in size, k = count - 1 for the second, the j-th one
-/// after is at most M q^j. From the recurrence for the m-th derivative of a Gaussian at z, x =
-/// slope t:
+/// An upper bound q of the ratio of successive terms of a wavelet's series: if |f[k] t^k| is at
+/// most M / q for k = count - 2 and at most M for k = count - 1, the j-th term after these is at
+/// most M q^j. From the recurrence for the m-th derivative of a Gaussian at z, x = slope t:
 ///
 ///     k f[k] t^k = -z x f[k-1] t^(k-1) - x^2 (1 + m / (k - 1)) f[k-2] t^(k-2)
 ///

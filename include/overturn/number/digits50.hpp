@@ -1,4 +1,4 @@
-// Digits50: the reference number, 50 decimal digits. Slow; for tests and tools.
+// Digits50: the reference number type, with 50 decimal digits. Slow.
 #pragma once
 
 #include "overturn/number/number.hpp"

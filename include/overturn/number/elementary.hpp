@@ -1,6 +1,6 @@
-// Sine, cosine and exponential on the ranges that rocking needs, from +, * and fma alone: no
-// branches, no tables, the same bits in a double and in every lane of a pack.
-// In double the errors are below 1.5 ulp of the larger of the result and, for the cosine, 1.
+// Sine, cosine and exponential on the ranges used in rocking, computed with +, * and fma only: no
+// branches, no tables, identical bits in a double and in every lane of a pack.
+// In double, the error is below 1.5 ulp of the result; for the cosine, below 1.5 ulp of 1.
 #pragma once
 
 #include "overturn/number/number.hpp"
@@ -44,7 +44,7 @@ T polynomial(const std::array<double, N>& c, const T& t)
     return sum;
 }
 
-/// sin x and cos x for |x| <= pi/2 [rad]; in double smooth, if less exact, somewhat beyond.
+/// sin x and cos x for |x| <= pi/2 [rad]. Slightly beyond, double is smooth but less accurate.
 template <Number T>
 SineAndCosine<T> sine_and_cosine(const T& x)
 {
@@ -61,14 +61,14 @@ SineAndCosine<T> sine_and_cosine(const T& x)
     }
 }
 
-/// sin x and cos x for -pi/2 <= x <= 5 pi/2 [rad]: a pulse of one period.
+/// sin x and cos x for -pi/2 <= x <= 5 pi/2 [rad], the range of a pulse of one period.
 template <Number T>
 SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 {
     using arithmetic::fma;
     using S = scalar_t<T>;
     if constexpr (std::same_as<S, double>) {
-        // pi in two parts: with at most 2 half turns the first product is exact under fma.
+        // pi is split into two parts; for up to 2 half turns, the first product is exact with fma.
         constexpr double pi_high = 0x1.921fb54442d18p+1;
         constexpr double pi_low = 0x1.1a62633145c07p-53;
         const T one(1);
@@ -91,8 +91,8 @@ T exponential_decay(const T& x)
     using arithmetic::fma;
     using std::exp;
     if constexpr (std::same_as<scalar_t<T>, double>) {
-        // exp(-x) = 2^-k exp(k ln 2 - x), k the integer nearest to x / ln 2, found by rounding at
-        // 1.5 * 2^52; |k ln 2 - x| <= ln(2)/2, where the Taylor series to 1/13! leaves 4e-18.
+        // exp(-x) = 2^-k exp(k ln 2 - x), k the integer nearest to x / ln 2, rounded at 1.5 * 2^52.
+        // |k ln 2 - x| <= ln(2)/2, where the series up to 1/13! has an error of 4e-18.
         constexpr std::array<double, 14> series{1.0,
                                                 1.0,
                                                 1.0 / 2,
@@ -119,8 +119,8 @@ T exponential_decay(const T& x)
     }
 }
 
-/// log2 x for a normal x > 0, to within 1e-3: for choices, such as of a step size, not for results.
-/// Of a smaller x, 0 included, some number below -1022; of what is not finite one above 1023.
+/// log2 x for a normal x > 0, to within 1e-3. For decisions such as step sizes, not for results.
+/// Returns a number below -1022 for smaller x, including 0, and one above 1023 for non-finite x.
 template <Number T>
 T rough_log2(const T& x)
 {
@@ -131,7 +131,7 @@ T rough_log2(const T& x)
         return polynomial(cubic, mantissa) + exponent;
     } else {
         using std::log2;
-        return x == T(0) ? T(-200000) : T(log2(x)); // which would be infinite
+        return x == T(0) ? T(-200000) : T(log2(x)); // log2(0) is infinite
     }
 }
 

@@ -1,5 +1,5 @@
-// What a number is: the seam through which one text of the physics runs in double, in SIMD lanes,
-// in long double and in 50 digits. A new number type specialises number_traits.
+// The number abstraction: the physics is written once for double, SIMD lanes, long double and 50
+// digits. A new number type specialises number_traits.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace overturn {
 
-/// The fused multiply-add of the physics. Of a long double x87 has none, and the C library's takes
-/// half a microsecond: there it is a product and a sum.
+/// The fused multiply-add of the physics. For long double it is a product and a sum: x87 has no
+/// fma, and that of the C library takes half a microsecond.
 namespace arithmetic {
 [[gnu::always_inline]] inline double fma(double a, double b, double c)
 {
@@ -26,7 +26,7 @@ namespace arithmetic {
 template <class T>
 struct number_traits;
 
-/// A lane-free number: any() and all() of its mask are the mask itself.
+/// Traits of a scalar number: any() and all() return the mask itself.
 template <class T>
 struct scalar_number_traits {
     using scalar = T;
@@ -63,10 +63,10 @@ struct number_traits<double> : scalar_number_traits<double> {
     {
         return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + exponent_shifter) << 52);
     }
-    /// Adding it leaves k + 1023, a double's biased exponent, in the lowest bits.
+    /// k plus this has k + 1023, the biased exponent of a double, in its lowest bits.
     static constexpr double exponent_shifter = 0x1p+52 + 1023;
 
-    /// A normal x > 0 as mantissa * 2^exponent, 1 <= mantissa < 2; smaller ones get exponent -1023.
+    /// A normal x > 0 as mantissa * 2^exponent, 1 <= mantissa < 2; for smaller x, exponent = -1023.
     static SplitNumber<double> split(double x)
     {
         const auto bits = std::bit_cast<std::uint64_t>(x);
@@ -81,15 +81,15 @@ struct number_traits<double> : scalar_number_traits<double> {
     }
 
     static constexpr std::uint64_t mantissa_bits = 0x000fffffffffffff;
-    static constexpr std::uint64_t one_bits = 0x3ff0000000000000;       // of 1.0
-    static constexpr std::uint64_t two_to_52_bits = 0x4330000000000000; // of 2^52
+    static constexpr std::uint64_t one_bits = 0x3ff0000000000000;       // bits of 1.0
+    static constexpr std::uint64_t two_to_52_bits = 0x4330000000000000; // bits of 2^52
 };
 
 /// The type of one lane.
 template <class T>
 using scalar_t = typename number_traits<T>::scalar;
 
-/// What a comparison of two numbers gives: one truth value per lane.
+/// The result of a comparison of two numbers: one boolean per lane.
 template <class T>
 using mask_t = typename number_traits<T>::mask;
 
@@ -106,7 +106,7 @@ concept Number = requires(T a, T b) {
     -a;
 };
 
-/// The lanes of a number, from and to memory.
+/// Loads the lanes of a number from memory.
 template <Number T>
 T load(const scalar_t<T>* lanes)
 {
@@ -121,44 +121,44 @@ std::array<scalar_t<T>, lanes_v<T>> lanes_of(const T& number)
     return lanes;
 }
 
-/// Lane by lane: `yes` where the mask holds, `no` elsewhere.
+/// Lane by lane: `yes` where the mask is true, `no` elsewhere.
 template <Number T>
 T select(const mask_t<T>& mask, const T& yes, const T& no)
 {
     return number_traits<T>::select(mask, yes, no);
 }
 
-/// Lane by lane: a where a < b, b elsewhere, also where one is not a number. One instruction, where
-/// select() takes two.
+/// Lane by lane: a where a < b, b elsewhere (also where either is NaN). One instruction; select()
+/// takes two.
 template <Number T>
 T lesser(const T& a, const T& b)
 {
     return number_traits<T>::lesser(a, b);
 }
 
-/// Lane by lane: a where a > b, b elsewhere, also where one is not a number.
+/// Lane by lane: a where a > b, b elsewhere (also where either is NaN).
 template <Number T>
 T greater(const T& a, const T& b)
 {
     return number_traits<T>::greater(a, b);
 }
 
-/// body(), with all that it calls written out in one straight line where a number is a register:
-/// calls would pass registers through memory, and end what the processor can see ahead.
+/// Calls body(). If a number fits in a register, all functions that body() calls are inlined: calls
+/// would pass registers through memory and limit out-of-order execution.
 template <Number T, class Body>
 auto straight_line(const Body& body)
 {
     return number_traits<T>::straight_line(body);
 }
 
-/// Whether the mask holds in at least one lane; T cannot be deduced: any<T>(mask).
+/// Whether the mask is true in at least one lane. T cannot be deduced: any<T>(mask).
 template <Number T>
 bool any(const mask_t<T>& mask)
 {
     return number_traits<T>::any(mask);
 }
 
-/// Whether the mask holds in every lane.
+/// Whether the mask is true in every lane.
 template <Number T>
 bool all(const mask_t<T>& mask)
 {

@@ -1,5 +1,5 @@
-// Pack: a SIMD register of doubles. Its operations are IEEE's, one per lane, so that every lane
-// has the bits that a lone double would have: +, -, *, /, fma, sqrt, comparisons and selection.
+// Pack: a SIMD register of doubles. Its operations (+, -, *, /, fma, sqrt, comparisons, selection)
+// follow IEEE 754 in each lane, so every lane has the same bits as a scalar double.
 #pragma once
 
 #include "overturn/number/number.hpp"
@@ -22,8 +22,8 @@ inline batch<double, avx512dq> fma(const batch<double, avx512dq>& x,
 
 namespace overturn {
 
-/// `Architecture` is one of xsimd's, so that the kernels of two instruction sets in one program
-/// share no function.
+/// `Architecture` is an xsimd architecture. It is a template parameter so that the kernels of two
+/// instruction sets in one program share no function.
 template <class Architecture>
 using Pack = xsimd::batch<double, Architecture>;
 

@@ -1,4 +1,4 @@
-// A loop written out by the compiler.
+// A loop that is unrolled at compile time.
 #pragma once
 
 #include <utility>
