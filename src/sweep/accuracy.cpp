@@ -64,7 +64,7 @@ std::vector<Numerics> accuracy_ladder()
         for (const Method method : {Method::rk45, Method::taylor}) {
             for (const double tolerance : tolerances) {
                 const Numerics numerics{method, tolerance, resolve};
-                // From a finer first pass on there is nothing left to resolve.
+                // With a smaller tolerance, nothing is left to resolve.
                 if (!resolve || (knows_errors(numerics) && tolerance >= 1e-8)) {
                     ladder.push_back(numerics);
                 }
@@ -133,11 +133,11 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
     AccuracyRow row;
     row.numerics = numerics;
 
-    std::vector<Field> asked{Field::region, Field::angle, Field::velocity, Field::margin,
-                             Field::steps};
+    std::vector<Field> requested{Field::region, Field::angle, Field::velocity, Field::margin,
+                                 Field::steps};
     const bool with_bounds = knows_errors(numerics);
     if (with_bounds) {
-        asked.push_back(Field::error);
+        requested.push_back(Field::error);
     }
     std::vector<double> angle, velocity, margin, ratios;
     std::int64_t exceeded = 0;
@@ -145,7 +145,7 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
     auto exact = in_digits_.begin();
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const TileFields fields =
-            sweep_tile(scene_, numerics, sample_.plane, tiling[i], asked, kernel_);
+            sweep_tile(scene_, numerics, sample_.plane, tiling[i], requested, kernel_);
         const auto& true_region = values_of<std::uint8_t>(truth_[std::size_t(i)], 0);
         const auto& true_margin = values_of<double>(truth_[std::size_t(i)], 1);
         const auto& region = values_of<std::uint8_t>(fields, 0);
@@ -162,13 +162,13 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
         }
         for (; exact != in_digits_.end() && exact->tile == i; ++exact) {
             const auto point = std::size_t(exact->point);
-            // A block that fell, or did not, where it should not have: another end altogether.
-            const bool other = fell(region[point]) != exact->fell;
+            // Only one of the two blocks fell, so their ends cannot be compared.
+            const bool differs = fell(region[point]) != exact->fell;
             const auto error = [&](std::size_t field, double true_value) {
                 const double value = values_of<double>(fields, field)[point];
                 const double found = std::abs(value - true_value);
-                return other || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
-                                                      : found;
+                return differs || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
+                                                        : found;
             };
             angle.push_back(error(1, exact->angle));
             velocity.push_back(error(2, exact->velocity));

@@ -14,12 +14,11 @@ namespace overturn {
 
 namespace {
 
-/// Verdicts must be right: cheap where that is clear, fine where it is not.
+/// Verdicts must be right. The scan uses a loose tolerance and resolves verdicts in doubt.
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
 constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
 
-/// A verdict that stays undecided may take a second: after so many the scan is not refined any
-/// more.
+/// An undecided verdict may take a second. After this many, the scan is not refined further.
 constexpr std::size_t most_undecided = 16;
 
 class Line {
@@ -49,7 +48,7 @@ public:
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
 
-    /// Amplitudes whose verdict could not be settled, in the order of their probing.
+    /// Amplitudes whose verdict could not be settled, in the order of computation.
     const std::vector<Probe>& undecided() const { return undecided_; }
     void add_undecided(double amplitude)
     {
@@ -64,8 +63,8 @@ private:
     std::vector<Probe> undecided_;
 };
 
-/// Narrows a bracket of one flip, until a verdict within it cannot be settled. The margin changes
-/// its sign there, but may jump.
+/// Narrows the bracket of a flip to flip_width, or until a verdict within it cannot be settled. The
+/// margin changes its sign at the flip but may jump.
 std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above)
 {
     Probe low = below;
@@ -75,22 +74,24 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
         const Probe probe = line.at(amplitude);
         settled = settled && probe.is_settled();
         if (!settled) {
-            return 0.0; // which ends the search
+            return 0.0; // ends the search
         }
         (is_safe(probe.region) == is_safe(below.region) ? low : high) = probe;
         return probe.margin;
     };
-    std::uintmax_t most_looks = 100;
+    std::uintmax_t most_evaluations = 100;
     boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
-                                      above.margin, is_narrow, most_looks);
-    while (settled && !is_narrow(low.amplitude, high.amplitude)) { // a margin of 0 ends it early
+                                      above.margin, is_narrow, most_evaluations);
+    while (settled &&
+           !is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
     }
     return {low, high};
 }
 
-/// What separates two amplitudes that overturn to different sides, by halving: a safe one; or the
-/// closest two found, where it cannot be settled or is thinner than flip_width.
+/// Bisects between two amplitudes that overturn to different sides. Returns a safe amplitude, or
+/// the two closest ones if a verdict cannot be settled or the safe strip is thinner than
+/// flip_width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
     while (!is_narrow(below.amplitude, above.amplitude)) {
@@ -107,8 +108,8 @@ std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
     return {below, above};
 }
 
-/// An amplitude of the other verdict near `nearest`, whose margin is nearest to 0 of three: by
-/// Brent's method, which ends once one is found.
+/// Searches for an amplitude with the other verdict near `nearest`, the one of three whose margin
+/// is nearest to 0, by Brent's method.
 std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const Probe& nearest,
                                         const Probe& after)
 {
@@ -124,16 +125,15 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
         }
         return probe.is_settled() ? std::abs(probe.margin) : 1.0;
     };
-    std::uintmax_t most_looks = 60;
-    constexpr int bits = 26; // half of a double's: a minimum is no better known
+    std::uintmax_t most_evaluations = 60;
+    constexpr int bits = 26; // half of those of a double, the accuracy of a minimum
     boost::math::tools::brent_find_minima(distance, before.amplitude, after.amplitude, bits,
-                                          most_looks);
+                                          most_evaluations);
     return found;
 }
 
-/// Halves the steps of the scan where it is rough, and those again, down to finest_step.
-std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
-                                          std::size_t most_flips)
+/// Halves the steps of the scan repeatedly where it is rough, down to finest_step.
+std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t most_flips)
 {
     forget_the_useless(probes, most_flips);
     for (int time = 0; line.undecided().size() <= most_undecided; ++time) {
@@ -146,7 +146,7 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
             for (const std::size_t end : {i, i + 1}) {
                 const Probe& below = probes[end - 1];
                 const Probe& above = probes[end];
-                // Others were looked at before.
+                // Other steps were checked before.
                 const bool is_new = below.halving == time || above.halving == time;
                 const bool is_wide =
                     above.amplitude - below.amplitude > finest_step * above.amplitude;
@@ -169,8 +169,8 @@ std::vector<Probe> looked_at_more_closely(Line& line, std::vector<Probe> probes,
     return probes;
 }
 
-/// Adds what two neighbours of one verdict tell of another between them.
-void find_what_hides_between(Line& line, std::vector<Probe>& probes)
+/// Adds amplitudes with another verdict between two neighbours with the same verdict.
+void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
 {
     std::vector<Probe> found;
     for (std::size_t i = 0; i + 1 < probes.size(); ++i) {
@@ -200,9 +200,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
                      DropRequested drop_requested)
 {
     Line line(scene, where, kernel, drop_requested);
-    std::vector<Probe> probes =
-        looked_at_more_closely(line, line.at(amplitudes, scanning), most_flips);
-    find_what_hides_between(line, probes);
+    std::vector<Probe> probes = refined(line, line.at(amplitudes, scanning), most_flips);
+    add_hidden_verdicts(line, probes);
     std::vector<Probe> closer;
     for (std::size_t i = 1; i < probes.size() && closer.size() < 2 * most_flips; ++i) {
         if (is_flip(probes[i - 1], probes[i])) {
@@ -224,7 +223,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
         boundary.has_more = boundary.flips.size() == most_flips;
         if (!boundary.has_more) {
-            // What is undecided extends to the settled amplitudes on either side of it.
+            // An undecided range extends to the settled amplitudes on both sides.
             boundary.flips.push_back({below.is_settled() ? below.amplitude : above.amplitude,
                                       above.is_settled() ? above.amplitude : below.amplitude,
                                       below.region, above.region});

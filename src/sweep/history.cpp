@@ -13,32 +13,32 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Writes down where a block is, up to the last time that is shown: at evenly spread times, and
-/// before and after each event.
+/// Records the state of a block up to the last time shown: at evenly spaced times, and before and
+/// after each event.
 class Recorder {
 public:
     Recorder(double until, int samples) : until_(until), samples_(samples) {}
 
     bool is_over(double time) const { return time > until_; }
 
-    /// The block moves on until `end`; at(time) tells its sample.
+    /// Records the motion until `end`; at(time) returns a sample.
     template <class At>
     void follow(double end, const At& at)
     {
         for (; next_ < samples_; ++next_) {
-            const double due = until_ * next_ / std::max(1, samples_ - 1);
-            if (due >= end) {
+            const double time = until_ * next_ / std::max(1, samples_ - 1);
+            if (time >= end) {
                 break;
             }
-            history_.samples.push_back(at(due));
+            history_.samples.push_back(at(time));
         }
         if (end < infinity) {
             last_ = at(end);
         }
     }
 
-    /// Something happens where it was followed to.
-    void happens(EventKind event, const HistorySample& after)
+    /// Records an event at the last time passed to follow().
+    void record_event(EventKind event, const HistorySample& after)
     {
         if (!is_over(last_.time)) {
             history_.samples.push_back(last_);
@@ -46,7 +46,7 @@ public:
             history_.events.push_back({event, last_, after});
         }
     }
-    void ends_with(EventKind event) { happens(event, last_); }
+    void ends_with(EventKind event) { record_event(event, last_); }
 
     History& history() { return history_; }
 
@@ -122,7 +122,7 @@ private:
         }
         FreeRocking<theory, double> rocking = free_rocking();
         if (std::isfinite(rocking.impact_time())) {
-            rocking.strike(); // the last one after which it may fall
+            rocking.strike(); // the block can fall only before or after the first impact
         }
         return end_of_path_ + rocking.fall_time();
     }
@@ -178,7 +178,7 @@ private:
             recorder.follow(time, at);
             latest = event.kind == EventKind::rest ? nullptr : &event;
             if (event.kind != EventKind::step) {
-                recorder.happens(event.kind, at(time));
+                recorder.record_event(event.kind, at(time));
             }
         }
         recorder.follow(end_of_path_, at);
@@ -186,17 +186,17 @@ private:
             recorder.ends_with(EventKind::fall);
         } else if (is_free()) {
             const bool rests = latest == nullptr;
-            recorder.happens(EventKind::end_of_pulse,
-                             rests ? resting(end_of_path_, 0)
-                                   : sample(end_of_path_, path_.end.state, 0));
+            recorder.record_event(EventKind::end_of_pulse,
+                                  rests ? resting(end_of_path_, 0)
+                                        : sample(end_of_path_, path_.end.state, 0));
         }
     }
 
-    /// Returns whether all impacts could be followed.
+    /// Returns whether all impacts could be recorded.
     bool record_free_stage(Recorder& recorder, double spacing) const
     {
         FreeRocking<theory, double> rocking = free_rocking();
-        // What is left of a series that is shorter than this cannot be seen.
+        // The remainder of a series that is shorter than this is not visible.
         const double last_impact = time_of_rest_ - 1e-3 * spacing;
         while (end_of_path_ + rocking.begin() < last_impact) {
             if (rocking.impacts() == most_impacts_shown) {
@@ -219,7 +219,7 @@ private:
                 return true;
             }
             rocking.strike();
-            recorder.happens(EventKind::impact, sample(impact, arc.at(0), 0));
+            recorder.record_event(EventKind::impact, sample(impact, arc.at(0), 0));
         }
         const auto at_rest = [&](double time) { return resting(time, 0); };
         if (time_of_rest_ > end_of_path_) {
@@ -233,7 +233,7 @@ private:
     Block<double> block_;
     Excitation<double> excitation_;
     ForcedPath path_;
-    double end_of_path_; // of what is integrated [1/p]
+    double end_of_path_; // time [1/p]
     double time_of_rest_;
     double time_of_fall_;
 };

@@ -19,7 +19,7 @@ OVERTURN_DECLARE(avx512)
 
 namespace {
 
-/// What CMake had compiled, in the order of Integrator; null pointers for other kernels.
+/// The compiled kernels, in the order of Integrator; null pointers for kernels not compiled.
 constexpr std::array<SweepKernelChoice, 3> compiled(Kernel kernel)
 {
     switch (kernel) {
@@ -52,7 +52,7 @@ bool is_compiled(Kernel kernel)
 bool processor_runs(Kernel kernel)
 {
 #ifdef __x86_64__
-    // The kernels are compiled for x86-64-v3 and v4, of which these are the telling parts.
+    // The kernels are compiled for x86-64-v3 and v4; these features identify them.
     const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                        __builtin_cpu_supports("bmi2");
     if (kernel != Kernel::avx512) {
@@ -79,11 +79,11 @@ Kernel widest_kernel()
         }
     }
     if (processor_runs(Kernel::one_lane)) {
-        throw ProcessorError("this processor runs no kernel of this build. Configure it with "
-                             "-DOVERTURN_KERNELS=all, or build it here.");
+        throw ProcessorError("this processor cannot run any kernel of this build. Configure it "
+                             "with -DOVERTURN_KERNELS=all, or build it on this machine.");
     }
-    throw ProcessorError("this processor has neither AVX2 with FMA nor AVX-512. Overturn needs one "
-                         "of them: Intel processors have them since 2013, AMD's since 2015.");
+    throw ProcessorError("this processor supports neither AVX2 with FMA nor AVX-512. Overturn "
+                         "requires one of them (Intel processors since 2013, AMD since 2015).");
 }
 
 } // namespace overturn

@@ -94,7 +94,7 @@ void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unkno
                           .context = &drop_requested_};
     sweep_kernel(kernel_, integrator_of(numerics), scene_.theory, ends.records)(task,
                                                                                 ends.pointers());
-    throw_if_dropped(); // or some ends may be missing
+    throw_if_dropped(); // if dropped, some ends may be missing
 }
 
 template <class T>
@@ -146,8 +146,8 @@ bool PointRun::settle_low_bounces(int point, Ends& ends) const
                                         .acceleration = pushes_[point].acceleration,
                                         .frequency = block.frequency,
                                         .uplifts = pushes_[point].uplifts};
-    // The margin is that of a block at rest, 1, but for these: no distance to a limit of the rate
-    // changes by more than the tilt and the rate do.
+    // The margin is that of a block at rest, 1, up to this error: the distances to the limits of
+    // the rate change by no more than the tilt plus the rate.
     const double error = with_theory(scene_.theory, [&]<Theory theory>() {
         const auto bounds = bound_of_low_bounces<theory>(block.slenderness, excitation);
         return bounds

@@ -1,4 +1,4 @@
-// The forced stages of a set of points, as often and as finely as their verdicts need.
+// The forced stages of a set of points, repeated with more digits if verdicts require it.
 #pragma once
 
 #include "sweep_kernel.hpp"
@@ -11,7 +11,7 @@
 
 namespace overturn {
 
-/// The arrays behind PointEnds; those that the records do not ask for are empty.
+/// The arrays that PointEnds points to; those that are not recorded are empty.
 struct Ends {
     Ends(std::size_t points, const Records& recorded);
 
@@ -27,7 +27,7 @@ struct Ends {
 /// The points of a tile, row by row, frequency fastest.
 std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile);
 
-/// Each push once, as long as neighbours share it; in the order of the points.
+/// The pushes in the order of the points; successive points with the same push share it.
 struct Pushes {
     Pushes(const GroundMotion<double>& motion, Theory theory,
            const std::vector<PlanePoint>& points);
@@ -41,8 +41,7 @@ struct Pushes {
     std::vector<int> of_point;
 };
 
-/// Points of one scene, made ready to run. Whatever takes long throws TileDropped once it is
-/// requested.
+/// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
 class PointRun {
 public:
     PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
@@ -50,23 +49,23 @@ public:
 
     int size() const { return int(points_.size()); }
 
-    /// Integrates every point, or the chosen ones, in ascending order.
+    /// Integrates every point, or the chosen ones, which must be in ascending order.
     void run(const Numerics& numerics, Ends& ends,
              OnUnknownError on_unknown_error = OnUnknownError::go_on,
              const std::vector<int>* chosen = nullptr) const;
 
     /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
-    /// are found before the end is rounded to doubles.
+    /// are computed before the end is rounded to double.
     template <class T>
     void run_exactly(int point, Ends& ends) const;
 
-    /// Settles a point that provably only bounces low: it is safe, its margin what is left open by
-    /// bound_of_low_bounces(). If its bounces were too many to follow, it is at rest but for that.
+    /// Settles a point whose bounces are provably low, by bound_of_low_bounces(): it is safe, and
+    /// the bound is the error of its margin. If the point is capped, its end is set to rest.
     bool settle_low_bounces(int point, Ends& ends) const;
 
-    /// The largest |theta| / alpha, and the time from the first uplift to |theta| = pi/2 [1/p],
-    /// both during the pulse and after it; infinite where the block falls, or does not. Ends with
-    /// regions, and with peaks or phases.
+    /// The largest |theta| / alpha (infinite if the block overturns), and the time from the first
+    /// uplift to |theta| = pi/2 [1/p] (infinite if it does not), both during the pulse and after
+    /// it. Require ends with regions, and with peaks or phases.
     std::vector<double> peaks(const Ends& ends) const;
     std::vector<double> fall_times(const Ends& ends) const;
 
@@ -81,8 +80,8 @@ private:
     Pushes pushes_;
 };
 
-/// Where the points end: integrated once; or, if verdicts are to be resolved, those in doubt again,
-/// with more and more digits. What stays in doubt gets end_flag::unresolved. See resolve.cpp.
+/// The ends of all points. If verdicts are to be resolved, points in doubt are integrated again
+/// with more and more digits; those that remain in doubt get end_flag::unresolved. See resolve.cpp.
 Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records);
 
 } // namespace overturn

@@ -26,8 +26,8 @@ bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
 {
     const auto [nearest, farthest] =
         std::minmax({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
-    const bool unlike = left.impacts != middle.impacts || middle.impacts != right.impacts;
-    if (unlike && farthest - nearest > nearest / 64) {
+    const bool differ = left.impacts != middle.impacts || middle.impacts != right.impacts;
+    if (differ && farthest - nearest > nearest / 64) {
         return true;
     }
     const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
@@ -67,7 +67,7 @@ void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
 void add_undecided(const std::vector<Probe>& undecided, std::vector<Probe>& probes)
 {
     probes.insert(probes.end(), undecided.begin(), undecided.end());
-    sort_by_amplitude(probes); // stable: of equal amplitudes the settled one stays first
+    sort_by_amplitude(probes); // stable: for equal amplitudes, the settled one remains first
     const auto is_same = [](const Probe& one, const Probe& other) {
         return one.amplitude == other.amplitude;
     };

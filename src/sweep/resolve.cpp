@@ -10,7 +10,7 @@ namespace overturn {
 
 namespace {
 
-/// Fine enough to settle almost every point that a first pass left in doubt, and still doubles.
+/// Settles almost every point that is in doubt after the first pass, still in double.
 constexpr Numerics finest_in_doubles{.method = Method::taylor, .tolerance = 1e-13};
 
 void give_up(int point, Ends& ends)
@@ -21,8 +21,8 @@ void give_up(int point, Ends& ends)
     }
 }
 
-/// Settles those of these points that took too many steps, as more digits do not help there, and
-/// returns those whose verdict their error could turn.
+/// Settles the points that took too many steps, for which more digits do not help, and returns
+/// those whose verdict is in doubt.
 std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points, Ends& ends)
 {
     std::vector<int> in_doubt;
@@ -42,7 +42,7 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
 template <class T>
 bool settle_in(const PointRun& run, int point, Ends& ends)
 {
-    // More digits need as many steps for a series of bounces as doubles do.
+    // With more digits, a series of bounces takes as many steps as in double.
     const bool hopeless = std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
                           ends.steps[std::size_t(point)] > MoreDigits<T>::most_steps;
     if (hopeless) {
@@ -77,7 +77,7 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
 {
     Records recorded = records;
     recorded.error = records.error || numerics.resolve;
-    recorded.steps = records.steps || numerics.resolve; // whether more digits are worth a try
+    recorded.steps = records.steps || numerics.resolve; // see settle_in()
     recorded.peak = records.peak && !recorded.error;
     Ends ends(std::size_t(points.size()), recorded);
     points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);

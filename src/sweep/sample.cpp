@@ -10,7 +10,7 @@ namespace overturn {
 
 namespace {
 
-/// About `count` values of an axis, its ends among them.
+/// About `count` values of an axis, including its ends.
 Axis spread(const Axis& axis, std::int64_t count)
 {
     if (axis.size() <= count) {
@@ -52,7 +52,7 @@ std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t w
     std::vector<std::vector<int>> chosen;
     std::int64_t before = 0;
     double next = all ? 0 : 0.5 * stride;
-    // Rows come in turn; that no column is left out, the golden ratio chooses among a row's.
+    // Rows are visited in order. The golden ratio selects the column, so that none is left out.
     double share = 0.5;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const Tile tile = tiling[i];

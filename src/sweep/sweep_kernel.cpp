@@ -1,7 +1,7 @@
-// Compiled once per method and instruction set: OVERTURN_METHOD, OVERTURN_NUMBER and
-// OVERTURN_KERNEL (the name of the one function seen from outside) come from CMake. Beside it, only
+// Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER and
+// OVERTURN_KERNEL, the name of the only function with external linkage. Apart from it, only
 // templates over OVERTURN_NUMBER may be instantiated here: a function in double would be shared
-// with the rest of the program, which runs on machines that lack these instructions.
+// with the rest of the program, which also runs on machines without these instructions.
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
@@ -28,7 +28,7 @@ int point_at(const KernelTask& task, int i)
     return task.chosen == nullptr ? i : task.chosen[i];
 }
 
-/// Stores the lanes of one pack, as many as there are points left.
+/// Stores the lanes of one pack, except those without a point.
 template <Theory theory, Records records>
 [[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
                              int first, const PointEnds& to)
@@ -70,9 +70,9 @@ template <Theory theory, Records records>
     }
 }
 
-/// Packs that take turns, step by step: while one waits for the end of a long chain of operations
-/// the processor is at work on the next. Two gain 40 % for Runge-Kutta steps and 4 % for Taylor's;
-/// four gain no more.
+/// The number of packs that advance in turn, step by step: while one waits for a long dependency
+/// chain, the processor works on the next. Two packs gain 40 % for Runge-Kutta steps and 4 % for
+/// Taylor steps; four packs gain no more.
 constexpr int packs_in_turns = 2;
 
 /// The points of the lanes of one pack. Lanes beyond the last point repeat it.
@@ -102,7 +102,7 @@ struct PackPoints {
                 gathered([&](int i) { return task.points[i].restitution; })};
     }
 
-    /// The ground never lifts the blocks in spare lanes; so a pack of nothing else is done at once.
+    /// The ground never lifts the blocks in spare lanes, so a pack without points ends immediately.
     Excitation<T> excitation() const
     {
         const auto push_of = [&](int i) -> const Push& {
@@ -132,9 +132,9 @@ struct PackPoints {
     double spare[lanes]; ///< infinite in spare lanes
 };
 
-/// Steps of a pack between two looks at whether the points are to be dropped: some milliseconds. A
-/// pack may take a million.
-constexpr int turns_between_looks = 4096;
+/// Steps of a pack between two calls of drop_requested(): a few milliseconds. A pack may take a
+/// million steps.
+constexpr int turns_between_checks = 4096;
 
 template <Theory theory, Records records>
 void sweep(const KernelTask& task, const PointEnds& ends)
@@ -144,7 +144,7 @@ void sweep(const KernelTask& task, const PointEnds& ends)
         const PackPoints points(task, first);
         return Stage(points.blocks(), points.excitation(), task.tolerance, task.on_unknown_error);
     };
-    int turns = turns_between_looks;
+    int turns = turns_between_checks;
     for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {
         std::array stages{stage_from(first), stage_from(first + lanes)};
         static_assert(stages.size() == packs_in_turns);
@@ -152,7 +152,7 @@ void sweep(const KernelTask& task, const PointEnds& ends)
             if (task.drop_requested(task.context)) {
                 return;
             }
-            turns = turns_between_looks;
+            turns = turns_between_checks;
         }
         for (int i = 0; i < packs_in_turns; ++i) {
             store<theory, records>(stages[i].end(), stages[i].block(), task, first + i * lanes,

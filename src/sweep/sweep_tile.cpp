@@ -9,7 +9,7 @@ namespace overturn {
 
 namespace {
 
-/// of_point(i) for every point.
+/// The values of of_point(i) for all points.
 template <class Value, class OfPoint>
 std::vector<Value> for_each_of(const Ends& ends, const OfPoint& of_point)
 {
@@ -20,7 +20,7 @@ std::vector<Value> for_each_of(const Ends& ends, const OfPoint& of_point)
     return result;
 }
 
-/// An angle or a velocity with its sign; not a number where the point is undecided.
+/// An angle or a velocity with its sign; NaN if the point is undecided.
 std::vector<double> with_sign(const std::vector<double>& values, const Ends& ends)
 {
     return for_each_of<double>(ends, [&](std::size_t i) {
@@ -54,7 +54,7 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
                    flag(end_flag::not_finite, status::not_finite) |
                    flag(end_flag::unresolved, status::unresolved);
         });
-    default: return {}; // of a boundary, or held by the ends themselves
+    default: return {}; // fields of a boundary, or fields moved from the ends by the caller
     }
 }
 
@@ -81,7 +81,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
     for (const Field field : fields) {
         result.values.push_back(values_of(field, points, ends));
     }
-    for (std::size_t i = 0; i < fields.size(); ++i) { // nothing else needs them any more
+    for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
         if (fields[i] == Field::region) {
             result.values[i] = std::move(ends.region);
         } else if (fields[i] == Field::margin) {

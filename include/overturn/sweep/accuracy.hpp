@@ -1,5 +1,5 @@
-// What accuracy costs in time: every method at every tolerance on a sample of a plane, its ends
-// held against 50 digits, its verdicts against verdicts that are settled.
+// The cost of accuracy: every method at every tolerance on a sample of a plane. End states are
+// compared with 50 digits, verdicts with settled verdicts.
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
@@ -15,10 +15,10 @@
 
 namespace overturn {
 
-/// Shares of the points whose errors are at most the values given for them.
+/// The quantiles of the error distributions.
 inline constexpr std::array<double, 5> error_quantiles{0.5, 0.9, 0.99, 0.999, 1};
 
-/// Upper ends of the classes of |margin| by which flips are counted; the last one has none.
+/// Upper limits of the classes of |margin| by which flips are counted; the last one is unlimited.
 inline constexpr std::array<double, 6> distance_limits{
     1e-8, 1e-6, 1e-4, 1e-2, 1, std::numeric_limits<double>::infinity()};
 
@@ -29,45 +29,45 @@ using ErrorDistribution = std::array<double, error_quantiles.size()>;
 /// One method at one tolerance.
 struct AccuracyRow {
     Numerics numerics;
-    double seconds_per_point = 0; ///< of compute_regions(), on one core; left to the caller [s]
-    double steps = 0;             ///< tried, per point; with resolve, of the last integration alone
+    double seconds_per_point = 0; ///< of compute_regions() on one core; set by the caller [s]
+    double steps = 0;             ///< tried, per point; with resolve, of the last integration only
     double evaluations = 0; ///< per point: of the acceleration (rk45), or of its series (taylor)
-    ErrorDistribution
-        angle{}; ///< [rad]; infinite from where on points end otherwise, not a number of none
+    /// Infinite for points with a different kind of end; NaN if there are no points.
+    ErrorDistribution angle{};                                   ///< [rad]
     ErrorDistribution velocity{};                                ///< [rad]
     ErrorDistribution margin{};                                  ///< [1]
-    std::int64_t flips = 0;                                      ///< verdicts that are wrong
-    std::int64_t undecided = 0;                                  ///< points without one
+    std::int64_t flips = 0;                                      ///< wrong verdicts
+    std::int64_t undecided = 0;                                  ///< points without a verdict
     std::array<std::int64_t, decided_regions> flips_by_region{}; ///< by the true region
     std::array<std::int64_t, distance_limits.size()> flips_by_distance{};
-    /// Where errors are known: the share of points whose error exceeds its bound, and the median of
-    /// bound over error; not a number elsewhere.
+    /// The share of points whose error exceeds its bound, and the median of bound over error; NaN
+    /// for settings without error bounds.
     double bound_exceeded = 0;
     double bound_over_error = 0;
 };
 
 /// The points on which methods are compared.
 struct AccuracySample {
-    Plane plane;                ///< of the job's, spread evenly
-    std::int64_t in_digits = 0; ///< points among them that are computed in 50 digits, too
-    std::int64_t settled = 0;   ///< points whose verdict is known
+    Plane plane;                ///< an even sample of the plane of the job
+    std::int64_t in_digits = 0; ///< points that are also computed in 50 digits
+    std::int64_t settled = 0;   ///< points with a settled verdict
     std::array<std::int64_t, decided_regions> by_region{};
     std::array<std::int64_t, distance_limits.size()> by_distance{};
 };
 
-/// A comparison at work: the sample and what is true of it first, then row by row.
+/// A comparison of methods: first the sample and its reference values, then row by row.
 class AccuracyStudy {
 public:
-    /// Takes at most `points` points of the plane, and about `in_digits` of them in 50 digits.
+    /// Samples at most `points` points of the plane, and computes about `in_digits` in 50 digits.
     AccuracyStudy(const Scene& scene, const Plane& plane, std::int64_t points,
                   std::int64_t in_digits, Kernel kernel);
 
     const AccuracySample& sample() const { return sample_; }
 
-    /// All that is known of a setting but the time that it takes.
+    /// The row of a setting without the time, which the caller measures.
     AccuracyRow measure(const Numerics& numerics) const;
 
-    /// What is timed: regions alone, as a large job asks for them.
+    /// The computation to be timed: regions only, as in a large job.
     void compute_regions(const Numerics& numerics) const;
 
 private:
@@ -88,8 +88,8 @@ private:
     std::vector<DigitsTruth> in_digits_;
 };
 
-/// The methods and tolerances that `overturn accuracy` compares: both at every decade from 1e-2 to
-/// 1e-14, and resolved from those at which errors are known, down to 1e-8.
+/// The settings that `overturn accuracy` compares: both methods at every decade from 1e-2 to 1e-14,
+/// and with resolve at the tolerances with error bounds, down to 1e-8.
 std::vector<Numerics> accuracy_ladder();
 
 } // namespace overturn

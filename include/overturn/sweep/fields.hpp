@@ -1,5 +1,5 @@
-// What is stored of a point of a spectrum, or of a flip of a boundary: names, types and what "not
-// computed" looks like.
+// The fields stored for a point of a spectrum or for a flip of a boundary: names, types and the
+// values that mean "not computed".
 #pragma once
 
 #include <algorithm>
@@ -23,25 +23,25 @@ enum class Field {
     impacts,
     steps,
     status,
-    // Of a boundary:
+    // Fields of a boundary:
     flip_amplitude,
     region_below,
     region_above
 };
 
-/// Names as they stand in job files and result files, in the order of the enumerators.
+/// Names in job files and result files, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 13> field_names{
     "region",  "angle", "velocity", "margin",         "error",        "peak",        "fall_time",
     "impacts", "steps", "status",   "flip_amplitude", "region_below", "region_above"};
 
-/// What a job can ask for: all but those of a boundary.
+/// The fields that a job can request: all except those of a boundary.
 inline constexpr auto spectrum_field_names = [] {
     std::array<std::string_view, 10> names{};
     std::copy_n(field_names.begin(), names.size(), names.begin());
     return names;
 }();
 
-/// What is stored of a boundary.
+/// The fields of a boundary.
 inline constexpr std::array boundary_fields{Field::flip_amplitude, Field::region_below,
                                             Field::region_above};
 
@@ -50,7 +50,7 @@ constexpr std::string_view name_of(Field field)
     return field_names[std::size_t(field)];
 }
 
-/// The values of one field in one tile, row by row, frequency fastest. regions and status: uint8;
+/// The values of one field in one tile, row by row, frequency fastest. Regions and status: uint8;
 /// impacts: uint16; steps: uint32; all others: double.
 using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
                                  std::vector<std::uint32_t>, std::vector<double>>;
@@ -69,30 +69,30 @@ inline FieldValues make_field_values(Field field, std::size_t points)
     }
 }
 
-/// Bytes that one point of the field takes.
+/// Size of one value of the field [bytes].
 inline std::size_t bytes_per_point(Field field)
 {
     return std::visit([](const auto& values) { return sizeof values[0]; },
                       make_field_values(field, 0));
 }
 
-/// Flags of the field status. A point without any flag was computed without incident.
+/// Flags of the field status; 0 for a point that was computed without incident.
 namespace status {
-inline constexpr std::uint8_t came_to_rest = 1; ///< lay still for a while during the pulse
+inline constexpr std::uint8_t came_to_rest = 1; ///< came to rest during the pulse
 inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps or impacts: undecided
 inline constexpr std::uint8_t not_finite = 4;   ///< a number overflowed: undecided
 inline constexpr std::uint8_t unresolved = 8;   ///< no number of digits settled the verdict
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 
-/// Values of the field impacts beyond a plain count.
+/// Values of the field impacts that are not plain counts.
 namespace impact_count {
 inline constexpr std::uint16_t bounce_series = 65535; ///< infinitely many: a series died out
 inline constexpr std::uint16_t not_computed = 65534;
-inline constexpr std::uint16_t largest = 65533; ///< stands for itself and for more
+inline constexpr std::uint16_t largest = 65533; ///< this number or more
 } // namespace impact_count
 
-/// Values of the field steps beyond a plain count.
+/// Values of the field steps that are not plain counts.
 namespace step_count {
 inline constexpr std::uint32_t not_computed = 0xffffffff;
 } // namespace step_count

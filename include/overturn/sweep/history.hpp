@@ -1,5 +1,5 @@
-// The history of one point in full: the forced stage, as finely as doubles allow, and after it the
-// free stage in closed form, until the block lies, rests, or nobody looks any more.
+// The full history of one point: the forced stage, as accurate as doubles allow, followed by the
+// free stage in closed form until the block lies flat, comes to rest, or the history ends.
 #pragma once
 
 #include "overturn/integrate/event.hpp"
@@ -11,21 +11,21 @@
 
 namespace overturn {
 
-/// What to look at.
+/// The extent of a history.
 struct HistoryView {
-    /// The last time that is shown, since the pulse began [1/p]; not a number: until the block
-    /// rests or lies, but no longer than free_time_shown after the pulse.
+    /// The last time shown, since the beginning of the pulse [1/p]; NaN: until the block rests or
+    /// lies flat, but at most free_time_shown after the pulse.
     double until = std::numeric_limits<double>::quiet_NaN();
-    int samples = 2000; ///< evenly spread, beside those at events
+    int samples = 2000; ///< evenly spaced, in addition to those at events
 };
 
-/// How much of the free stage is shown of a block that does not come to rest [1/p].
+/// Duration of the free stage that is shown for a block that does not come to rest [1/p].
 inline constexpr double free_time_shown = 60;
 
-/// Impacts that are followed, at most.
+/// The largest number of impacts that is computed.
 inline constexpr int most_impacts_shown = 100'000;
 
-/// The block at one time. An event has two of them, before and after.
+/// The state of the block at one time. An event has two samples, one before and one after it.
 struct HistorySample {
     double time;         ///< since the pulse began [1/p]
     double angle;        ///< theta [rad]
@@ -45,15 +45,15 @@ struct History {
     std::vector<HistorySample> samples; ///< in order of time
     std::vector<HistoryEvent> events;   ///< those up to the last sample
     double end_of_pulse;                ///< [1/p]
-    double time_of_rest; ///< after which it is not lifted any more [1/p]; or infinite
-    double time_of_fall; ///< [1/p]; infinite if it never lies; not a number if undecided
+    double time_of_rest; ///< after which the block is not lifted again [1/p]; may be infinite
+    double time_of_fall; ///< [1/p]; infinite if the block never lies flat; NaN if undecided
     Region region;
     double margin;
-    double error;   ///< of the margin, at most
-    bool shortened; ///< there is more than can be followed
+    double error;   ///< error bound of the margin
+    bool shortened; ///< the history could not be computed to its end
 };
 
-/// The history of a point. The forced stage does not depend on a job's method and tolerance.
+/// The history of a point. The forced stage does not depend on the method and tolerance of a job.
 History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view = {});
 
 } // namespace overturn

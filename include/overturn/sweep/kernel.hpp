@@ -1,4 +1,4 @@
-// The lane widths in which the forced stage can run, and what this processor can do.
+// The kernels of the forced stage, one per lane width, and their support by this processor.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// All give the same bits. one_lane is to read and to compare with: it has the instructions of
-/// avx2, but computes one point at a time.
+/// All kernels give identical bits. one_lane is for debugging and comparison: it uses the
+/// instructions of avx2 but computes one point at a time.
 enum class Kernel { one_lane, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 3> kernel_names{"double", "avx2", "avx512"};
@@ -17,16 +17,16 @@ constexpr std::string_view name_of(Kernel kernel)
     return kernel_names[std::size_t(kernel)];
 }
 
-/// CMake's option OVERTURN_KERNELS decides.
+/// Whether the kernel is part of this build; see the CMake option OVERTURN_KERNELS.
 bool is_compiled(Kernel kernel);
 
-/// Whether this processor has the instructions of the kernel.
+/// Whether this processor supports the instructions of the kernel.
 bool processor_runs(Kernel kernel);
 
 /// is_compiled() and processor_runs().
 bool runs_here(Kernel kernel);
 
-/// This processor can run no kernel that was compiled.
+/// Thrown if this processor cannot run any kernel of this build.
 class ProcessorError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
 // The parameter plane: four axes, whose product is the set of points of a spectrum.
-// Everything is dimensionless but the slenderness [rad].
+// All quantities are dimensionless except the slenderness [rad].
 #pragma once
 
 #include "overturn/sweep/scene.hpp"
@@ -16,7 +16,7 @@ namespace overturn {
 
 enum class Spacing { linear, log };
 
-/// Names as they stand in job files, in the order of the enumerators.
+/// Names in job files, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 2> spacing_names{"linear", "log"};
 
 constexpr std::string_view name_of(Spacing spacing)
@@ -24,7 +24,7 @@ constexpr std::string_view name_of(Spacing spacing)
     return spacing_names[std::size_t(spacing)];
 }
 
-/// first + (last - first) i / (count - 1), or the same in the logarithm; the last value is exact.
+/// first + (last - first) i / (count - 1), or the same for the logarithms; the last value is exact.
 struct AxisRange {
     double first = 0;
     double last = 0;
@@ -34,7 +34,7 @@ struct AxisRange {
 
 using AxisList = std::vector<double>;
 
-/// Strictly ascending values, given by a range or one by one.
+/// Strictly ascending values, given as a range or as a list.
 class Axis {
 public:
     Axis() : Axis(AxisList{0}) {}
@@ -56,7 +56,7 @@ private:
     std::variant<AxisRange, AxisList> definition_;
 };
 
-/// Half width b and half height h [m] of the block that a job names instead of a slenderness.
+/// Half width b and half height h [m] of a block, which a job can give instead of a slenderness.
 struct BlockSize {
     double half_width = 0;
     double half_height = 0;
@@ -65,7 +65,7 @@ struct BlockSize {
 /// p = sqrt(3g / 4R), R the half diagonal, g = 9.81 m/s2 [1/s].
 double frequency_parameter(const BlockSize& block);
 
-/// Ground acceleration, over g, that lifts a block of this slenderness [rad] at rest [1].
+/// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
 /// A point of a plane; its coordinates are taken as exact.
@@ -84,7 +84,7 @@ struct Plane {
     RestitutionOf restitution_of = RestitutionOf::absolute;
     std::optional<BlockSize> block; ///< set if the slenderness came from it
 
-    /// Number of points; the reader of jobs has made sure that it fits.
+    /// Number of points; checked for overflow when the job is read.
     std::int64_t points() const;
 
     /// The energy ratio r at an impact, for the given indices of the two axes [1].

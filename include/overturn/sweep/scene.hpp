@@ -1,4 +1,4 @@
-// What is simulated: the ground's pulse, the theory of the block, and how finely it is integrated.
+// The simulated scene (ground pulse and theory of the block) and the numerics of its integration.
 #pragma once
 
 #include "overturn/mechanics/pulse_kind.hpp"
@@ -15,7 +15,7 @@ enum class RestitutionOf { absolute, maximum };
 
 enum class Method { rk45, taylor };
 
-/// Names as they stand in job files and result files, in the order of the enumerators.
+/// Names in job files and result files, in the order of the enumerators.
 inline constexpr auto pulse_names = [] {
     std::array<std::string_view, pulses.size()> names;
     std::transform(pulses.begin(), pulses.end(), names.begin(),
@@ -46,31 +46,31 @@ constexpr std::string_view name_of(Method method)
 struct Scene {
     PulseKind pulse = PulseKind::one_sine;
     Theory theory = Theory::nonlinear;
-    double window =
-        1; ///< half width of a Ricker wavelet [pulse periods]; without meaning elsewhere
+    double window = 1; ///< half width of a Ricker wavelet [pulse periods]; ignored for other pulses
 };
 
 struct Numerics {
     Method method = Method::rk45;
     double tolerance = 1e-9; ///< local error per step of tilt and rate, over the slenderness [1]
-    bool resolve = false;    ///< whether verdicts in doubt are settled with more digits
+    bool resolve = false;    ///< settle verdicts in doubt with more digits
 };
 
-/// Longer steps of Runge and Kutta do not see their own errors.
+/// The error estimate of longer Runge-Kutta steps is not reliable.
 inline constexpr double largest_rk45_tolerance_with_error = 1e-4;
 
-/// Whether a point's error is bounded well.
+/// Whether the error of a point is bounded reliably.
 constexpr bool knows_errors(const Numerics& numerics)
 {
     return numerics.method == Method::taylor ||
            numerics.tolerance <= largest_rk45_tolerance_with_error;
 }
 
-/// The methods that the kernels are compiled for. A Taylor series is written out for its order.
+/// The methods for which kernels are compiled. The order of a Taylor series is fixed at compile
+/// time.
 enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 
-/// Where the orders cost the same: on the paper's one-sine spectrum 14 is a fifth cheaper than 20
-/// at 1e-5, and a third dearer at 1e-11; no third order gains more than a twentieth anywhere.
+/// The tolerance at which both orders cost the same: for the paper's one-sine spectrum, 14 takes a
+/// fifth less time than 20 at 1e-5 and a third more at 1e-11. No other order saves more than 5 %.
 inline constexpr double loosest_tolerance_of_order_20 = 3e-8;
 
 constexpr Integrator integrator_of(const Numerics& numerics)

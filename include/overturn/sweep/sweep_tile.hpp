@@ -1,4 +1,4 @@
-// From a tile to the values of its fields: the forced stage of each point, then its region.
+// Computes the fields of a tile: the forced stage of each point, then its region.
 #pragma once
 
 #include "overturn/sweep/fields.hpp"
@@ -16,8 +16,8 @@ struct TileFields {
     std::vector<FieldValues> values;
 };
 
-/// Computes every point of a tile. The values of a point depend on the point, the scene and the
-/// numerics alone: not on the tile's shape, the other points, or the kernel.
+/// Computes every point of a tile. The values of a point depend only on the point, the scene and
+/// the numerics, not on the shape of the tile, the other points, or the kernel.
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested = nullptr);

@@ -1,5 +1,6 @@
-// How the points of a result are cut into tiles: rectangles of its last two dimensions at one place
-// of all others. A tile is what a rank computes in one go, and a chunk of the result file.
+// The partition of the points of a result into tiles: rectangles in its last two dimensions, at one
+// index of each other dimension. A tile is the unit of work of a rank and a chunk of the result
+// file.
 #pragma once
 
 #include "overturn/sweep/plane.hpp"
@@ -10,7 +11,7 @@
 
 namespace overturn {
 
-/// Number of points along each dimension, slowest first; two dimensions at least.
+/// Number of points along each dimension, slowest first; at least two dimensions.
 using Shape = std::vector<std::int64_t>;
 
 /// (slenderness, restitution, amplitude, frequency).
@@ -29,16 +30,16 @@ struct Tile {
     std::int64_t points() const { return row_count * column_count; }
 };
 
-/// Asked every second or more often while a tile is computed, by its own thread. Once it is true it
-/// stays so, and TileDropped leaves whatever computes the tile.
+/// Called at least once a second by the thread that computes a tile. Once it returns true, it must
+/// remain true, and the computation throws TileDropped.
 using DropRequested = std::function<bool()>;
 class TileDropped {};
 
-/// Cuts a shape into equal tiles; those at the far edges may be smaller. Tiles are numbered from 0
-/// in the order of the dimensions, columns fastest.
+/// Partitions a shape into equal tiles; those at the far edges may be smaller. Tiles are numbered
+/// from 0 in the order of the dimensions, columns fastest.
 class Tiling {
 public:
-    /// rows, columns: of a tile [points]; both are cut down to the shape's own. Throws nothing.
+    /// rows, columns: of a tile [points]; both are limited to those of the shape.
     Tiling(Shape shape, std::int64_t rows, std::int64_t columns);
 
     /// The tiling that `overturn run` uses for a plane.
@@ -47,7 +48,7 @@ public:
     std::int64_t size() const;
     Tile operator[](std::int64_t number) const;
 
-    /// Of all points, and of one tile: 1 in each outer dimension.
+    /// The shape of all points, and that of one tile, which is 1 in each outer dimension.
     const Shape& shape() const { return shape_; }
     Shape tile_shape() const;
     std::int64_t points_of_tile() const { return rows_ * columns_; }
@@ -55,7 +56,7 @@ public:
 private:
     Shape shape_;
     std::int64_t rows_, columns_;            ///< of a tile
-    std::int64_t tiles_down_, tiles_across_; ///< at one place of the outer dimensions
+    std::int64_t tiles_down_, tiles_across_; ///< at one index of each outer dimension
 };
 
 } // namespace overturn
