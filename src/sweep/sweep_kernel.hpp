@@ -1,6 +1,5 @@
-// The interface of the kernels, which integrate the forced stage of points, with plain arrays as
-// input and output. Each kernel object has one method and one instruction set, see
-// sweep_kernel.cpp.
+// The kernels integrate the forced stage of points, with plain arrays as input and output. Each is
+// compiled for one method and one instruction set, see sweep_kernel.cpp.
 #pragma once
 
 #include "overturn/integrate/records.hpp"

@@ -31,9 +31,8 @@ Tiling::Tiling(Shape shape, std::int64_t rows, std::int64_t columns) : shape_(st
     tiles_across_ = ceiling_of_ratio(all_columns, columns_);
 }
 
-// 64 x 64 points take a few milliseconds: long compared with a message between ranks
-// (microseconds), short compared with a run. A spectrum of 100 x 100 points still provides work for
-// a few ranks.
+// 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
+// compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks.
 Tiling::Tiling(const Plane& plane) : Tiling(shape_of(plane), 64, 64) {}
 
 std::int64_t Tiling::size() const

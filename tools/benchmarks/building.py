@@ -1,4 +1,4 @@
-"""How the benchmarks build and call their programs."""
+"""Builds and runs the benchmark programs."""
 
 import os
 import pathlib
@@ -15,9 +15,9 @@ def fail(message):
 def run_or_fail(command, what, **options):
     finished = subprocess.run([str(word) for word in command], text=True, **options)
     if finished.returncode != 0:
-        said = ((finished.stdout or "") + (finished.stderr or "")).strip()
-        fail(f"{what} failed, exit code {finished.returncode}"
-             + (f":\n{said}" if said else "; its words are above"))
+        output = ((finished.stdout or "") + (finished.stderr or "")).strip()
+        fail(f"{what} failed with exit code {finished.returncode}"
+             + (f":\n{output}" if output else "; see its output above"))
     return finished
 
 
@@ -27,8 +27,8 @@ def add_build_argument(parser):
 
 
 def build(folder, target):
-    """Installs what is missing and builds one of the programs in tools/benchmarks."""
-    print("installing what is missing, and building (some minutes the first time)", flush=True)
+    """Installs missing dependencies and builds one of the programs in tools/benchmarks."""
+    print("installing missing dependencies and building (a few minutes the first time)", flush=True)
     folder = folder.resolve()
     run_or_fail([SOURCE / "tools" / "install_dependencies", "build", "bench"], "installing")
     run_or_fail(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",

@@ -1,5 +1,5 @@
-// bench_effects: sweeps one tile, so that a profiler can count the instructions of that call alone:
-// all inside measured(). Prints the points, and the bytes that the call took from the heap.
+// bench_effects: sweeps one tile within measured(), so that a profiler can count the instructions
+// of that call only. Prints the number of points and the bytes that the call allocated on the heap.
 #include "point_run.hpp"
 
 #include "overturn/sweep/sweep_tile.hpp"
@@ -23,12 +23,12 @@ namespace {
 
 constexpr std::string_view usage =
     "usage: bench_effects sweep METHOD PULSE THEORY KERNEL SIDE TOLERANCE [FIELD...]\n"
-    "           SIDE x SIDE points of the paper's block, with these fields\n"
+    "           sweeps SIDE x SIDE points of the paper's block, with these fields\n"
     "       bench_effects by-hand METHOD SIDE TOLERANCE nothing|region|impacts\n"
-    "           the same under one_sine, nonlinear, avx2, past the sweep: its kernel alone; with\n"
-    "           the regions; or the kernel that counts impacts\n"
+    "           runs the kernel without the sweep (one_sine, nonlinear, avx2): alone, with the\n"
+    "           regions, or counting impacts\n"
     "       bench_effects pulses\n"
-    "           their names\n";
+    "           lists the names of the pulses\n";
 
 class UsageError : public std::runtime_error {
 public:
@@ -62,14 +62,15 @@ Plane plane_of(std::int64_t side)
     return plane;
 }
 
-/// What a scene cannot do without: its points, the kernel, and the regions if they are asked for.
-std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
+/// The minimum work for a scene: its points, the kernel, and the regions if requested.
+std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
     const GroundMotion<double> motion = ground_motion(work.scene.pulse, work.scene.window);
     const std::vector<PlanePoint> points = points_of(work.plane, work.tile);
     const Pushes pushes(motion, work.scene.theory, points);
     const std::size_t count = points.size();
-    const Records records{.impacts = asked == ByHand::impacts, .region = asked == ByHand::region};
+    const Records records{.impacts = requested == ByHand::impacts,
+                          .region = requested == ByHand::region};
     const KernelTask task{.motion = motion,
                           .points = points.data(),
                           .push_of_point = pushes.of_point.data(),
@@ -106,7 +107,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand asked)
 
 } // namespace
 
-/// What the profiler counts.
+/// The call that the profiler measures.
 [[gnu::noinline]] TileFields measured(const Work& work)
 {
     if (work.by_hand) {
@@ -125,7 +126,7 @@ Number number_from(std::string_view text)
     Number number{};
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || rest != text.data() + text.size() || !(number > 0)) {
-        throw UsageError("\"" + std::string(text) + "\" is no positive number");
+        throw UsageError("\"" + std::string(text) + "\" is not a positive number");
     }
     return number;
 }
@@ -139,7 +140,7 @@ Kind kind_from(std::string_view text, const std::array<std::string_view, count>&
         for (const std::string_view name : names) {
             known += known.empty() ? std::string(name) : ", " + std::string(name);
         }
-        throw UsageError("\"" + std::string(text) + "\" is none of " + known);
+        throw UsageError("\"" + std::string(text) + "\" is not one of " + known);
     }
     return Kind(found - names.begin());
 }
@@ -148,7 +149,7 @@ Work work_from(const std::vector<std::string>& words)
 {
     const bool by_hand = words.size() == 5 && words[0] == "by-hand";
     if (!by_hand && (words.size() < 7 || words[0] != "sweep")) {
-        throw UsageError("no such call");
+        throw UsageError("invalid arguments");
     }
     Work work;
     work.numerics.method = kind_from<Method>(words[1], method_names);

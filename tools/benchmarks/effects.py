@@ -1,4 +1,4 @@
-"""The effects benchmark: what each thing costs that a scene can ask for, in instructions."""
+"""The effects benchmark: the cost of each field, theory and pulse of a scene, in instructions."""
 
 import json
 import os
@@ -12,31 +12,31 @@ from building import add_build_argument, build, fail, run_or_fail
 
 METHODS = ("rk45", "taylor")
 FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
-          "status")  # beside the region
+          "status")  # in addition to the region
 KERNEL = "avx2"
 
 EXPLANATION = """\
-Counts the instructions that one tile of a spectrum takes, by Valgrind: the leanest scene, which asks
-for the region alone, and what each field, the linear theory and each other pulse adds to it. Counts
-do not depend on what else the machine does: two runs give the same numbers. All on the kernel avx2,
-four points at a time, since Valgrind knows no AVX-512.
-Points are those of the paper's block under a one-sine pulse, frequency 0.5 to 8 times amplitude 1.2
-to 12. Installs what is missing and builds in build-bench."""
+Counts the instructions for one tile of a spectrum with Valgrind: for the minimal scene, which only
+requests the region, and the difference for each field, for the linear theory and for each other
+pulse. Counts do not depend on the load of the machine: two runs give the same numbers. All counts
+are for the kernel avx2, four points at a time, because Valgrind does not support AVX-512.
+The points are those of the paper's block under a one-sine pulse, frequency 0.5 to 8 by amplitude
+1.2 to 12. Installs missing dependencies and builds in build-bench."""
 
 
 def add_arguments(parser):
     parser.add_argument("--points", type=int, default=64,
-                        help="of the frequency and of the amplitude axis (default: 64)")
+                        help="points of the frequency and of the amplitude axis (default: 64)")
     parser.add_argument("--tolerance", type=float, default=1e-9,
-                        help="of the integration (default: 1e-9)")
+                        help="tolerance of the integration (default: 1e-9)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_effects.json"),
-                        help="where the numbers go (default: bench_effects.json)")
+                        help="JSON file for the results (default: bench_effects.json)")
     add_build_argument(parser)
 
 
 def measure(program, *words):
-    """What bench_effects says of one call, and the instructions that the sweep took in it."""
-    valgrind = shutil.which("valgrind") or fail("there is no valgrind; "
+    """The output of bench_effects for one call, and the number of instructions of the sweep."""
+    valgrind = shutil.which("valgrind") or fail("valgrind not found; install it by "
                                                 "tools/install_dependencies bench")
     with tempfile.TemporaryDirectory() as folder:
         counts = pathlib.Path(folder) / "counts"
@@ -46,17 +46,17 @@ def measure(program, *words):
             "counting instructions", capture_output=True)
         instructions = re.search(r"^(?:summary|totals): (\d+)", counts.read_text(), re.MULTILINE)
     if not instructions or not int(instructions.group(1)):
-        fail("Valgrind saw nothing of the sweep; was the program stripped of its symbols?")
+        fail("Valgrind counted no instructions of the sweep. Does the program have symbols?")
     return {**json.loads(finished.stdout), "instructions": int(instructions.group(1))}
 
 
 def other_pulses(program):
-    names = run_or_fail([program, "pulses"], "asking for the pulses", capture_output=True)
+    names = run_or_fail([program, "pulses"], "listing the pulses", capture_output=True)
     return [name for name in names.stdout.split() if name != "one_sine"]
 
 
 def scenes(program):
-    """(what it adds to the leanest scene, pulse, theory, fields), the leanest scene first."""
+    """(difference from the minimal scene, pulse, theory, fields), the minimal scene first."""
     yield "", "one_sine", "nonlinear", ("region",)
     for field in FIELDS:
         yield f"field {field}", "one_sine", "nonlinear", ("region", field)
@@ -93,9 +93,9 @@ def print_table(rows, options):
         cells = "".join(
             f"{row['price_per_point']:>+12.1f}{100 * row['price_per_point'] / least:>+8.2f}%"
             if adds else f"{least:>12.1f}{'':>9}" for row, least in zip(mine, leanest))
-        print(f"{adds or 'the leanest scene: region':28}{cells}{mine[0]['bytes_per_point']:>9.1f}")
-    print("\nBytes are what the sweep takes from the heap per point, its end states included. The "
-          "other theory\nand the other pulses are other motions, with other numbers of steps.")
+        print(f"{adds or 'minimal scene: region':28}{cells}{mine[0]['bytes_per_point']:>9.1f}")
+    print("\nBytes: heap memory that the sweep allocates per point, including its end states. The "
+          "other theory\nand the other pulses have different motions and numbers of steps.")
 
 
 def run(options):

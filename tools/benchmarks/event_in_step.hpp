@@ -1,6 +1,6 @@
 // Finds an impact or a fall within a step: a first guess from the quintic through both ends of the
-// step, then the solver's own state where the event should be, by a step from the same beginning or
-// by its dense output.
+// step, refined with the state that the solver computes at the guess, either by a step from the
+// same beginning or by its dense output.
 #pragma once
 
 #include "rocking_point.hpp"
@@ -15,9 +15,9 @@ struct Gap {
     S width, rate, acceleration;
 };
 
-/// Position of the event within a step, 0 to 1, by the quintic that has the gap's value, rate and
-/// acceleration at both ends of a step h; more than 1 if it stays open. A gap that closes and opens
-/// again within the step counts.
+/// Position of the event within a step, 0 to 1, by the quintic that matches value, rate and
+/// acceleration of the gap at both ends of a step h; more than 1 if it stays open. Also finds gaps
+/// that close and open again within the step.
 template <class S>
 S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
 {
@@ -41,8 +41,8 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
         return c[1] + s * (2 * c[2] + s * (3 * c[3] + s * (4 * c[4] + s * 5 * c[5])));
     };
     S low = 0, high = 1;
-    if (after.width >= 0) { // is the lowest point of the dip below zero?
-        // At 1/1024 of the step from the lowest point the gap is a millionth of its bend higher.
+    if (after.width >= 0) { // check whether the lowest point of the dip is below zero
+        // At 1/1024 of the step from the lowest point, the gap is higher by 1e-6 of its bend.
         while (high - low > S(1) / 1024) {
             const S middle = (low + high) / 2;
             (slope(middle) < 0 ? low : high) = middle;
@@ -58,7 +58,7 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
         (now < 0 ? high : low) = s;
         const S newton = s - now / slope(s);
         const S next = newton > low && newton < high ? newton : (low + high) / 2;
-        // The step that follows corrects the guess to second order.
+        // The caller corrects the guess to second order.
         if (std::abs(next - s) < S(1) / 65536) {
             return next;
         }
@@ -69,12 +69,12 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
 
 template <class S>
 struct StepEvent {
-    Outcome outcome; ///< impact or fall; pulse_end stands for none
+    Outcome outcome; ///< impact or fall; pulse_end if there is no event
     Moment<S> moment;
 };
 
-/// Looks for the first event in the step from `before` to `after`. `step_to(h)` gives the state
-/// after a step h from `before`. The time of the event is good to about `sharpness`, as a share of
+/// Finds the first event in the step from `before` to `after`. `step_to(h)` returns the state after
+/// a step h from `before`. The time of the event is accurate to about `sharpness`, as a share of
 /// the step.
 template <class S, Sines sines, class StepTo>
 StepEvent<S> event_in_step(const Rocking<S, sines>& rocking, const Moment<S>& before,
@@ -98,7 +98,7 @@ StepEvent<S> event_in_step(const Rocking<S, sines>& rocking, const Moment<S>& be
     Moment<S> moment = before;
     for (int i = 0; i < 10; ++i) {
         moment = {before.time + share * h, step_to(share * h)};
-        // gap + rate delay + acceleration delay^2 / 2 = 0: what is left is of third order.
+        // gap + rate delay + acceleration delay^2 / 2 = 0, with an error of third order.
         const Gap<S> here = gap(moment, fall);
         const S square = here.rate * here.rate - 2 * here.acceleration * here.width;
         const S closing = square > 0 ? std::sqrt(square) : std::abs(here.rate);

@@ -1,5 +1,5 @@
-// How many fused multiply-adds this core does in a second if nothing else holds it up: independent
-// chains in registers, at the width of the widest kernel.
+// Measures the peak rate of fused multiply-adds of this core: independent chains in registers, at
+// the width of the widest kernel.
 #include "peer.hpp"
 
 #include "overturn/sweep/sweep_tile.hpp"
@@ -16,19 +16,19 @@ namespace overturn::benchmarks {
 
 namespace {
 
-/// Keeps the compiler from seeing through a value.
+/// Prevents the compiler from optimizing a value.
 template <class Lanes>
 void hide(Lanes& lanes)
 {
     asm volatile("" : "+x"(lanes));
 }
 
-/// Best rate of several samples of some milliseconds each. `multiply_add(x, y, z)` is x y + z.
+/// The best rate of several samples of a few milliseconds each. `multiply_add(x, y, z)` is x y + z.
 template <int width, class Lanes, class MultiplyAdd>
 double best_rate(const MultiplyAdd& multiply_add, Lanes factor, Lanes addend)
 {
     using Clock = std::chrono::steady_clock;
-    constexpr int chains = 12; // two units, four cycles of latency: eight would do
+    constexpr int chains = 12; // two units with four cycles of latency require eight
     constexpr int rounds = 1 << 20;
     constexpr int samples = 15;
     double best = 0;

@@ -1,4 +1,4 @@
-// GSL's Runge-Kutta Prince-Dormand 8(9), with its own step size control; events by stepping again.
+// GSL: Runge-Kutta Prince-Dormand 8(9) with GSL's step size control; events by repeated steps.
 #include "event_in_step.hpp"
 
 #include <gsl/gsl_errno.h>
@@ -37,7 +37,7 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double t
         gsl_odeiv2_control_free);
     const EvolveHandle evolve(gsl_odeiv2_evolve_alloc(2), gsl_odeiv2_evolve_free);
     const double first_step = std::pow(tolerance, 1.0 / 8);
-    double h = 0; // the next step; from flight to flight
+    double h = 0; // the next step; kept from flight to flight
 
     const auto fly = [&](const Rocking<double, sines>& rocking, Moment<double>& now,
                          bool from_rest) {

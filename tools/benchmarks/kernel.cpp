@@ -1,5 +1,5 @@
-// bench_kernel: how long one tile takes, for every method, every kernel that runs here and three
-// tolerances. `tools/bench kernel` builds it, runs it and compares the kernels.
+// bench_kernel: times one tile for every method, every kernel that this processor supports and
+// three tolerances. `tools/bench kernel` builds and runs it, and compares the kernels.
 #include "peer.hpp"
 
 #include "overturn/sweep/sweep_tile.hpp"
@@ -11,7 +11,7 @@ namespace overturn::benchmarks {
 
 namespace {
 
-constexpr int side = 64; // points of each axis: one tile
+constexpr int side = 64; // points of each axis; one tile
 
 void sweep_one_tile(benchmark::State& state, const Numerics& numerics, Kernel kernel)
 {

@@ -1,4 +1,4 @@
-"""The kernel benchmark: time per point of overturn's methods on each kernel, for daily work."""
+"""The kernel benchmark: time per point of overturn's methods on each kernel, for development."""
 
 import collections
 import json
@@ -11,10 +11,10 @@ from building import add_build_argument, build, fail, run_or_fail
 WIDTHS = ("double", "avx2", "avx512")  # the narrowest first
 
 EXPLANATION = """\
-Times one tile of 64 x 64 points (the paper's block under a one-sine pulse) by Google Benchmark, for
-every method, every kernel that runs here and three tolerances, in turns; then tells how much faster
-the widest kernel is than one lane. The names are METHOD/TOLERANCE/KERNEL. Further arguments go to
-Google Benchmark, after those that this command gives:
+Times one tile of 64 x 64 points (the paper's block under a one-sine pulse) with Google Benchmark,
+for every method, every kernel that this processor supports and three tolerances, in random order,
+and prints the speedup of the widest kernel over one lane. The names are METHOD/TOLERANCE/KERNEL.
+Further arguments are passed to Google Benchmark after those of this command:
 
     tools/bench kernel --benchmark_filter=taylor --benchmark_repetitions=20"""
 
@@ -26,7 +26,7 @@ ARGUMENTS = ["--benchmark_repetitions=5", "--benchmark_enable_random_interleavin
 def add_arguments(parser):
     add_build_argument(parser)
     parser.add_argument("--output", type=pathlib.Path,
-                        help="where Google Benchmark's JSON goes (default: nowhere)")
+                        help="file for the JSON of Google Benchmark (default: none)")
 
 
 def medians(path):
@@ -53,7 +53,7 @@ def print_gains(found):
         one, many = times["double"], times[widest]
         print(f"{method:10}{tolerance:>10}{1e6 * one:>11.3f} us"
               f"{widest:>12}{1e6 * many:>9.3f} us{one / many:>10.2f}")
-    print("Per point; medians. The gain is the time of one lane over that of the widest kernel.")
+    print("Medians per point. The gain is the time of one lane over that of the widest kernel.")
 
 
 def run(options):
@@ -65,7 +65,7 @@ def run(options):
         run_or_fail([program, *ARGUMENTS, *options.further, f"--benchmark_out={path}",
                      "--benchmark_out_format=json"], "bench_kernel")
         found = medians(path)
-    # The further arguments may have left out either, or asked for a list alone.
+    # The further arguments may exclude kernels, or only list the benchmarks.
     comparable = {case: times for case, times in found.items()
                   if "double" in times and len(times) > 1}
     if comparable:

@@ -1,4 +1,4 @@
-"""How the benchmarks run overturn from the outside, alone or under mpirun."""
+"""Runs overturn as a separate process for the benchmarks, with or without mpirun."""
 
 import json
 import os
@@ -14,21 +14,22 @@ JOB = SOURCE / "jobs" / "figure_07a.toml"
 
 
 def launcher(ranks):
-    """The words before the program that start it on this many ranks."""
-    mpirun = shutil.which("mpirun") or fail("there is no mpirun; tools/install_dependencies build")
+    """The command prefix that starts a program on this many ranks."""
+    mpirun = shutil.which("mpirun") or fail("mpirun not found; install it by "
+                                            "tools/install_dependencies build")
     return [mpirun, "-n", str(ranks)]
 
 
 def environment():
     extra = {}
-    if os.geteuid() == 0:  # Open MPI wants to be told twice
+    if os.geteuid() == 0:  # Open MPI requires both variables
         extra = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
     return {**os.environ, **extra}
 
 
 def measured_run(overturn, side, settings, start=()):
-    """Runs the job at side x side points with further settings, started by the words of `start`.
-    Returns the wall time from typing the command to its exit, and the sidecar."""
+    """Runs the job at side x side points with further settings; `start` is the command prefix.
+    Returns the wall time from the start of the command to its exit, and the sidecar."""
     settings = [f"plane.frequency.count={side}", f"plane.amplitude.count={side}", *settings]
     command = [*start, str(overturn), "run", str(JOB), "-o", "bench.h5",
                *(word for setting in settings for word in ("--set", setting))]
@@ -38,7 +39,7 @@ def measured_run(overturn, side, settings, start=()):
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         wall = time.perf_counter() - begin
         if finished.returncode != 0:
-            fail(f"{' '.join(command)}\nended with {finished.returncode}: "
+            fail(f"{' '.join(command)}\nfailed with exit code {finished.returncode}: "
                  f"{finished.stderr.strip()}")
         return wall, json.loads((pathlib.Path(folder) / "bench.h5.json").read_text())
 
@@ -51,5 +52,5 @@ def add_program_argument(parser):
 def program(options):
     path = options.overturn.resolve()
     if not path.exists():
-        fail(f"{path} is not there; build it (tools/quickstart) or name it by --overturn")
+        fail(f"{path} does not exist; build it (tools/quickstart) or give its path by --overturn")
     return path

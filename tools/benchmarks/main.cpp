@@ -1,5 +1,6 @@
-// bench_peers: what `tools/bench peers` measures with. Each call does one thing and prints one JSON
-// object; the order of calls, the search for tolerances and the table are the caller's.
+// bench_peers: the measuring program of `tools/bench peers`. Each call performs one command and
+// prints one JSON object. The caller controls the order of calls, searches for the tolerances and
+// prints the table.
 #include "measured.hpp"
 #include "operation_count.hpp"
 
@@ -39,7 +40,7 @@ Number number_from(std::string_view text)
     Number number{};
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || rest != text.data() + text.size() || !(number >= 0)) {
-        throw UsageError(fmt::format("\"{}\" is no number", text));
+        throw UsageError(fmt::format("\"{}\" is not a number >= 0", text));
     }
     return number;
 }
@@ -61,7 +62,7 @@ int about()
 
 using Ends = std::vector<PeerEnd<long double>>;
 
-/// One line per point, in the order of the problem, for whoever measures next.
+/// Writes one line per point, in the order of the problem, for later measurements.
 void write_reference(const std::string& path, const Problem& problem, const Ends& ends)
 {
     std::ofstream file(path);
@@ -93,7 +94,7 @@ Ends read_reference(const std::string& path, std::size_t points)
     }
     if (ends.size() != points) {
         throw std::runtime_error(
-            fmt::format("{} holds {} points, not {}", path, ends.size(), points));
+            fmt::format("{} contains {} points instead of {}", path, ends.size(), points));
     }
     return ends;
 }
@@ -111,8 +112,8 @@ int reference(int points, double tolerance, double check_tolerance, const std::s
     return 0;
 }
 
-/// Error and time of one solver: one run for the error and to get warm, then as many as fill the
-/// seconds. Processor time, so that other programs disturb less.
+/// Error and time of one solver: one run to measure the error and to warm up, then as many runs as
+/// fit into `seconds`. Measures processor time, which depends less on other programs.
 int measure(int points, const std::string& path, std::string_view name, double tolerance,
             double seconds)
 {
@@ -143,7 +144,7 @@ int measure(int points, const std::string& path, std::string_view name, double t
     throw UsageError(fmt::format("there is no solver \"{}\"; `about` lists them", name));
 }
 
-/// What one of overturn's methods computes, per point.
+/// The operations per point of one of overturn's methods.
 int operations(int points, std::string_view method, double tolerance)
 {
     for (std::size_t i = 0; i < method_names.size(); ++i) {
@@ -186,7 +187,7 @@ int run(const std::vector<std::string>& words)
     if (command == "operations" && words.size() == 4) {
         return operations(number_from<int>(words[1]), words[2], number_from<double>(words[3]));
     }
-    throw UsageError("no such call");
+    throw UsageError("invalid arguments");
 }
 
 } // namespace

@@ -8,8 +8,8 @@ LOOSEST = PER_DECADE * 2  # 1e-2, in steps of the search
 
 def matched_tolerance(solver, target, errors):
     """The loosest tolerance whose error is within the target, and that error; (None, None) if there
-    is none. Tolerances are 10^(-k/16); `errors` keeps what is known, by k. The error is not quite
-    monotone in k, so four looser ones than the first that fails are tried as well."""
+    is none. Tolerances are 10^(-k/16); `errors` caches errors by k. The error is not quite monotone
+    in k, so four tolerances looser than the first that fails are tried as well."""
     def error(k):
         if k not in errors:
             errors[k] = solver.error(10.0 ** (-k / PER_DECADE))

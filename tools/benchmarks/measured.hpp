@@ -1,4 +1,4 @@
-// Errors of a solver's ends against the reference.
+// Errors of the ends of a solver compared with the reference.
 #pragma once
 
 #include "peer.hpp"
@@ -10,14 +10,14 @@
 namespace overturn::benchmarks {
 
 struct Errors {
-    double p99;               ///< of the points that the reference calls safe [rad]
-    double largest;           ///< of the same [rad]
-    int safe_points;          ///< how many these are
-    int verdicts_that_differ; ///< of all points: safe against unsafe; undecided is neither
+    double p99;               ///< of the points that are safe in the reference [rad]
+    double largest;           ///< of the points that are safe in the reference [rad]
+    int safe_points;          ///< number of points that are safe in the reference
+    int verdicts_that_differ; ///< of all points: safe, unsafe or undecided
 };
 
 /// The error of a point is max(|d theta|, |d theta'|) at the end of the pulse; p99 is the smallest
-/// error that 99 of 100 points do not exceed. A point that the solver gave up has an infinite
+/// error that 99 of 100 points do not exceed. A point at which the solver failed has an infinite
 /// error.
 template <class S>
 Errors errors_of(const std::vector<PeerEnd<S>>& ends,

@@ -1,5 +1,5 @@
-// Boost.odeint's Dormand-Prince 5(4) with its own step size control, and events in two ways: on its
-// dense output, as its users would find them, and by stepping again.
+// Boost.odeint: Dormand-Prince 5(4) with odeint's step size control. Events are found in two ways:
+// on the dense output, as a user of odeint would do it, and by repeated steps.
 #include "event_in_step.hpp"
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
@@ -19,7 +19,7 @@ namespace odeint = boost::numeric::odeint;
 
 using Stepper = odeint::runge_kutta_dopri5<RockingState<double>>;
 
-/// Of a flight from rest.
+/// The first step of a flight from rest.
 double first_step(double tolerance, double frequency)
 {
     return std::pow(tolerance, 0.2) / std::max(1.0, frequency);
@@ -42,7 +42,7 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, doub
         while (true) {
             const double left = rocking.end() - dense.current_time();
             if (dense.current_time_step() > left) {
-                // Ending beyond and interpolating is no faster.
+                // A step beyond the end with interpolation is no faster.
                 dense.initialize(dense.current_state(), dense.current_time(), left);
             }
             dense.do_step(std::cref(rocking));
@@ -76,7 +76,7 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
     auto controlled =
         odeint::make_controlled<Stepper>(allowed_error(tolerance, problem), tolerance);
     Stepper plain;
-    double h = 0; // the next step; from flight to flight
+    double h = 0; // the next step; kept from flight to flight
 
     const auto fly = [&](const Rocking<double, sines>& rocking, Moment<double>& now,
                          bool from_rest) {
@@ -84,7 +84,7 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
         if (from_rest) {
             h = first_step(tolerance, rocking.frequency());
         }
-        // Of `now`: the last stage of one step is the first of the next.
+        // At `now`: the last stage of a step is the first stage of the next.
         RockingState<double> derivative;
         rocking(now.state, derivative, now.time);
         while (true) {
@@ -95,7 +95,7 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
             if (now.time + h == now.time && !last) {
                 return Outcome::failure;
             }
-            // A step straight into `now` is a tenth slower.
+            // A step that overwrites `now` directly is a tenth slower.
             RockingState<double> after;
             RockingState<double> derivative_after;
             if (controlled.try_step(system, now.state, derivative, now.time, after,

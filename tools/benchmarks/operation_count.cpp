@@ -1,4 +1,4 @@
-// Compiled without contraction, as the kernels are: their text must do what it says, no more.
+// Compiled without contraction, like the kernels, so that the counted operations are exact.
 #include "operation_count.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 thread_local Operations counted;
 
-/// A double that counts what is done with it.
+/// A double that counts its arithmetic operations.
 struct Counted {
     Counted() = default;
     explicit Counted(double number) : value(number) {}
@@ -93,7 +93,7 @@ namespace overturn::benchmarks {
 
 namespace {
 
-/// The same points as the kernel gets.
+/// The same excitation as in the kernel.
 Excitation<Counted> excitation_of(const PeerPoint& point)
 {
     const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
@@ -114,8 +114,8 @@ PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
     const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
     const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Records{}>(
         block, excitation_of(point), tolerance);
-    const double code =
-        region_code_after_pulse<Theory::nonlinear>(end.state, block).value; // of fallen ones, too
+    const double code = region_code_after_pulse<Theory::nonlinear>(end.state, block)
+                            .value; // counted for all points
     const double side = end.state.side.value;
     if (end.capped || end.not_finite) {
         const double none = std::numeric_limits<double>::quiet_NaN();

@@ -1,13 +1,13 @@
-// The floating-point operations that overturn's kernels take, counted: the forced stage and the
-// region of every point once more, in a number that counts.
+// Counts the floating-point operations of overturn's kernels: computes the forced stage and the
+// region of every point with a number type that counts its operations.
 #pragma once
 
 #include "peer.hpp"
 
 namespace overturn::benchmarks {
 
-/// Of one lane's own work: lanes that wait for their neighbours, comparisons, selections, absolute
-/// values and changes of sign count nothing.
+/// Operations of single lanes. Not counted: lanes that wait for their neighbours, comparisons,
+/// selections, absolute values and changes of sign.
 struct Operations {
     std::int64_t fused = 0;   ///< multiply-adds rounded once
     std::int64_t plain = 0;   ///< additions, subtractions, multiplications
@@ -16,7 +16,7 @@ struct Operations {
 
 struct OperationCount {
     Operations operations; ///< of all points together
-    int ends_that_differ;  ///< in any bit from those of the product's kernel
+    int ends_that_differ;  ///< in any bit from the ends computed by the kernel
 };
 
 OperationCount count_operations(const Problem& problem, const Numerics& numerics);

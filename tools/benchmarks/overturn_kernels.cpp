@@ -1,4 +1,4 @@
-// Overturn's own methods, run as the product runs them: tile by tile on the widest kernel.
+// The methods of overturn, run as in the program: tile by tile on the widest kernel.
 #include "peer.hpp"
 
 #include "overturn/sweep/sweep_tile.hpp"

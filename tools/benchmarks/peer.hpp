@@ -1,5 +1,5 @@
-// What every solver of the benchmark gets and gives: the points of a plane, and how each block is
-// at the end of the pulse. Quantities are dimensionless: velocities are d theta / d(p t).
+// Input and output of every solver in the benchmark: the points of a plane, and the state of each
+// block at the end of the pulse. Dimensionless: velocities are d theta / d(p t).
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
@@ -18,15 +18,15 @@ struct PeerPoint {
     double frequency;   ///< Omega [1]
 };
 
-/// How the forced stage of one point ended.
+/// The end of the forced stage of one point.
 template <class S>
 struct PeerEnd {
-    S angle;       ///< theta [rad]; not a number where the solver gave up
+    S angle;       ///< theta [rad]; NaN if the solver failed
     S velocity;    ///< d theta / d tau [rad]
-    Region region; ///< undecided where the solver gave up
+    Region region; ///< undecided if the solver failed
 };
 
-/// The plane, and its points one by one, frequency fastest.
+/// The plane and the list of its points, frequency fastest.
 struct Problem {
     Plane plane;
     std::vector<PeerPoint> points;
@@ -35,7 +35,7 @@ struct Problem {
 /// The paper's block under a one-sine pulse, nonlinear theory, r = r_max: count x count points.
 Problem paper_block_problem(int count);
 
-/// The ends of all points; tolerance: local error per step over the slenderness [1].
+/// Computes the ends of all points; tolerance: local error per step over the slenderness [1].
 using Solve = std::function<std::vector<PeerEnd<double>>(const Problem& problem, double tolerance)>;
 
 struct Solver {
@@ -49,8 +49,8 @@ std::vector<Solver> all_solvers();
 std::vector<Solver> overturn_solvers();
 std::vector<PeerEnd<double>> solve_by_overturn(const Problem& problem, const Numerics& numerics);
 
-/// Whose sine and cosine a peer takes in the equation of motion: the C library's, or overturn's
-/// polynomials.
+/// The sine and cosine that a peer uses in the equation of motion: those of the C library, or
+/// overturn's polynomials.
 enum class Sines { library, overturn };
 
 std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, double tolerance);
@@ -62,11 +62,11 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double t
 std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tolerance);
 std::vector<PeerEnd<double>> solve_by_cvode_adams(const Problem& problem, double tolerance);
 
-/// The truth to measure errors by: in long double, by a method and code of others.
+/// The reference solution: in long double, by a third-party method and implementation.
 std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double tolerance);
 
-/// Fused multiply-adds per second of this core at full width, vectors times lanes: the best of
-/// several samples [1/s].
+/// The best of several samples of the fused multiply-adds per second of this core at full width,
+/// vectors times lanes [1/s].
 double fma_peak_per_second();
 
 } // namespace overturn::benchmarks

@@ -1,5 +1,5 @@
-"""The peer benchmark: overturn's kernels against what one would use instead, on the same points, at
-the same error against the same reference, in turns on one core."""
+"""The peer benchmark: compares overturn's kernels with alternative solvers on the same points, at
+the same error relative to the same reference, in turns on one core."""
 
 import json
 import math
@@ -13,41 +13,42 @@ from matching import PER_DECADE, matched_tolerance
 TARGETS = (1e-6, 1e-9, 1e-12)  # of the 99th percentile of the error [rad]
 TIGHTEST = {"overturn": PER_DECADE * 14, "other": PER_DECADE * 15}
 REFERENCE_TOLERANCE, CHECK_TOLERANCE = 1e-18, 1e-16
-LARGEST_CHECK = 1e-14  # between the two references: nothing beside the smallest target
+LARGEST_CHECK = 1e-14  # difference of the two references: negligible for the smallest target
 VERDICT_TOLERANCE = 1e-13
 SAMPLE_SECONDS = 0.05
-NAME_WIDTH = 36  # of the longest name, and a gap
+NAME_WIDTH = 36  # the longest name and a gap
 SCIPY_SIDE = 8  # SciPy runs on 8 x 8 points spread over the plane
 
 EXPLANATION = """\
-Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy: a block of the paper
-under a one-sine pulse, frequency 0.5 to 8 times amplitude 1.2 to 12. For each solver and target
-error it finds the loosest tolerance whose error is within the target (99th percentile, over the
-points that do not overturn, of the largest error of angle and velocity at the end of the pulse),
-then times all solvers in turns and gives medians of processor time. Errors are against a reference
-in long double, by a method of others, which a second reference checks. Of overturn's methods it
-tells what share of the core's fused multiply-adds they reach.
-Installs what is missing, builds in build-bench, and takes some minutes; let nothing else run."""
+Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy: the paper's block under
+a one-sine pulse, frequency 0.5 to 8 by amplitude 1.2 to 12. For each solver and target error, it
+finds the loosest tolerance whose error is within the target (99th percentile, over the points that
+do not overturn, of the larger of the errors of angle and velocity at the end of the pulse), then
+times all solvers in turns and prints medians of processor time. Errors are relative to a reference
+in long double by a third-party method, which is checked by a second reference. For overturn's
+methods, it prints the share of the core's peak of fused multiply-adds.
+Installs missing dependencies, builds in build-bench, and takes a few minutes. Do not run other
+programs at the same time."""
 
 EXPLANATION_OF_ROWS = f"""\
--: out of reach, or there is no such method.
-odeint_dopri5 finds events on its dense output, of order 4; _restepping by steps again to where the
-event should be. The peers take sine and cosine of the C library, _our_sines overturn's polynomials.
+-: the target cannot be reached, or there is no value.
+odeint_dopri5 finds events on its dense output of order 4, _restepping by repeated steps to the
+event. The peers use sine and cosine of the C library, _our_sines uses overturn's polynomials.
 scipy_rk45: error and time on up to {SCIPY_SIDE} x {SCIPY_SIDE} points spread over the plane; all others on every point."""
 
 
 def add_arguments(parser):
     parser.add_argument("--points", type=int, default=64,
-                        help="of the frequency and of the amplitude axis (default: 64)")
+                        help="points of the frequency and of the amplitude axis (default: 64)")
     parser.add_argument("--rounds", type=int, default=5,
-                        help="samples of each solver and target (default: 5)")
+                        help="samples for each solver and target (default: 5)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_peers.json"),
-                        help="where the numbers go (default: bench_peers.json)")
+                        help="JSON file for the results (default: bench_peers.json)")
     add_build_argument(parser)
 
 
 class Program:
-    """The measuring program, and the plane and the reference that it works on."""
+    """The measuring program with the plane and the reference that it uses."""
 
     def __init__(self, path, points):
         self.path = path
@@ -68,7 +69,7 @@ class Program:
 
 
 class ProgramSolver:
-    """One of the solvers inside the measuring program."""
+    """One of the solvers of the measuring program."""
 
     def __init__(self, program, name):
         self.program, self.name = program, name
@@ -83,7 +84,7 @@ class ProgramSolver:
 
 
 class ScipySolver:
-    """SciPy on a part of the points, on which its error is measured, too."""
+    """SciPy on a subset of the points, for both time and error."""
 
     name = "scipy_rk45"
     tightest = TIGHTEST["other"]
@@ -107,14 +108,14 @@ class ScipySolver:
 
 
 def check_reference(program):
-    """Makes the reference and ends the benchmark if it is none."""
+    """Computes the reference; ends the benchmark if it is not accurate enough."""
     found = program.make_reference()
-    print(f"reference: {found['points']} points, {found['safe_points']} of them safe; against a "
-          f"second one p99 of the difference {found['p99_difference']:.1e}, "
+    print(f"reference: {found['points']} points, {found['safe_points']} of them safe; difference "
+          f"from a second reference: p99 {found['p99_difference']:.1e}, "
           f"largest {found['largest_difference']:.1e}", flush=True)
     if not found["p99_difference"] < LARGEST_CHECK or found["verdicts_that_differ"]:
         fail(f"the two references differ by more than {LARGEST_CHECK:g} or in "
-             f"{found['verdicts_that_differ']} verdicts; neither is one")
+             f"{found['verdicts_that_differ']} verdicts; neither can be used")
     return found
 
 
@@ -122,9 +123,10 @@ def check_verdicts(program, solvers):
     for name in solvers:
         if name.startswith("overturn"):
             differ = program.measure(name, VERDICT_TOLERANCE)["verdicts_that_differ"]
-            print(f"verdicts of {name} that differ from the reference's: {differ}", flush=True)
+            print(f"verdicts of {name} that differ from the reference: {differ}", flush=True)
             if differ:
-                fail(f"{name} at tolerance {VERDICT_TOLERANCE:g} must agree in all verdicts")
+                fail(f"{name} must agree with the reference in all verdicts at the tolerance "
+                     f"{VERDICT_TOLERANCE:g}")
 
 
 def machine(about):
@@ -150,13 +152,13 @@ def find_tolerances(solvers):
             matched[solver.name, target] = tolerance, achieved
             print(f"  {solver.name:{NAME_WIDTH}} {target:.0e}: "
                   + (f"tolerance {tolerance:.2e}, error {achieved:.2e}" if tolerance
-                     else "out of reach"), flush=True)
+                     else "target cannot be reached"), flush=True)
     return matched
 
 
 def time_in_turns(program, solvers, matched, rounds):
-    """(solver, target) -> median of microseconds per point; None where the target is out of
-    reach. And the core's best rate of fused multiply-adds meanwhile."""
+    """(solver, target) -> median of microseconds per point, None if the target cannot be reached;
+    and the best rate of fused multiply-adds of the core during the measurement."""
     samples = {key: [] for key, (tolerance, _) in matched.items() if tolerance}
     peak = 0.0
     for number in range(rounds):
@@ -179,18 +181,18 @@ def count_operations(program, matched):
             method = name.removeprefix("overturn_")
             found = program.ask("operations", program.points, method, f"{tolerance:.6e}")
             if found.pop("ends_that_differ"):
-                fail(f"counting the operations of {method} gave other ends than the kernel's")
+                fail(f"with counted operations, {method} does not give the ends of the kernel")
             counts[name, target] = found
     return counts
 
 
 def shares_of_peak(count, microseconds, peak):
-    """Of what the core could do meanwhile: of its floating-point operations, and of its slots for
-    fused multiply-adds, which a lone addition or multiplication takes as well."""
+    """The shares of the peak of the core in the same time: of its floating-point operations, and of
+    its slots for fused multiply-adds, which single additions and multiplications also use."""
     slots = count["fused"] + count["plain"]
     operations = 2 * count["fused"] + count["plain"] + count["divided"]
-    could = peak * microseconds / 1e6
-    return operations / (2 * could), slots / could
+    possible = peak * microseconds / 1e6
+    return operations / (2 * possible), slots / possible
 
 
 def records(matched, medians, counts, peak):
@@ -227,14 +229,14 @@ def print_table(rows):
 
 def print_shares(rows, peak, about):
     print(f"\nThe core's peak: {peak / 1e9:.1f}e9 fused multiply-adds per second "
-          f"({about['lanes']} lanes, kernel {about['kernel']}).\nOf its floating-point operations, "
-          "two to each, and of its slots for them, the kernels use:")
+          f"({about['lanes']} lanes, kernel {about['kernel']}).\nShare of its floating-point "
+          "operations (two per multiply-add) and of its multiply-add slots used by the kernels:")
     for name in dict.fromkeys(row["solver"] for row in rows if row["share_of_fma_peak"]):
         print(f"  {name}: " + ", ".join(
             f"{row['share_of_fma_peak']:.0%} and {row['fma_units_share']:.0%} at "
             f"{row['target_error']:.0e}" for row in rows
             if row["solver"] == name and row["share_of_fma_peak"]))
-    print("Counted are the points' own operations; lanes that wait for their neighbours do none.")
+    print("Only the operations of the points are counted, not those of lanes that wait for others.")
 
 
 def run(options):
@@ -242,14 +244,14 @@ def run(options):
         fail("--points must be at least 2 and --rounds at least 1")
     if not options.output.resolve().parent.is_dir():
         fail(f"{options.output}: there is no folder {options.output.resolve().parent}")
-    import scipy_rk45  # noqa: F401: if SciPy is missing, that is said before anything is built
+    import scipy_rk45  # noqa: F401: if SciPy is missing, fail before anything is built
     program = Program(build(options.build, "bench_peers"), options.points)
     about = program.ask("about")
     reference = check_reference(program)
     check_verdicts(program, about["solvers"])
     solvers = [ProgramSolver(program, name) for name in about["solvers"]]
     solvers.append(ScipySolver(program.reference_file, options.points))
-    print("tolerances that match the errors:", flush=True)
+    print("tolerances for the target errors:", flush=True)
     matched = find_tolerances(solvers)
     print("times:", flush=True)
     medians, peak = time_in_turns(program, solvers, matched, options.rounds)

@@ -1,4 +1,4 @@
-"""The ranks benchmark: how much time more ranks save."""
+"""The ranks benchmark: the speedup by several ranks."""
 
 import statistics
 
@@ -6,16 +6,18 @@ from building import fail
 from launching import add_program_argument, launcher, measured_run, program
 
 EXPLANATION = """\
-Runs jobs/figure_07a.toml at a tolerance of 1e-12 on one rank and on several, in turns: a job of half
-a minute. Let nothing else run."""
+Runs jobs/figure_07a.toml at a tolerance of 1e-12 on one rank and on several, in turns. A run takes
+half a minute. Do not run other programs at the same time."""
 
 
 def add_arguments(parser):
     add_program_argument(parser)
-    parser.add_argument("--ranks", type=int, default=2, help="against one (default: 2)")
+    parser.add_argument("--ranks", type=int, default=2,
+                        help="number of ranks to compare with one (default: 2)")
     parser.add_argument("--points", type=int, default=4096,
-                        help="of the frequency and of the amplitude axis (default: 4096)")
-    parser.add_argument("--repeat", type=int, default=3, help="runs of each (default: 3)")
+                        help="points of the frequency and of the amplitude axis (default: 4096)")
+    parser.add_argument("--repeat", type=int, default=3,
+                        help="runs for each number of ranks (default: 3)")
 
 
 def run(options):

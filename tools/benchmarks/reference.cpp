@@ -21,8 +21,8 @@ std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double
 
     const auto fly = [&](const Rocking<S>& rocking, Moment<S>& now, bool) {
         const auto system = std::cref(rocking);
-        // Short against the pulse and against the block's own time 1: a gap cannot close and open
-        // again unseen between the ends of a step and its quintic.
+        // Short compared with the pulse and with the time unit of the block: the quintic of a step
+        // shows every gap that closes and opens again within it.
         const S longest = S(1) / 10 / std::max(S(1), rocking.frequency());
         S h = longest;
         while (true) {

@@ -1,7 +1,7 @@
-// One point for a solver that knows nothing of rocking: the equation of motion on one side (Eq.
-// 47), and what happens at uplift, impact, rest and fall. All peers share it, so that they differ
-// in nothing but how they integrate. State: tilt |theta| and its rate d|theta|/d tau [rad]; time
-// tau = p t since the pulse began [1/p].
+// One point for a general ODE solver: the equation of motion on one side (Eq. 47), and the handling
+// of uplift, impact, rest and fall. All peers share it, so they differ only in the integration.
+// State: tilt |theta| and its rate d|theta|/d tau [rad]; time tau = p t since the beginning of the
+// pulse [1/p].
 #pragma once
 
 #include "peer.hpp"
@@ -24,7 +24,7 @@ struct Moment {
     RockingState<S> state;
 };
 
-/// What ended a flight, the motion between two events.
+/// The end of a flight, which is the motion between two events.
 enum class Outcome { impact, fall, pulse_end, failure };
 
 /// The equation of motion on the side on which the block rocks.
@@ -39,7 +39,7 @@ public:
           end_(excitation_.motion.end / excitation_.frequency), push_(excitation_.acceleration)
     {}
 
-    // Inlined to the last: the calls cost a peer up to 10 % of its time.
+    // All calls are inlined; otherwise they cost a peer up to 10 % of its time.
     [[gnu::flatten]] S acceleration(const S& tilt, const S& time) const
     {
         const S phase = time * excitation_.frequency;
@@ -57,7 +57,7 @@ public:
         derivative = {state[1], acceleration(state[0], time)};
     }
 
-    void rock_on(const S& side) { push_ = side * excitation_.acceleration; }
+    void set_side(const S& side) { push_ = side * excitation_.acceleration; }
 
     const Block<S>& block() const { return block_; }
     const Excitation<S>& excitation() const { return excitation_; }
@@ -71,10 +71,10 @@ private:
     S push_; // a_p/g with the sign of the side
 };
 
-/// The forced stage of one point. `fly(rocking, moment, from_rest)` integrates from a moment to the
-/// next event or the end of the pulse, leaves that in `moment`, and says which it was; `from_rest`
-/// is true for the flight after an uplift. There is no event at the beginning of a flight, where
-/// the tilt is 0.
+/// The forced stage of one point. `fly(rocking, moment, from_rest)` integrates from `moment` to the
+/// next event or the end of the pulse, stores the end in `moment`, and returns the outcome;
+/// `from_rest` is true for the flight after an uplift. The tilt of 0 at the beginning of a flight
+/// is not an event.
 template <class S, Sines sines, class Fly>
 PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
 {
@@ -97,7 +97,7 @@ PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
         Moment<S> now{uplift / excitation.frequency, {S(0), S(0)}};
         bool from_rest = true;
         while (true) {
-            rocking.rock_on(end.side);
+            rocking.set_side(end.side);
             const Outcome outcome =
                 now.time < rocking.end() ? fly(rocking, now, from_rest) : Outcome::pulse_end;
             from_rest = false;

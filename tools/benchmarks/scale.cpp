@@ -1,11 +1,11 @@
-// bench_scale ANSWER TILE MOST_RANKS: a run on more ranks than anyone has at hand, event by event.
+// bench_scale ANSWER TILE MOST_RANKS: event-based simulation of runs on up to MOST_RANKS ranks.
 // ANSWER and TILE: seconds that rank 0 takes to answer a request, and a rank for a tile. Tiles are
-// dealt by the dealer that the program uses; everything else is this model:
-//   - a worker asks one range ahead, and a message takes 2 us;
+// dealt by the TileDealer of the program; everything else is modelled:
+//   - a worker requests one range ahead, and a message takes 2 us;
 //   - a tile takes TILE on average, with half of that as its standard deviation;
-//   - rank 0 answers one request after the other, and computes a tile when nobody asks.
-// Prints, as JSON, the share of the ranks' time that went into tiles, and that of rank 0 into
-// answers, for ranges as long as range_limits() says, and for ranges of 1 to 16 tiles.
+//   - rank 0 answers requests one by one, and computes a tile when there are none.
+// Prints, as JSON, the share of the time of all ranks that is spent on tiles, and the share of
+// rank 0 on answers, for range lengths from range_limits(), and for ranges of 1 to 16 tiles.
 #include "overturn/farm/tile_dealer.hpp"
 
 #include <fmt/format.h>
@@ -30,8 +30,8 @@ struct Costs {
 };
 
 struct Outcome {
-    double efficiency; ///< share of all ranks' time that goes into tiles
-    double answering;  ///< share of rank 0's time
+    double efficiency; ///< share of the time of all ranks that is spent on tiles
+    double answering;  ///< share of the time of rank 0 that is spent on answers
     double seconds;
 };
 
@@ -65,7 +65,7 @@ private:
     };
     struct Worker {
         std::int64_t ahead = 0; ///< tiles of the range that has arrived
-        std::int64_t dealt = 0; ///< tiles of the range on its way
+        std::int64_t dealt = 0; ///< tiles of the range that is in transit
         bool computes = false;
     };
 
@@ -128,7 +128,7 @@ private:
         events_.push({time + seconds, Kind::rank_0_is_free, 0});
     }
 
-    /// How long some tiles take that are begun now.
+    /// The duration of some tiles that begin at `time`.
     double compute(std::int64_t tiles, double time)
     {
         const double mean = double(tiles) * costs_.tile;

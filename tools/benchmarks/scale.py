@@ -1,4 +1,4 @@
-"""The scale benchmark: how a run would go on up to 100,000 ranks, simulated."""
+"""The scale benchmark: simulates runs on up to 100,000 ranks."""
 
 import json
 import subprocess
@@ -8,20 +8,21 @@ from launching import add_program_argument, launcher, measured_run, program
 from whole_run import METHODS, settings
 
 EXPLANATION = """\
-Measures on two ranks how long rank 0 takes to answer a request, and a rank for a tile of
-jobs/figure_07a.toml, regions only. From these it simulates runs of 100 and of 1000 tiles per rank, with
-the dealer of the program, up to 100,000 ranks: the share of all ranks' time that goes into tiles, and
-how busy rank 0 is with answers. In brackets: if no range had more than 16 tiles, however many ask."""
+Measures on two ranks the time that rank 0 takes to answer a request and the time for a tile of
+jobs/figure_07a.toml, regions only. With these, it simulates runs of 100 and of 1000 tiles per rank,
+with the dealer of the program, on up to 100,000 ranks: the share of the time of all ranks that is
+spent on tiles, and the share of rank 0 on answers. In brackets: at most 16 tiles per range."""
 
 
 def add_arguments(parser):
     add_program_argument(parser)
     add_build_argument(parser)
-    parser.add_argument("--most", type=int, default=100000, help="ranks (default: 100000)")
+    parser.add_argument("--most", type=int, default=100000,
+                        help="largest number of ranks (default: 100000)")
 
 
 def measured_costs(overturn, method):
-    """Seconds of an answer and of a tile, on two ranks."""
+    """The seconds per answer and per tile, on two ranks."""
     _, sidecar = measured_run(overturn, 2048, settings(method), launcher(2))
     tiles = sum(rank["tiles"] for rank in sidecar["ranks"])
     busy = sum(rank["compute_seconds"] + rank["write_seconds"] for rank in sidecar["ranks"])

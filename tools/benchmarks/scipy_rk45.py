@@ -1,4 +1,4 @@
-"""SciPy's solve_ivp (RK45, with events) on points of the peer benchmark: what a script would do.
+"""SciPy's solve_ivp (RK45, with events) on points of the peer benchmark, as used in a script.
 All quantities are dimensionless, as in rocking_point.hpp; the pulse is one_sine, the theory
 nonlinear."""
 
@@ -8,7 +8,7 @@ import time
 import numpy
 from scipy.integrate import solve_ivp
 
-SMALLEST_RELATIVE = 100 * numpy.finfo(float).eps  # below it SciPy warns and uses it
+SMALLEST_RELATIVE = 100 * numpy.finfo(float).eps  # below this, SciPy warns and uses this value
 
 
 class Rocking:

@@ -1,5 +1,5 @@
-"""The speed picture: what accuracy costs with each solver, and what a point costs in planes of every
-size."""
+"""The speed picture: the cost of accuracy with each solver, and the cost per point for planes of
+different sizes."""
 
 import json
 import pathlib
@@ -7,8 +7,8 @@ import pathlib
 from building import fail
 
 EXPLANATION = """\
-Draws bench_peers.json and bench_run.json, as `tools/bench peers` and `tools/bench run` leave them:
-time per point against error for every solver, and time per point of a whole run against the number
+Plots bench_peers.json and bench_run.json, written by `tools/bench peers` and `tools/bench run`:
+time per point versus error for every solver, and time per point of a whole run versus the number
 of points."""
 
 LABELS = {
@@ -19,17 +19,17 @@ LABELS = {
 }
 OURS = {"overturn_rk45": "#1b6ca8", "overturn_taylor": "#c8422b"}
 PEERS = "#767676"
-RAISED = {"arkode_dopri5": 5, "cvode_adams": -5}  # labels that would lie on each other [points]
+RAISED = {"arkode_dopri5": 5, "cvode_adams": -5}  # labels that would overlap [points]
 MARKERS = {"odeint_dopri5": "o", "gsl_rk8pd": "s", "arkode_dopri5": "^", "cvode_adams": "v",
            "scipy_rk45": "D"}
 
 
 def add_arguments(parser):
     parser.add_argument("--peers", type=pathlib.Path, default=pathlib.Path("bench_peers.json"),
-                        help="what `tools/bench peers` wrote (default: bench_peers.json)")
+                        help="output of `tools/bench peers` (default: bench_peers.json)")
     parser.add_argument("--run", type=pathlib.Path, default=pathlib.Path("bench_run.json"),
                         dest="whole_run",
-                        help="what `tools/bench run` wrote (default: bench_run.json)")
+                        help="output of `tools/bench run` (default: bench_run.json)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("speed.png"),
                         help="the picture (default: speed.png)")
 
@@ -38,7 +38,7 @@ def read(path):
     try:
         return json.loads(path.read_text())
     except OSError as error:
-        fail(f"{error}. `tools/bench peers` and `tools/bench run` write what is drawn here.")
+        fail(f"{error}. Run `tools/bench peers` and `tools/bench run` first to write these files.")
 
 
 def draw_peers(axes, found):
@@ -61,7 +61,7 @@ def draw_peers(axes, found):
              ylabel="time per point on one core [µs]")
     axes.set_xticks([1e-6, 1e-9, 1e-12])
     axes.minorticks_off()
-    axes.set_title("What accuracy costs", fontsize=11)
+    axes.set_title("Cost of accuracy", fontsize=11)
 
 
 def draw_sizes(axes, found):
@@ -75,7 +75,7 @@ def draw_sizes(axes, found):
     axes.set(xscale="log", yscale="log", xlim=(100, 2e8),
              xlabel="points of the plane", ylabel="wall time of the whole run per point [µs]")
     axes.minorticks_off()
-    axes.set_title("What a run costs, from the command to its exit", fontsize=11)
+    axes.set_title("Cost of a whole run, from start to exit", fontsize=11)
 
 
 def run(options):
@@ -97,4 +97,4 @@ def run(options):
                 f"{machine['compiler']}", ha="right", fontsize=7, color="#666666")
     figure.tight_layout()
     figure.savefig(options.output, dpi=120)
-    print(f"drawn: {options.output}")
+    print(f"written: {options.output}")

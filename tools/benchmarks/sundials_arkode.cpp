@@ -1,5 +1,5 @@
-// SUNDIALS ARKODE: explicit Dormand-Prince 4(5) with ARKODE's own step size control and root
-// finding. Other controllers and interpolants than its defaults were no faster at the same error.
+// SUNDIALS ARKODE: explicit Dormand-Prince 4(5) with ARKODE's step size control and root finding.
+// Controllers and interpolants other than the defaults were no faster at the same error.
 #include "sundials_handles.hpp"
 
 #include <arkode/arkode_erkstep.h>

@@ -1,5 +1,5 @@
-// SUNDIALS CVODE: Adams methods of variable order, fixed-point corrector, CVODE's root finding. An
-// impact starts it again at order 1; its own choice of the first step was the fastest.
+// SUNDIALS CVODE: Adams methods of variable order, fixed-point corrector, CVODE's root finding. It
+// restarts at order 1 after an impact; CVODE's choice of the first step was the fastest.
 #include "sundials_handles.hpp"
 
 #include <cvode/cvode.h>

@@ -1,5 +1,5 @@
-// What both SUNDIALS integrators need: the right-hand side, the gaps whose roots are events, and
-// the objects that every integrator owns.
+// Common parts of both SUNDIALS integrators: the right-hand side, the gaps whose roots are events,
+// and the context and state vector.
 #pragma once
 
 #include "rocking_point.hpp"
@@ -11,14 +11,14 @@
 
 namespace overturn::benchmarks {
 
-/// A context and a vector of two; outlives the integrators made from it.
+/// A context and a vector of two; must outlive the integrators created from it.
 class SundialsState {
 public:
     SundialsState()
     {
         SUNContext_Create(nullptr, &context_);
         vector_ = N_VNew_Serial(2, context_);
-        N_VEnableFusedOps_Serial(vector_, SUNTRUE); // off unless asked for; saves ARKODE a fifth
+        N_VEnableFusedOps_Serial(vector_, SUNTRUE); // off by default; saves a fifth with ARKODE
     }
     ~SundialsState()
     {
@@ -51,7 +51,7 @@ inline int rocking_derivative(double time, N_Vector state, N_Vector derivative, 
     return 0;
 }
 
-/// The gaps to the ground and to lying flat; both close at an event.
+/// The gaps to the ground and to pi/2; each closes at an event.
 inline int rocking_gaps(double, N_Vector state, double* gaps, void*)
 {
     gaps[0] = NV_Ith_S(state, 0);
@@ -60,7 +60,7 @@ inline int rocking_gaps(double, N_Vector state, double* gaps, void*)
 }
 inline constexpr int closing_gaps[2] = {-1, -1};
 
-/// Which of the two gaps has closed at a root.
+/// The outcome at a root: determines which of the two gaps has closed.
 inline Outcome outcome_at_root(const RockingState<double>& state)
 {
     return state[0] > pi<double>() / 4 ? Outcome::fall : Outcome::impact;

@@ -1,5 +1,5 @@
-"""The run benchmark: where the time of a whole run goes, kernel or not, from typing the command to
-its exit."""
+"""The run benchmark: a breakdown of the time of a whole run, from the start of the command to its
+exit."""
 
 import json
 import pathlib
@@ -12,18 +12,19 @@ METHODS = ("rk45", "taylor")
 SIDES = (16, 32, 64, 128, 256, 512, 1024, 2048, 4096)  # of square planes
 
 EXPLANATION = """\
-Runs jobs/figure_07a.toml, regions only, from the shell, and tells what is not kernel: start-up,
-writing, messages, waiting. First 100 x 100 points on one rank; then planes of 16 x 16 to
-4096 x 4096 points on one rank; then 4096 x 4096 points on one rank and on two. Let nothing else
-run."""
+Runs jobs/figure_07a.toml, regions only, from the command line, and reports the time spent outside
+the kernel: start-up, writing, messages, waiting. First 100 x 100 points on one rank; then planes of
+16 x 16 to 4096 x 4096 points on one rank; then 4096 x 4096 points on one rank and on two. Do not
+run other programs at the same time."""
 
 
 def add_arguments(parser):
     add_program_argument(parser)
-    parser.add_argument("--rounds", type=int, default=3, help="runs of each (default: 3)")
-    parser.add_argument("--ranks", type=int, default=2, help="of the largest plane (default: 2)")
+    parser.add_argument("--rounds", type=int, default=3, help="runs of each case (default: 3)")
+    parser.add_argument("--ranks", type=int, default=2,
+                        help="ranks for the largest plane (default: 2)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_run.json"),
-                        help="where the numbers go (default: bench_run.json)")
+                        help="JSON file for the results (default: bench_run.json)")
 
 
 def settings(method):
@@ -31,14 +32,14 @@ def settings(method):
 
 
 def record(overturn, method, side, ranks, rounds):
-    """The run with the median wall time, and its parts as shares of all ranks' time."""
+    """The run with the median wall time, and its parts as shares of the time of all ranks."""
     start = launcher(ranks) if ranks > 1 else []
     runs = [measured_run(overturn, side, settings(method), start) for _ in range(rounds)]
     wall, sidecar = sorted(runs, key=lambda run: run[0])[len(runs) // 2]
     all_time = wall * ranks
     compute = sum(rank["compute_seconds"] for rank in sidecar["ranks"])
     write = sum(rank["write_seconds"] for rank in sidecar["ranks"])
-    # Between the first tile and the last nobody waits but at the end, for the slowest rank.
+    # Ranks wait only at the end, for the slowest rank.
     busy = [rank["compute_seconds"] + rank["write_seconds"] for rank in sidecar["ranks"]]
     return {"method": method, "side": side, "ranks": ranks, "wall_seconds": wall,
             "us_per_point": 1e6 * wall / side**2, "kernel_share": compute / all_time,
@@ -59,21 +60,22 @@ def print_shares(found):
 
 
 def print_saturation(found):
-    """At how many ranks rank 0 would do nothing but answer."""
+    """Prints the number of ranks at which rank 0 would only answer requests."""
     if not found["requests"]:
         return
     answer = found["dealing_seconds"] / found["requests"]
     tile = found["compute_seconds"] / found["tiles"]
-    print(f"rank 0 answers a request in {1e6 * answer:.1f} us, {1 / answer:.2g} a second. A tile of "
-          f"{found['method']} takes {1e3 * tile:.2f} ms: it would saturate\nat {tile / answer:.2g} "
-          "ranks that ask for every tile; with more of them, ranges become longer.", flush=True)
+    print(f"rank 0 answers a request in {1e6 * answer:.1f} us, {1 / answer:.2g} per second. A tile "
+          f"of {found['method']} takes {1e3 * tile:.2f} ms: rank 0 would be\nsaturated by "
+          f"{tile / answer:.2g} ranks that request single tiles; with more, ranges are longer.",
+          flush=True)
 
 
 def run(options):
     overturn = program(options)
     small = statistics.median(measured_run(overturn, 100, settings("rk45"))[0]
                               for _ in range(max(options.rounds, 5)))
-    print(f"100 x 100 points, rk45, from the command to its exit: {small:.3f} s", flush=True)
+    print(f"100 x 100 points, rk45, from start to exit: {small:.3f} s", flush=True)
     curve = [record(overturn, method, side, 1, options.rounds)
              for method in METHODS for side in SIDES]
     print("\nmicroseconds per point of the whole run, one rank")
@@ -90,7 +92,7 @@ def run(options):
     for found in many:
         print_saturation(found)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    print(f"most memory of any rank: {memory:.0f} MiB", flush=True)
+    print(f"largest memory use of a rank: {memory:.0f} MiB", flush=True)
     options.output.write_text(json.dumps(
         {"benchmark": "run", "seconds_of_100_x_100": small, "most_memory_mib": memory,
          "one_rank": curve, "many_ranks": many}, indent=2) + "\n")

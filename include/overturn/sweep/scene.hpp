@@ -65,8 +65,7 @@ constexpr bool knows_errors(const Numerics& numerics)
            numerics.tolerance <= largest_rk45_tolerance_with_error;
 }
 
-/// The methods for which kernels are compiled. The order of a Taylor series is fixed at compile
-/// time.
+/// The methods for which kernels are compiled, with the order of a Taylor series.
 enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 
 /// The tolerance at which both orders cost the same: for the paper's one-sine spectrum, 14 takes a

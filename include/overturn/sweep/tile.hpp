@@ -1,6 +1,5 @@
 // The partition of the points of a result into tiles: rectangles in its last two dimensions, at one
-// index of each other dimension. A tile is the unit of work of a rank and a chunk of the result
-// file.
+// index of each other dimension. A tile is the unit of work of a rank and a chunk of the file.
 #pragma once
 
 #include "overturn/sweep/plane.hpp"
@@ -39,7 +38,7 @@ class TileDropped {};
 /// from 0 in the order of the dimensions, columns fastest.
 class Tiling {
 public:
-    /// rows, columns: of a tile [points]; both are limited to those of the shape.
+    /// rows, columns: of a tile [points]; both are limited to those of the shape. Does not throw.
     Tiling(Shape shape, std::int64_t rows, std::int64_t columns);
 
     /// The tiling that `overturn run` uses for a plane.
