@@ -44,7 +44,7 @@ public:
     Outcome run()
     {
         for (std::size_t worker = 1; worker < workers_.size(); ++worker) {
-            events_.push({message_seconds, Kind::asked, worker});
+            events_.push({message_seconds, Kind::requested, worker});
         }
         serve(0);
         while (!events_.empty()) {
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    enum class Kind { asked, answered, computed, rank_0_is_free };
+    enum class Kind { requested, answered, computed, rank_0_is_free };
     struct Event {
         double time;
         Kind kind;
@@ -81,12 +81,12 @@ private:
     {
         Worker& worker = workers_[event.worker];
         switch (event.kind) {
-        case Kind::asked: asking_.push_back(event.worker); break;
+        case Kind::requested: requests_.push_back(event.worker); break;
         case Kind::answered: worker.ahead = worker.dealt; break;
         case Kind::computed: worker.computes = false; break;
         case Kind::rank_0_is_free: rank_0_is_busy_ = false; break;
         }
-        if (event.kind == Kind::asked || event.kind == Kind::rank_0_is_free) {
+        if (event.kind == Kind::requested || event.kind == Kind::rank_0_is_free) {
             serve(event.time);
         } else {
             begin_range(event.worker, event.time);
@@ -100,7 +100,7 @@ private:
             return;
         }
         events_.push({time + compute(worker.ahead, time), Kind::computed, number});
-        events_.push({time + message_seconds, Kind::asked, number});
+        events_.push({time + message_seconds, Kind::requested, number});
         worker.ahead = 0;
         worker.computes = true;
     }
@@ -111,9 +111,9 @@ private:
             return;
         }
         double seconds = 0;
-        if (!asking_.empty()) {
-            const std::size_t worker = asking_.front();
-            asking_.pop_front();
+        if (!requests_.empty()) {
+            const std::size_t worker = requests_.front();
+            requests_.pop_front();
             const TileRange range = dealer_.deal(limits_);
             workers_[worker].dealt = range.end - range.begin;
             seconds = costs_.answer;
@@ -143,7 +143,7 @@ private:
     RangeLimits limits_;
     TileDealer dealer_;
     std::vector<Worker> workers_;
-    std::deque<std::size_t> asking_;
+    std::deque<std::size_t> requests_;
     std::priority_queue<Event> events_;
     bool rank_0_is_busy_ = false;
     double busy_ = 0;

@@ -104,7 +104,7 @@ T step_error_power(const T& error)
 }
 
 /// Factor for the step size after a step with this error, in units of the tolerance: 0.9
-/// error^(-3/16) within [0.2, 4]; 0.2 if the error is not a number.
+/// error^(-3/16) within [0.2, 4]; 0.2 if the error is NaN.
 template <Number T>
 T step_size_factor(const T& error)
 {

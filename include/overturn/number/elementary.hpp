@@ -119,7 +119,7 @@ T exponential_decay(const T& x)
     }
 }
 
-/// log2 x for a normal x > 0, to within 1e-3. For decisions such as step sizes, not for results.
+/// log2 x for a normal x > 0, to within 1e-3. For choosing step sizes, not for results.
 /// Returns a number below -1022 for smaller x, including 0, and one above 1023 for non-finite x.
 template <Number T>
 T rough_log2(const T& x)
