@@ -138,7 +138,7 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t mo
     forget_the_useless(probes, most_flips);
     for (int time = 0; line.undecided().size() <= most_undecided; ++time) {
         std::vector<double> middles;
-        std::size_t halved = 0; // the step that ends at this probe
+        std::size_t halved = 0; // the last step halved, given by its upper probe
         for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
             if (!is_rough(probes[i - 1], probes[i], probes[i + 1])) {
                 continue;

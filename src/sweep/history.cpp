@@ -162,7 +162,7 @@ private:
 
     void record_forced_stage(Recorder& recorder) const
     {
-        const Event<double>* latest = nullptr; // at rest
+        const Event<double>* latest = nullptr; // null: at rest
         const auto at = [&](double time) {
             const double phase = std::min(excitation_.motion.begin + time * excitation_.frequency,
                                           excitation_.motion.end);

@@ -23,7 +23,7 @@ struct Probe {
     }
 };
 
-/// Whether a flip between the two is known to flip_width.
+/// Whether the two amplitudes are within flip_width or adjacent doubles.
 bool is_narrow(double below, double above);
 
 double middle_of(const Probe& below, const Probe& above);

@@ -27,7 +27,7 @@ Axis spread(const Axis& axis, std::int64_t count)
 
 Plane sample_of(const Plane& plane, std::int64_t points)
 {
-    constexpr std::int64_t most_of_a_block = 3; // slendernesses, restitutions
+    constexpr std::int64_t most_of_a_block = 3; // slendernesses, and restitutions
     Plane sample = plane;
     sample.slenderness = spread(plane.slenderness, most_of_a_block);
     sample.restitution = spread(plane.restitution, most_of_a_block);

@@ -109,7 +109,7 @@ struct PackPoints {
             return task.pushes[task.push_of_point[i]];
         };
         const Push& first = push_of(point[0]);
-        const bool share_push = &first == &push_of(point[lanes - 1]); // the lanes between as well
+        const bool share_push = &first == &push_of(point[lanes - 1]); // then all lanes do
         const auto of_push = [&](const auto& value) -> T {
             return share_push ? T(value(first))
                               : gathered([&](int i) { return value(push_of(i)); });

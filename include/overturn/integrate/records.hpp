@@ -11,7 +11,7 @@ struct Records {
     bool peak = false;   ///< the largest tilt; not together with the error
     bool events = false; ///< for a single block only
 
-    // Known at the end of any run.
+    // Computed from the end of a run.
     bool region = false;
     bool margin = false;
     bool steps = false;

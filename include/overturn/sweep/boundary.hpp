@@ -32,7 +32,7 @@ inline constexpr double flip_width = 1e-12;
 /// The smallest step of a scan, over the amplitude; smaller steps are not halved [1].
 inline constexpr double finest_step = 1e-6;
 
-/// One line through a plane: everything but the amplitude.
+/// One line through a plane: all coordinates except the amplitude.
 struct BoundaryLine {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]

@@ -81,7 +81,7 @@ namespace status {
 inline constexpr std::uint8_t came_to_rest = 1; ///< came to rest during the pulse
 inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps or impacts: undecided
 inline constexpr std::uint8_t not_finite = 4;   ///< a number overflowed: undecided
-inline constexpr std::uint8_t unresolved = 8;   ///< no number of digits settled the verdict
+inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle the verdict
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 

@@ -68,7 +68,7 @@ double frequency_parameter(const BlockSize& block);
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
-/// A point of a plane; its coordinates are taken as exact.
+/// A point of a plane; its coordinates are assumed to be exact.
 struct PlanePoint {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]
@@ -82,7 +82,7 @@ struct Plane {
     Axis restitution; ///< r, or r / r_max(alpha), see restitution_of [1]
     Axis slenderness; ///< alpha [rad]
     RestitutionOf restitution_of = RestitutionOf::absolute;
-    std::optional<BlockSize> block; ///< set if the slenderness came from it
+    std::optional<BlockSize> block; ///< set if the slenderness was computed from it
 
     /// Number of points; checked for overflow when the job is read.
     std::int64_t points() const;
