@@ -7,6 +7,7 @@
 #include "peer.hpp"
 
 #include "overturn/mechanics/bounce_series.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/excitation.hpp"
 
 #include <array>

@@ -5,6 +5,7 @@
 
 #include "overturn/mechanics/block.hpp"
 
+#include <boost/math/constants/constants.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
 
 #include <cmath>

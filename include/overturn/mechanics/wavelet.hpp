@@ -21,8 +21,7 @@ T end_of_tail(PulseKind wavelet, const T& log2_level)
     const T least(S(36));
     T square(S(100)); // z^2 = 2 ln (z^3 / level), by iteration
     for (int i = 0; i < 4; ++i) {
-        square = (rough_log2(square) * T(S(1.5)) - log2_level) *
-                 T(2 * boost::math::constants::ln_two<S>());
+        square = (rough_log2(square) * T(S(1.5)) - log2_level) * T(2 * number_traits<S>::ln_two());
         square = greater<T>(square, least);
     }
     return sqrt(square * T(S(derivative_of_gaussian(wavelet))));

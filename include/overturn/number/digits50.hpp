@@ -3,6 +3,7 @@
 
 #include "overturn/number/number.hpp"
 
+#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 namespace overturn {
@@ -12,6 +13,9 @@ using Digits50 =
                                   boost::multiprecision::et_off>;
 
 template <>
-struct number_traits<Digits50> : scalar_number_traits<Digits50> {};
+struct number_traits<Digits50> : scalar_number_traits<Digits50> {
+    static Digits50 pi() { return boost::math::constants::pi<Digits50>(); }
+    static Digits50 ln_two() { return boost::math::constants::ln_two<Digits50>(); }
+};
 
 } // namespace overturn

@@ -5,8 +5,6 @@
 
 #include "overturn/number/number.hpp"
 
-#include <boost/math/constants/constants.hpp>
-
 #include <array>
 #include <concepts>
 
@@ -155,7 +153,7 @@ T rough_power_of_two(const T& x)
 template <class S>
 S pi()
 {
-    return boost::math::constants::pi<S>();
+    return number_traits<S>::pi();
 }
 
 } // namespace overturn

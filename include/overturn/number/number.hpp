@@ -7,6 +7,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <numbers>
 
 namespace overturn {
 
@@ -35,6 +36,8 @@ struct scalar_number_traits {
     static T select(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
     static T lesser(const T& a, const T& b) { return a < b ? a : b; }
     static T greater(const T& a, const T& b) { return a > b ? a : b; }
+    static T pi() { return std::numbers::pi_v<T>; }
+    static T ln_two() { return std::numbers::ln2_v<T>; }
     static bool any(bool mask) { return mask; }
     static bool all(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
