@@ -61,7 +61,7 @@ class ABatchJob(Scratch):
             file["checksum"][3] = 0
         result = self.run_until_done("cp", "unfinished.h5", "out.h5")
         self.assertNotEqual(result.returncode, 0)
-        self.assertIn("23 tiles were added: back into the queue", result.stdout)
+        self.assertIn("23 tiles were added: requeueing", result.stdout)
         self.assertEqual((self.folder / "requeued").read_text(), "requeue 7\n")
 
 

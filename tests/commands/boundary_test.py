@@ -113,7 +113,7 @@ class ABoundary(Scratch):
             self.assertIn(b"overturns at the first amplitude looked at",
                           file["region_below"].attrs["comment"])
         picture = self.drawn("strong.h5", "--restitution", "0")
-        self.assertIn(">overturns at the first amplitude looked at<", picture)
+        self.assertIn(">overturns at the first amplitude of the scan<", picture)
         self.assertNotIn("minimum overturning amplitude", picture)
         self.assertEqual(self.shades("strong.h5", "--restitution", "0"), {UNSAFE})
 

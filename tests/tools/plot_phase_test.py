@@ -135,7 +135,7 @@ class TestAPortrait(unittest.TestCase):
     def test_is_refused_for_no_block_and_no_format(self):
         for arguments, sentence in ((("regions", "--slenderness", "1.6"), "outside (0, pi/2)"),
                                     (("regions", "--restitution", "1.2"), "outside (0, 1]"),
-                                    (("pendulum", "--restitution", "1"), "nothing is lost"),
+                                    (("pendulum", "--restitution", "1"), "no loss at impacts"),
                                     (("regions", "-o", "picture.jpg"), ".png, .pdf or .svg"),
                                     (("others",), "invalid choice")):
             run = self.plot(*arguments)

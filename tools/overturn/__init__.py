@@ -1,1 +1,1 @@
-"""What the tools share: how they read and draw result files, spectra, regions and phase space."""
+"""Shared code of the tools: reading and plotting result files, spectra, regions and phase space."""

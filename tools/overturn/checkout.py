@@ -1,4 +1,4 @@
-"""Where the tools are, and the program that some of them run."""
+"""Paths of the checkout and of the overturn program."""
 
 import os
 import pathlib
@@ -9,9 +9,9 @@ CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def find_overturn(told):
-    """The program that an argument or $OVERTURN names, or the one built here."""
+    """Returns the program given by an argument or $OVERTURN, or the one built here."""
     path = pathlib.Path(told or os.environ.get("OVERTURN") or CHECKOUT / "build" / "overturn")
     if not os.access(path, os.X_OK) or path.is_dir():
         raise PlotError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
-                        "name another one with --overturn PATH.", USAGE)
+                        "pass another one with --overturn PATH.", USAGE)
     return path.resolve()

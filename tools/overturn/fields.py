@@ -1,5 +1,5 @@
-"""Fields of a spectrum or a boundary, as every reader gets them. A point whose tile has no mark is
-not computed, whatever value is stored: it reads as the field's fill value."""
+"""Fields of a spectrum or a boundary. A point whose tile has no checksum is not computed, whatever
+value is stored: it is read as the fill value of the field."""
 
 import numpy as np
 
@@ -7,20 +7,20 @@ from overturn.result_file import PlotError, text_attribute
 
 
 def dimensions_of(file):
-    """Their names, slowest first: those of every field."""
+    """Returns the names of the dimensions of every field, slowest first."""
     words = text_attribute(file["checksum"], "dimensions").split()
     rows = "crossing" if "crossing" in file else "amplitude"
     return words or ["slenderness", "restitution", rows, "frequency"]  # of the first format
 
 
 def fields_of(file):
-    """The names of all variables over all dimensions."""
+    """Returns the names of all variables over all dimensions."""
     rank = len(dimensions_of(file))
     return [name for name, data in file.items() if getattr(data, "ndim", 0) == rank]
 
 
 def tile_shape(file):
-    """Rows and columns of a tile, smaller at the far edges."""
+    """Returns the rows and columns of a tile; tiles at the upper edges may be smaller."""
     attributes = file["checksum"].attrs
     if "tile_shape" in attributes:
         return tuple(int(extent) for extent in attributes["tile_shape"][-2:])
@@ -28,20 +28,20 @@ def tile_shape(file):
 
 
 def count_tiles(file):
-    """How many are computed, and how many there are."""
+    """Returns the number of computed tiles and of all tiles."""
     checksums = file["checksum"][:]
     return np.count_nonzero(checksums), len(checksums)
 
 
 def computed(file, field, outer, rows):
-    """Which points of some rows, at one place of the outer dimensions, lie in computed tiles. Tiles
-    are numbered in the order of the dimensions, the last of which counts fastest."""
+    """Returns a mask of the points in computed tiles, for some rows at one index of the outer
+    dimensions. Tiles are numbered in the order of the dimensions, the last varying fastest."""
     *outer_shape, height, width = field.shape
     high, wide = tile_shape(file)
     up, across = -(-height // high), -(-width // wide)
     if len(file["checksum"]) != int(np.prod(outer_shape)) * up * across:
         raise PlotError(f"\"{file.filename}\" is damaged: it has {len(file['checksum'])} "
-                        "checksums, but not as many tiles.")
+                        "checksums, which is not its number of tiles.")
     start, stop, _ = rows.indices(height)
     first, last = start // high, -(-stop // high)
     plane = int(np.ravel_multi_index(outer, outer_shape))
@@ -51,7 +51,7 @@ def computed(file, field, outer, rows):
 
 
 def read_field(file, name, outer, rows=slice(None)):
-    """Some rows of a field, at one place of the outer dimensions."""
+    """Reads some rows of a field, at one index of the outer dimensions."""
     field = file[name]
     values = field[(*outer, rows)]
     values[~computed(file, field, outer, rows)] = fill_value(field)
@@ -60,13 +60,13 @@ def read_field(file, name, outer, rows=slice(None)):
 
 def fill_value(field):
     if not field.id.get_create_plist().fill_value_defined():
-        raise PlotError(f"\"{field.file.filename}\" is damaged: {field.name} does not say which "
-                        "value is not computed.")
+        raise PlotError(f"\"{field.file.filename}\" is damaged: {field.name} does not define the "
+                        "value of points that are not computed.")
     return field.fillvalue
 
 
 def has_values_without_mark(file, name, outer, rows):
-    """Whether anything but the fill value is stored where nothing is computed."""
+    """Whether a point that is not computed has a value other than the fill value."""
     field = file[name]
     without = ~computed(file, field, outer, rows)
     if not without.any():

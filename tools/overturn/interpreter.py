@@ -1,12 +1,13 @@
-"""Which Python runs a tool: the first on the PATH, unless it lacks a module that the system's has.
+"""Choice of the Python that runs a tool: the first on the PATH, or the system's if the first lacks
+a module that the system's has.
 
-Nothing but the standard library is imported here, so that this works in any Python 3."""
+Only the standard library is imported here, so that this module works in any Python 3."""
 
 import os
 import subprocess
 import sys
 
-SYSTEM = "/usr/bin/python3"  # for which distributions package h5py, NumPy and Matplotlib
+SYSTEM = "/usr/bin/python3"  # distributions package h5py, NumPy and Matplotlib for it
 
 
 def system_has(module):
@@ -20,8 +21,8 @@ def system_has(module):
 
 def run_elsewhere(error, packages="plot"):
     """Replaces this process, in which an import has failed, by the same tool in the system's
-    Python; if that would fail as well, ends with a message. `packages` are what
-    install_dependencies is to install."""
+    Python; exits with a message if that would fail, too. `packages` are the arguments of
+    install_dependencies that install the module."""
     tool = os.path.basename(os.path.realpath(sys.argv[0]))
     module = (error.name or "").split(".")[0]
     if module and sys.executable != SYSTEM and system_has(module):

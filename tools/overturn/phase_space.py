@@ -1,19 +1,19 @@
-"""The phase space of free rocking in closed form (Eqs. 5, 11-20): angle, and velocity over p.
+"""Phase space of free rocking in closed form (Eqs. 5, 11-20): angle, and velocity over p.
 
-Lengths of time are in 1/p, so a velocity is d theta / d(p t) [rad], and q is over p^2.
+Times are in 1/p, so that a velocity is d theta / d(p t) [rad]; q is over p^2.
 """
 
 import numpy as np
 from matplotlib import patheffects
 from overturn.regions import CODES, REGIONS
 
-HALF_TURN = np.pi / 2  # a block that tilts so far lies
-BOUNDARY = {"color": "black", "linewidth": 0.9,  # seen on dark ground as well
+HALF_TURN = np.pi / 2  # tilt of an overturned block
+BOUNDARY = {"color": "black", "linewidth": 0.9,  # visible on dark colours, too
             "path_effects": [patheffects.withStroke(linewidth=2.2, foreground="white")]}
 
 
 class FreeBlock:
-    """A block of given slenderness [rad] and restitution, in the nonlinear theory or the linear."""
+    """A block of given slenderness [rad] and restitution, in nonlinear or linear theory."""
 
     def __init__(self, slenderness, restitution, linear=False):
         self.slenderness, self.restitution, self.linear = slenderness, restitution, linear
@@ -21,8 +21,8 @@ class FreeBlock:
         self.q_min = self.largest_rate**2 * (1 - 1 / restitution)  # Eq. 18
 
     def separatrix_rate(self, angle):
-        """c = 2 sin((alpha - |theta|)/2), in linear theory alpha - |theta|; negative beyond the
-        top (Eq. 15)."""
+        """c = 2 sin((alpha - |theta|)/2), in linear theory alpha - |theta|; negative for
+        |theta| > alpha (Eq. 15)."""
         below_top = self.slenderness - np.abs(angle)
         return below_top if self.linear else 2 * np.sin(below_top / 2)
 
@@ -31,11 +31,11 @@ class FreeBlock:
         return np.sqrt(np.maximum(self.separatrix_rate(angle)**2 - q, 0))
 
     def inward_rate(self, angle):
-        """The largest speed towards upright that one impact still tames: q0 = q_min."""
+        """The largest inward speed at which the block stays safe after one impact: q0 = q_min."""
         return self.rate(angle, self.q_min)
 
     def outermost_angle(self, q):
-        """Where the orbit of 0 <= q <= q_max turns back: c^2 = q."""
+        """The largest angle on the orbit of 0 <= q <= q_max: c^2 = q."""
         rate = np.sqrt(q)
         return self.slenderness - (rate if self.linear else 2 * np.arcsin(rate / 2))
 
@@ -46,9 +46,8 @@ def largest_restitution(slenderness):
 
 
 def bands(block, angle):
-    """What lies where for 0 <= theta, upwards: region, its lowest and its highest velocity. None
-    stands for no bound. Turned by half a turn, and the sign of the region with it, the same holds
-    for theta <= 0."""
+    """Regions for theta >= 0 in ascending velocity: region, lowest and highest velocity; None means
+    unbounded. For theta <= 0 the same holds with the signs of velocity and region reversed."""
     c = block.separatrix_rate(angle)
     return (("U1-", None, -block.inward_rate(angle)),
             ("S-", -block.inward_rate(angle), -np.abs(c)),
@@ -57,7 +56,7 @@ def bands(block, angle):
 
 
 def fill_regions(panel, block, highest):
-    """All seven regions in their colours, up to the velocity given."""
+    """Fills all seven regions with their colours, up to the given velocity."""
     angle = np.linspace(0, HALF_TURN, 1001)
     for name, low, high in bands(block, angle):
         low = np.full_like(angle, -highest) if low is None else low
@@ -69,18 +68,17 @@ def fill_regions(panel, block, highest):
 
 
 def fill_libration(panel, block, colour):
-    """The set of all states that stay safe (Eq. 20), blades and rhomboid."""
+    """Fills the set of all safe states (Eq. 20), blades and rhomboid."""
     half = np.linspace(0, HALF_TURN, 1001)
-    angle = np.concatenate([-half[::-1], half])  # twice upright, where the edges jump
+    angle = np.concatenate([-half[::-1], half])  # 0 is repeated: the edges are discontinuous there
     side = np.repeat([-1, 1], len(half))
     edges = -side * block.inward_rate(angle), side * block.separatrix_rate(angle)
     panel.fill_between(angle, *edges, color=colour, linewidth=0)
 
 
 def draw_boundaries(panel, block, **style):
-    """The lines between the seven regions: the separatrix beyond the top too, the outer edge of
-    the blades, and theta = 0 outside, where an impact tells U0 from U1."""
-    style = BOUNDARY | style
+    """Draws the lines between the seven regions: the separatrix (for |theta| > alpha, too), the
+    outer edge of the blades, and theta = 0 outside of them, which separates U0 from U1."""
     angle = np.linspace(0, HALF_TURN, 1001)
     c, inward = block.separatrix_rate(angle), block.inward_rate(angle)
     for sign in (1, -1):

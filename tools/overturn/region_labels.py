@@ -1,4 +1,4 @@
-"""Labels in a map of regions: each stands where its connected piece of a region is widest."""
+"""Labels in a map of regions, each placed where its connected piece of a region is widest."""
 
 import argparse
 import re
@@ -7,17 +7,17 @@ import numpy as np
 from overturn.regions import CODES
 
 PATTERN = re.compile(r"(?P<text>[^=]+)=(?P<region>[^@]+)@(?P<frequency>[^,]+),(?P<amplitude>.+)")
-MOST_CELLS = 400  # to a side: pieces are followed cell by cell
+MOST_CELLS = 400  # per side: connected pieces are found cell by cell
 
 
 class Label:
-    """A text for the piece of a region that lies nearest to a point of the plane."""
+    """A text for the piece of a region nearest to a point of the plane."""
 
     def __init__(self, words):
         match = PATTERN.fullmatch(words)
         if not match or match["region"] not in CODES:
             raise argparse.ArgumentTypeError(
-                f"\"{words}\" should be like III=S+@5,10, with one of {', '.join(CODES)}")
+                f"\"{words}\" is not of the form III=S+@5,10 with one of {', '.join(CODES)}")
         self.text, self.code = match["text"], CODES[match["region"]]
         try:
             self.frequency, self.amplitude = float(match["frequency"]), float(match["amplitude"])
@@ -25,7 +25,7 @@ class Label:
             raise argparse.ArgumentTypeError(f"\"{words}\": {error}") from error
 
     def piece(self, codes, across, up):
-        """The cells that it stands for, or none if the region is not there."""
+        """Returns the labelled cells; none if the region does not occur."""
         found = np.argwhere(codes == self.code)
         if not len(found):
             return np.zeros(codes.shape, bool)
@@ -38,16 +38,16 @@ def add_label_argument(parser):
     parser.add_argument("--label", type=Label, action="append", default=[],
                         metavar="TEXT=REGION@FREQUENCY,AMPLITUDE",
                         help="write TEXT into the connected piece of REGION (S+, U0-, ...) that is "
-                             "nearest to the point; may be given again")
+                             "nearest to the point; repeatable")
 
 
 def thinned(cells):
-    """Evenly spread rows or columns, few enough to follow pieces in."""
+    """Evenly spaced rows or columns, few enough for a search cell by cell."""
     return cells[::-(-len(cells) // MOST_CELLS)]
 
 
 def widened(mask):
-    """With all neighbours, diagonal ones too."""
+    """Returns the mask extended by all neighbours, including diagonal ones."""
     wide = mask.copy()
     wide[1:] |= mask[:-1]
     wide[:-1] |= mask[1:]
@@ -58,7 +58,7 @@ def widened(mask):
 
 
 def connected(mask, start):
-    """The part of the mask that hangs together with a cell of it."""
+    """Returns the part of the mask that is connected to a given cell."""
     piece = np.zeros(mask.shape, bool)
     piece[tuple(start)] = True
     while True:
@@ -69,7 +69,7 @@ def connected(mask, start):
 
 
 def pieces(mask, least):
-    """The connected parts of at least so many cells."""
+    """Yields the connected parts of at least `least` cells."""
     rest = mask.copy()
     while np.count_nonzero(rest) >= least:
         piece = connected(rest, np.argwhere(rest)[0])
@@ -79,7 +79,7 @@ def pieces(mask, least):
 
 
 def roomiest_cell(mask):
-    """The row and column farthest from what is not in the mask; of several, one in the middle."""
+    """Returns the cell farthest from the complement of the mask; among several, a central one."""
     core = mask
     while core.any():
         last = core
@@ -89,7 +89,7 @@ def roomiest_cell(mask):
 
 
 def off_the_edge(mask):
-    """Without a rim as high as a label, if that leaves anything."""
+    """Removes a rim of the height of a label, unless nothing would be left."""
     rim = -(-max(mask.shape) // 40)
     inner = np.zeros(mask.shape, bool)
     inner[rim:-rim, rim:-rim] = mask[rim:-rim, rim:-rim]
@@ -97,8 +97,8 @@ def off_the_edge(mask):
 
 
 def write_label(panel, mask, text, size):
-    """At the roomiest place of a mask that covers the panel; with serifs, without them an I is a
-    stroke. The plate behind it is seen through; a halo would turn text into outlines."""
+    """Writes the label at the roomiest cell of a mask that covers the panel, in a serif font
+    because a sans-serif I is a mere stroke. The box is translucent; a halo would obscure text."""
     row, column = roomiest_cell(off_the_edge(mask))
     panel.text((column + 0.5) / mask.shape[1], (row + 0.5) / mask.shape[0], text, fontsize=size,
                transform=panel.transAxes, ha="center", va="center", family="serif", zorder=5,

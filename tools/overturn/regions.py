@@ -1,12 +1,12 @@
-"""The regions of a spectrum as the drawing tools show them: names, meanings, colours."""
+"""Regions of a spectrum in plots: names, meanings, colours."""
 
 import matplotlib
 import numpy as np
 from matplotlib.patches import Patch
 
 # The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) over S (75), U1 (65,
-# 58) and F (49, 40) to S+- (31, 21), so that the map can be read in grey print and by the
-# colour-blind. The minus of a pair is the darker one.
+# 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
+# readers. The minus of a pair is the darker one.
 REGIONS = {
     0: ("S", "safe, no impact needed", "#8bc77f"),
     1: ("S+", "safe after one impact", "#0b5530"),
@@ -21,11 +21,11 @@ REGIONS = {
 }
 NOT_COMPUTED = 255
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
-LEFT_STANDING = 6  # the largest code of a block that the pulse leaves standing
+LEFT_STANDING = 6  # the largest code of a block that is not overturned during the pulse
 
 
 def coloured(codes):
-    """Codes as RGBA; what is not computed is transparent, and shows the hatch below."""
+    """Returns codes as RGBA; points not computed are transparent and show the hatch below."""
     table = np.zeros((256, 4), np.uint8)
     for code, (_, _, colour) in REGIONS.items():
         table[code] = [round(255 * part) for part in matplotlib.colors.to_rgba(colour)]
@@ -33,7 +33,7 @@ def coloured(codes):
 
 
 def legend_entries(codes):
-    """One entry per region that is in the picture, one per kind of point that has no region."""
+    """One entry per region in the picture, and one per kind of point without a region."""
     entries = []
     for code, (name, meaning, colour) in REGIONS.items():
         if code in codes:

@@ -1,4 +1,4 @@
-"""Result files as the drawing tools read them, and what they say if one cannot be drawn."""
+"""Reading of result files by the tools, and their error messages."""
 
 import json
 import pathlib
@@ -6,15 +6,15 @@ import sys
 
 import h5py
 
-USAGE, FILE = 2, 74  # exit codes, as those of overturn
+USAGE, FILE = 2, 74  # exit codes, equal to those of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 NEWEST_FORMAT = 2
 PICTURES = (".png", ".pdf", ".svg")
-PANELS = "overturn:panels"  # the text in a PNG that tells where its panels lie
+PANELS = "overturn:panels"  # the PNG text chunk with the positions of the panels
 
 
 class PlotError(Exception):
-    """What the user gets to read, and the exit code."""
+    """An error with a message for the user and an exit code."""
 
     def __init__(self, message, code=FILE):
         super().__init__(message)
@@ -27,14 +27,14 @@ def text_attribute(holder, name):
 
 
 def shortened(text, width):
-    """In a line of at most so many letters. A setting is often one long word."""
+    """Returns the text in one line of at most `width` characters; may cut within a word."""
     line = " ".join(text.split())
     return line if len(line) <= width else line[:width - 1].rstrip() + "…"
 
 
 def title_of(file, shown=()):
-    """The job's title and its overrides, which may contradict it; but not those of the title itself
-    nor of the tables whose values the picture shows elsewhere."""
+    """Returns the job's title and its overrides, which may contradict it, except overrides of the
+    title and of the tables in `shown`, whose values the picture shows elsewhere."""
     title = text_attribute(file, "title")
     if title and "job_overrides" in file:
         overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
@@ -45,12 +45,12 @@ def title_of(file, shown=()):
 
 
 def plain(title, width=90):
-    """A title that fits, and whose dollars start no mathematics."""
+    """Returns a title that fits, with dollar signs escaped for Matplotlib."""
     return shortened(title, width).replace("$", r"\$")
 
 
 def open_result(path, kind, wanted):
-    """The file, if it is of this kind; `wanted` tells what it should have been."""
+    """Opens a result file of the given kind; `wanted` describes the kind in error messages."""
     try:
         with open(path, "rb") as file:
             signature = file.read(len(HDF5_SIGNATURE))
@@ -63,8 +63,8 @@ def open_result(path, kind, wanted):
         raise PlotError(f"\"{path}\" is not {wanted}.")
     version = file.attrs.get("format_version", 1)
     if version > NEWEST_FORMAT:
-        raise PlotError(f"\"{path}\" has the format version {version}, and this tool reads those up "
-                        f"to {NEWEST_FORMAT}. Use the tools of a newer overturn.")
+        raise PlotError(f"\"{path}\" has format version {version}; this tool reads versions up to "
+                        f"{NEWEST_FORMAT}. Use the tools of a newer overturn.")
     return file
 
 
@@ -74,16 +74,16 @@ def add_picture_argument(parser, default="FILE.png"):
 
 
 def name_picture(parser, arguments, default=None):
-    """Where to draw, if the user did not say."""
+    """Sets the default name of the picture and checks its suffix."""
     if arguments.output is None:
         arguments.output = default or pathlib.Path(arguments.file).stem + ".png"
     if pathlib.Path(arguments.output).suffix not in PICTURES:
-        parser.error(f"\"{arguments.output}\" should end in .png, .pdf or .svg")
+        parser.error(f"\"{arguments.output}\" must end in .png, .pdf or .svg")
 
 
 def place_of(panel, shows):
-    """Where a panel lies, as shares of its picture from the top left, and the values at its edges:
-    so that others can tell what a pixel shows, or mark a value."""
+    """Returns the position of a panel, as fractions of the picture from the top left, and the
+    limits of its axes, from which others can compute the value at a pixel or vice versa."""
     box = panel.get_position()
     return {"shows": shows, "left": box.x0, "right": box.x1, "top": 1 - box.y1,
             "bottom": 1 - box.y0,
@@ -92,7 +92,7 @@ def place_of(panel, shows):
 
 
 def save(figure, path, places=(), **how):
-    """A PNG also tells the places of its panels."""
+    """Saves a figure; a PNG includes the positions of its panels."""
     if places and pathlib.Path(path).suffix == ".png":
         how["metadata"] = {PANELS: json.dumps(places)}
     try:

@@ -1,4 +1,4 @@
-"""Overturning spectra as the drawing tools read them: the planes of a file, cell by cell."""
+"""Reading of overturning spectra by the tools: the planes of a file, cell by cell."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
 
 
 def open_spectrum(path, fields=("region",)):
-    """The file, if it is a spectrum that has these fields."""
+    """Opens a spectrum that has the given fields."""
     file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
     for field in fields:
         if field not in file:
@@ -21,30 +21,30 @@ def open_spectrum(path, fields=("region",)):
 def add_choice_arguments(parser):
     for name in ("slenderness", "restitution"):
         parser.add_argument(f"--{name}", type=int, metavar="I",
-                            help=f"draw only the {name} number I, counted from 0")
+                            help=f"use only the {name} with index I, counted from 0")
 
 
 def chosen(file, name, index):
-    """The indices to draw along one axis: the one asked for, or all."""
+    """Returns the indices to use along one axis: the requested one, or all."""
     count = len(file[name])
     if index is None:
         return list(range(count))
     if not 0 <= index < count:
         first, last = file[name][0], file[name][-1]
-        raise PlotError(f"--{name} {index} is out of range; this file allows 0 to {count - 1} "
+        raise PlotError(f"--{name} {index} is out of range; this file has 0 to {count - 1} "
                         f"({name} {first:g} to {last:g}).", USAGE)
     return [index]
 
 
 def refuse_more_than(most, slendernesses, restitutions):
-    """At most so many spectra fit; the message tells how to choose."""
+    """Raises an error if there are more than `most` spectra."""
     count = len(slendernesses) * len(restitutions)
     if count <= most:
         return
     choices = [f"--{name} (0 to {indices[-1]})" for name, indices in
                (("slenderness", slendernesses), ("restitution", restitutions)) if len(indices) > 1]
-    raise PlotError(f"there are {count} spectra to draw, and {most} fit{'s' * (most == 1)} on a "
-                    f"sheet; choose with {' or '.join(choices)}.", USAGE)
+    raise PlotError(f"there are {count} spectra, but the output is limited to {most}; choose with "
+                    f"{' or '.join(choices)}.", USAGE)
 
 
 def are_geometric(values):
@@ -56,9 +56,9 @@ def are_geometric(values):
 
 
 class Axis:
-    """Where the cells of one axis lie: each reaches to the midpoints between it and its neighbours.
+    """The cells of one axis; each extends to the midpoints between its value and its neighbours.
 
-    Midpoints are taken in what the axis shows, which is the logarithm if the values are geometric.
+    Midpoints are computed on the scale of the axis, which is logarithmic for geometric values.
     """
 
     def __init__(self, values):
@@ -79,29 +79,29 @@ class Axis:
         return np.exp(ends) if self.scale == "log" else ends
 
     def share(self, values):
-        """How far along the axis values lie, from 0 to 1."""
+        """Returns the positions of values along the axis, from 0 to 1."""
         return (self.shown(values) - self.edges[0]) / (self.edges[-1] - self.edges[0])
 
     def cells(self, pixels):
-        """The cell under the middle of each pixel."""
+        """Returns the cell under the centre of each pixel."""
         width = (self.edges[-1] - self.edges[0]) / pixels
         middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
         return np.searchsorted(self.edges[1:-1], middles)
 
 
 def axes_of_plane(file):
-    """Across and up."""
+    """Returns the horizontal and the vertical axis."""
     return Axis(file["frequency"][:]), Axis(file["amplitude"][:])
 
 
 def rows_of_tiles(field):
-    """Slices of rows that are read at one go: a plane may not fit in memory."""
+    """Returns slices of rows to be read one at a time, because a plane may not fit in memory."""
     height = field.chunks[-2] if field.chunks else 64
     return [slice(first, first + height) for first in range(0, field.shape[-2], height)]
 
 
 def read_cells(file, name, pair, rows, columns):
-    """What the field holds in given rows and columns."""
+    """Reads a field at given rows and columns."""
     values = np.empty((len(rows), len(columns)), file[name].dtype)
     for tiles in rows_of_tiles(file[name]):
         wanted = (rows >= tiles.start) & (rows < tiles.stop)
@@ -112,7 +112,7 @@ def read_cells(file, name, pair, rows, columns):
 
 
 def name_axes(file):
-    """Labels of frequency and amplitude."""
+    """Returns the labels of frequency and amplitude."""
     tangent = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
     return r"pulse frequency  $\omega_p\,/\,p$", rf"pulse amplitude  $a_p\,/\,(g\,{tangent})$"
 
@@ -131,7 +131,7 @@ def block_text(file, slenderness, restitution):
 
 
 def subtitle(file, pairs):
-    """Pulse and theory, the block if there is only one, and whether the file is unfinished."""
+    """Returns pulse, theory, the block if there is only one, and a note on missing tiles."""
     pulse = text_attribute(file, "pulse")
     words = [PULSES.get(pulse, pulse.replace("_", "-") + " pulse")]
     if "window" in file.attrs:

@@ -1,18 +1,18 @@
-"""Ticks of logarithmic axes. Matplotlib's own name powers of ten alone: one, from 1.13 to 11.3."""
+"""Ticks of logarithmic axes. Matplotlib labels powers of ten only: just one from 1.13 to 11.3."""
 
 import numpy as np
 from matplotlib.ticker import FixedLocator, MaxNLocator, NullFormatter
 
 FEWEST, MOST = 4, 9  # ticks of an axis
-DIGITS = ((1,), (1, 2, 5), (1, 1.5, 2, 3, 5, 7))  # that they begin with, the wider the fewer
+DIGITS = ((1,), (1, 2, 5), (1, 1.5, 2, 3, 5, 7))  # leading digits of ticks; fewer for wider ranges
 
 
 def log_ticks(low, high):
-    """Round numbers between two positive ones, about evenly spread in the logarithm."""
+    """Returns round numbers between two positive limits, nearly evenly spaced in the logarithm."""
     decades = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     for digits in DIGITS:
         ticks = np.array([digit * 10.0**decade for decade in decades for digit in digits])
-        # Limits are rounded, too: a tick at one of them counts.
+        # Limits are rounded: include a tick at a limit.
         ticks = ticks[(ticks >= low * (1 - 1e-9)) & (ticks <= high * (1 + 1e-9))]
         if len(ticks) >= FEWEST:
             return ticks[::-(-len(ticks) // MOST)]
@@ -21,7 +21,7 @@ def log_ticks(low, high):
 
 
 def name_ticks(axis):
-    """Numbers along an axis whose scale and limits are set."""
+    """Labels the ticks of an axis whose scale and limits are set."""
     axis.set_major_formatter("{x:g}")
     if axis.get_scale() == "log":
         axis.set_major_locator(FixedLocator(log_ticks(*sorted(axis.get_view_interval()))))

@@ -1,8 +1,8 @@
-"""The gallery as one HTML file: every picture with its words and its commands, and the computed
+"""The gallery as one HTML file: every picture with its text and its commands, and the computed
 values under the pointer.
 
-Nothing is loaded from elsewhere: pictures and values are in the file. What it is made of is in the
-folder page: the words in figures.toml, and the frame, the looks and the behaviour."""
+Nothing is loaded from elsewhere: pictures and values are embedded in the file. The folder page
+contains its parts: texts in figures.toml, templates, style and script."""
 
 import base64
 import dataclasses
@@ -25,15 +25,15 @@ READOUT = '<p class="readout" aria-live="polite"></p>'
 
 @dataclasses.dataclass
 class Drawn:
-    """One figure: where it is, and what a reader types to make it."""
+    """One figure: its file and the commands that create it."""
 
     name: str
     commands: list
-    spectrum: str  # whose points it shows; empty if it shows none
+    spectrum: str  # whose points it shows; empty if none
 
 
 class Page:
-    """Collects what is drawn, and puts it in the order of the paper."""
+    """Collects figures and arranges them in the order of the paper."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -44,7 +44,7 @@ class Page:
         self.spectra[job] = PackedSpectrum(path)
 
     def add_figure(self, number, name, commands, result):
-        """What it is drawn from may be the file of a spectrum."""
+        """Adds a figure plotted from `result`, which may be the file of a spectrum."""
         job = pathlib.Path(result).stem
         self.figures[number] = Drawn(name, commands, job if job in self.spectra else "")
 
@@ -109,12 +109,12 @@ def contents(words):
 
 
 def here(words):
-    """What is otherwise than in the paper."""
+    """Returns the paragraph on differences from the paper."""
     return f'<p class="here"><b>Here:</b> {words["here"]}</p>' if "here" in words else ""
 
 
 def live(spectrum, places):
-    """What makes a picture answer to the pointer."""
+    """Returns the attributes that make a picture interactive."""
     if not spectrum:
         return ""
     return (f' tabindex="0" role="application" aria-label="Points of the spectrum: arrow keys move '
@@ -122,21 +122,21 @@ def live(spectrum, places):
 
 
 def legend():
-    """The regions in words, for those who look at any figure first."""
+    """Returns the legend of all regions, shown above the figures."""
     return "".join(
         f'<li><i class="swatch" style="background:{colour}"></i><b>{name}</b> {meaning}</li>'
         for name, meaning, colour in REGIONS.values() if name)
 
 
 def constants():
-    """What the page has to know to read packed spectra."""
+    """Returns the constants that the page needs to read packed spectra."""
     return {"fields": FIELDS, "unknown": UNKNOWN, "leastExponent": LEAST_EXPONENT, "steps": STEPS,
             "leftStanding": LEFT_STANDING,
             "regions": REGIONS | {NOT_COMPUTED: ("", "not computed yet", "#ffffff")}}
 
 
 def typed(command):
-    """As a reader types it, in lines that are not too long. All commands end with -o OUTPUT."""
+    """Returns a command wrapped at LINE characters. All commands end with -o OUTPUT."""
     *words, option, output = map(shlex.quote, command)
     lines = [""]
     for word in (*words, f"{option} {output}"):

@@ -1,9 +1,9 @@
-"""A spectrum as a web page carries it: every computed point, in three significant digits.
+"""A spectrum as embedded in a web page: every computed point, in three significant digits.
 
-The bytes, deflated, then in base64: frequencies and amplitudes as doubles; then of each of FIELDS
-the low bytes of its numbers, then the high bytes; then the region codes. A number has 16 bits: its
-decimal code less that of the number to its left, or the code itself in the first column. Neighbours
-differ little: of a point's seven bytes, half of one is left."""
+The bytes are deflated and encoded in base64: frequencies and amplitudes as doubles; then for each
+of FIELDS the low bytes of its numbers, then the high bytes; then the region codes. A number has 16
+bits: its decimal code minus that of its left neighbour, or the code itself in the first column.
+Neighbours differ little: deflating leaves half a byte of the seven bytes of a point."""
 
 import base64
 import zlib
@@ -15,15 +15,15 @@ from overturn.spectrum_file import open_spectrum
 
 FIELDS = ("angle", "velocity", "margin")
 UNKNOWN = -32768
-LEAST_EXPONENT = -30  # what is smaller is 0
-LIMIT = 9.99e5  # what is larger has no code
-STEPS = 900  # to a power of ten: 100 to 999
+LEAST_EXPONENT = -30  # smaller values are 0
+LIMIT = 9.99e5  # larger values have no code
+STEPS = 900  # per power of ten: 100 to 999
 
 
 def decimal_codes(values):
-    """Three decimal digits and an exponent as one number, which grows as the value does. 1.00 to
-    9.99 times 10 to the LEAST_EXPONENT are 1 to 900, and so on up to 10^6; the sign is that of the
-    value."""
+    """Encodes three decimal digits and an exponent as one number that increases with the value.
+    1.00 to 9.99 times 10^LEAST_EXPONENT are 1 to 900, and so on up to 10^6; the sign is that of
+    the value."""
     size = np.abs(values)
     size = np.where(np.isfinite(size) & (size >= 10.0**LEAST_EXPONENT), size, 1)
     exponent = np.floor(np.log10(size))
@@ -36,13 +36,13 @@ def decimal_codes(values):
 
 
 def planes(codes):
-    """Differences from left to right, wrapped around; low bytes, high bytes."""
+    """Returns differences along rows, modulo 2^16: low bytes, then high bytes."""
     steps = np.diff(codes, axis=1, prepend=np.int16(0)).astype("<i2")
     return steps.view(np.uint8).reshape(-1, 2).T.tobytes()
 
 
 class PackedSpectrum:
-    """The only spectrum of a file."""
+    """The packed spectrum of a file that contains only one."""
 
     def __init__(self, path):
         with open_spectrum(path, ("region", *FIELDS)) as file:

@@ -1,6 +1,6 @@
 "use strict";
-// Shows the computed point under the pointer, in words and as a ring in every picture that has it.
-// How the bytes of a spectrum are laid out is told in tools/paper/packed_spectrum.py.
+// Shows the computed point under the pointer, as text and as a ring in every picture of it.
+// tools/paper/packed_spectrum.py describes the format of the data of a spectrum.
 
 const constants = JSON.parse(document.getElementById("constants").textContent);
 const hint = "Move over the spectrum, tap it, or use the arrow keys.";
@@ -22,7 +22,7 @@ async function inflated(text) {
 }
 
 function codesOf(low, high, columns) {
-  const codes = new Int16Array(low.length);  // wraps around, as it should
+  const codes = new Int16Array(low.length);  // wraps around, as intended
   for (let i = 0; i < codes.length; ++i) {
     codes[i] = (i % columns ? codes[i - 1] : 0) + (high[i] << 8 | low[i]);
   }
@@ -56,7 +56,7 @@ class Spectrum {
 
 const spectra = new Map();
 
-// Unpacked when it is first looked at.
+// Unpacked on first use.
 function spectrumOf(picture) {
   const name = picture.dataset.spectrum;
   if (!spectra.has(name)) {
@@ -67,7 +67,7 @@ function spectrumOf(picture) {
   return spectra.get(name);
 }
 
-// How far along an axis a value lies, from 0 to 1.
+// The position of a value along an axis, from 0 to 1.
 function share(axis, value) {
   const shown = axis.scale === "log" ? Math.log : Number;
   const [first, last] = axis.limits.map(shown);
@@ -83,7 +83,7 @@ function nearest(values, axis, wanted) {
   return best;
 }
 
-// The computed point next to a place on the screen, or null if that is outside of the axes.
+// The computed point nearest to a position on the screen, or null outside of the axes.
 function pointAt(picture, spectrum, event) {
   const box = picture.getBoundingClientRect();
   const x = (event.clientX - box.left) / box.width;
@@ -107,7 +107,7 @@ function element(kind, name, ...content) {
   return made;
 }
 
-// The blank at the end parts it from the next one where it is read aloud.
+// The space at the end separates it from the next number in screen readers.
 function number(name, text) {
   return element("span", "number", element("i", "", name), ` = ${text} `);
 }
@@ -137,7 +137,7 @@ function tell(readout, point) {
     number("margin", rounded(point.margin, 3)), ...endOf(point));
 }
 
-// Where a point lies along the axes of a panel; a block that fell during the pulse lands nowhere.
+// The position of a point in a panel; NaN in phase space if the block overturned during the pulse.
 function sharesIn(place, point) {
   if (place.shows === "plane") {
     return [share(place.across, point.frequency), share(place.up, point.amplitude)];
@@ -159,7 +159,7 @@ function mark(picture, point) {
 }
 
 const pictures = [...document.querySelectorAll(".picture[data-spectrum]")];
-const kept = new Map();  // by spectrum: what was clicked, or walked to
+const kept = new Map();  // by spectrum: the point selected by click or keys
 const shown = new Map();
 
 function show(picture, point) {
@@ -192,13 +192,13 @@ for (const picture of pictures) {
   picture.places = JSON.parse(picture.dataset.places);
   const name = picture.dataset.spectrum;
   let latest = null;
-  // Answers in order, though the first one has to wait for the spectrum.
+  // Handles events in order, although the first one waits for the spectrum.
   const answer = (event, action) => {
     latest = event;
     spectrumOf(picture).then((spectrum) => {
       if (latest === event) action(spectrum);
     }).catch((error) => {
-      readoutOf(picture).textContent = `The values cannot be read: ${error}`;
+      readoutOf(picture).textContent = `Cannot read the values: ${error}`;
     });
   };
   tell(readoutOf(picture), null);
@@ -211,7 +211,7 @@ for (const picture of pictures) {
   picture.addEventListener("keydown", (event) => {
     if (event.key === "Escape") answer(event, () => keep(picture, null));
     if (!(event.key in arrows)) return;
-    event.preventDefault();  // no scrolling
+    event.preventDefault();  // prevent scrolling
     spectrumOf(picture).then((spectrum) => keep(picture,
       walk(spectrum, shown.get(name), arrows[event.key], event.shiftKey ? 10 : 1)));
   });
