@@ -1,4 +1,4 @@
-"""overturn accuracy and its picture, and jobs that ask for errors or resolved verdicts."""
+"""overturn accuracy, its picture, and jobs with errors or resolved verdicts."""
 
 import pathlib
 import re
@@ -35,12 +35,12 @@ class AnAccuracyStudy(Scratch):
             self.assertEqual(file.attrs["points_in_50_digits"], 16)
             self.assertTrue((file["seconds_per_point"][:] > 0).all())
 
-    def test_is_told_by_info(self):
+    def test_is_described_by_info(self):
         self.study()
         self.assert_exit(self.overturn("info", "study.h5"), 0, "A small plane",
                          "holds a study of accuracy", "pulse = \"one_sine\"")
 
-    def test_no_resolved_verdict_is_wrong_and_the_loosest_are(self):
+    def test_has_no_wrong_resolved_verdicts_but_wrong_ones_at_the_loosest_tolerance(self):
         self.study()
         with h5py.File(self.folder / "study.h5") as file:
             resolved = file["resolve"][:] == 1
@@ -64,12 +64,12 @@ class AnAccuracyStudy(Scratch):
         self.assert_exit(result, 74, "is no accuracy study")
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 
-    def test_a_missing_folder_is_told_before_anything_is_computed(self):
+    def test_reports_a_missing_folder_before_computing(self):
         result = self.overturn("accuracy", "small.toml", "-o", "nowhere/study.h5", *FEW)
         self.assert_exit(result, 74, "there is no folder \"nowhere\"")
         self.assertEqual(result.stdout, "")
 
-    def test_is_drawn_with_every_method_named(self):
+    def test_is_plotted_with_the_names_of_all_methods(self):
         self.study()
         result = self.plot("study.h5", "-o", "study.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -78,13 +78,13 @@ class AnAccuracyStudy(Scratch):
                       "share of wrong verdicts", "A small plane"):
             self.assertIn(f">{words}<", picture)
 
-    def test_a_spectrum_is_not_drawn_as_one(self):
+    def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         result = self.plot("spectrum.h5")
         self.assertEqual(result.returncode, 74)
         self.assertIn("is not a study written by overturn accuracy", result.stderr)
 
-    def test_without_a_known_point_is_not_drawn(self):
+    def test_plot_refuses_a_study_without_known_points(self):
         self.study()
         for known in ("points_settled", "points_in_50_digits"):
             shutil.copy(self.folder / "study.h5", self.folder / "nothing_known.h5")
@@ -92,7 +92,7 @@ class AnAccuracyStudy(Scratch):
                 file.attrs[known] = 0
             result = self.plot("nothing_known.h5", "-o", "nothing_known.png")
             self.assertEqual(result.returncode, 74)
-            self.assertIn("nothing to compare with", result.stderr)
+            self.assertIn("no reference to compare with", result.stderr)
             self.assertFalse((self.folder / "nothing_known.png").exists())
 
 
@@ -108,16 +108,16 @@ class ResolvedJobs(Scratch):
             self.assertTrue((resolved["region"][:] <= 8).all())
             np.testing.assert_array_equal(resolved["region"][:] <= 2, tight["region"][:] <= 2)
 
-    def test_are_the_same_file_on_every_number_of_ranks(self):
+    def test_give_equal_bytes_on_any_number_of_ranks(self):
         self.overturn("run", "small.toml", "-o", "one.h5", *self.RESOLVE)
         self.overturn("run", "small.toml", "-o", "two.h5", *self.RESOLVE, ranks=2)
         self.assertEqual(checksum(self.folder / "one.h5"), checksum(self.folder / "two.h5"))
 
-    def test_start_from_a_tolerance_of_their_own(self):
+    def test_have_their_own_default_tolerance(self):
         self.assert_exit(self.overturn("check", "small.toml", *self.RESOLVE), 0,
                          "taylor, tolerance 0.0001, verdicts resolved")
 
-    def test_and_errors_are_refused_where_steps_do_not_see_their_errors(self):
+    def test_and_jobs_with_errors_are_refused_at_loose_tolerances(self):
         self.assert_refused(65, ["numerics.tolerance = 0.001 is too loose for resolve", "taylor"],
                             "run", "small.toml", "--set", "numerics.resolve=true", "--set",
                             "numerics.tolerance=1e-3")
@@ -125,7 +125,7 @@ class ResolvedJobs(Scratch):
                             "--set", "output.fields=[\"error\"]", "--set",
                             "numerics.tolerance=1e-3")
 
-    def test_want_true_or_false(self):
+    def test_require_true_or_false(self):
         self.assert_refused(65, ["numerics.resolve", "true or false"], "run", "small.toml", "--set",
                             "numerics.resolve=1")
 
@@ -135,7 +135,7 @@ class ResolvedJobs(Scratch):
         with h5py.File(self.folder / "small.h5") as file:
             self.assertEqual(file["steps"].dtype, np.uint32)
             error, margin = file["error"][:], file["margin"][:]
-            # At 1e-6 hardly any verdict is in doubt; a block at rest has no error but round-off.
+            # At 1e-6 nearly all verdicts are certain; a block at rest has only round-off errors.
             self.assertLess((error > abs(margin)).mean(), 1e-3)
             self.assertGreater((error > 0).mean(), 0.9)
 

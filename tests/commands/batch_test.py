@@ -1,4 +1,5 @@
-"""What jobs/slurm/run_until_done does after a run, with a script in the place of Slurm's scontrol."""
+"""Decisions of jobs/slurm/run_until_done after a run, with a script in place of Slurm's
+scontrol."""
 
 import os
 import pathlib
@@ -19,7 +20,7 @@ class ABatchJob(Scratch):
         super().setUp()
         self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
         scontrol = self.folder / "scontrol"
-        scontrol.write_text('#!/bin/sh\necho "$@" >requeued\nkill $PPID\n')  # ends the script, as Slurm does
+        scontrol.write_text('#!/bin/sh\necho "$@" >requeued\nkill $PPID\n')  # like Slurm
         scontrol.chmod(0o755)
 
     def run_until_done(self, *command):

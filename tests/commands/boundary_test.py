@@ -1,4 +1,4 @@
-"""overturn boundary: on one rank and on several, resumed, and in the way of other files."""
+"""overturn boundary: on one rank and on several, when resumed, and in conflict with other files."""
 
 import pathlib
 import subprocess
@@ -45,9 +45,9 @@ class ABoundary(Scratch):
         steps = np.diff(flips, axis=2)
         self.assertTrue((steps[np.isfinite(steps)] > 0).all())
         self.assertTrue((there == (above != CODE_OF_NO_FLIP)).all())
-        self.assertTrue((below[:, :, 0] <= 2).all())  # with or without a flip, it begins safely
+        self.assertTrue((below[:, :, 0] <= 2).all())  # safe at the lowest amplitude
         self.assertTrue((below[:, :, 1:] == CODE_OF_NO_FLIP)[~there[:, :, 1:]].all())
-        self.assertTrue(((below <= 2) != (above <= 2))[there].all())  # safe on one side alone
+        self.assertTrue(((below <= 2) != (above <= 2))[there].all())  # safe on one side only
 
     def test_is_where_the_spectrum_changes(self):
         self.have_boundary()
@@ -64,7 +64,7 @@ class ABoundary(Scratch):
                 count = np.searchsorted(flips[np.isfinite(flips)], amplitude)
                 self.assertTrue((safe[column] == (count % 2 == 0)).all(), index)
 
-    def test_is_the_same_on_any_number_of_ranks_and_if_resumed(self):
+    def test_gives_equal_bytes_on_any_number_of_ranks_and_when_resumed(self):
         self.assert_exit(self.boundary("alone.h5"), 0)
         self.assert_exit(self.boundary("both.h5", ranks=2), 0)
         whole = checksum(self.folder / "alone.h5")
@@ -76,15 +76,15 @@ class ABoundary(Scratch):
         self.assertEqual(checksum(self.folder / "both.h5"), whole)
         self.assert_exit(self.boundary("both.h5"), 0, "is complete already")
 
-    def test_goes_on_whatever_the_job_says_of_spectra_alone(self):
+    def test_resumes_when_only_settings_of_spectra_change(self):
         self.assert_exit(self.boundary(), 0)
         result = self.overturn("boundary", "small.toml", "-o", "boundary.h5", *FEW,
                                "--set", "numerics.tolerance=1e-5",
                                "--set", "output.fields=[\"region\", \"peak\"]")
         self.assert_exit(result, 0, "is complete already")
 
-    def test_is_refused_if_no_file_could_hold_it(self):
-        # 1e18 lines: a spectrum of two amplitudes would be told that its disk is too small.
+    def test_is_refused_if_too_large_for_any_file(self):
+        # 1e18 lines: a spectrum of two amplitudes would be refused for lack of disk space.
         result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.count=2",
                                "--set", "plane.frequency.count=1000000000000000",
                                *(f"--set=plane.restitution.{key}={value}"
@@ -92,7 +92,7 @@ class ABoundary(Scratch):
                                "--set", "output.fields=[\"region\"]")
         self.assert_exit(result, 65, "whose boundaries would take 6.4e+20 bytes")
 
-    def test_does_not_touch_a_spectrum_nor_a_spectrum_a_boundary(self):
+    def test_and_spectra_do_not_overwrite_each_other(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
         self.assert_exit(self.boundary("spectrum.h5"), 74,
                          "is an overturning spectrum, and an overturning boundary is to be computed")
@@ -100,7 +100,7 @@ class ABoundary(Scratch):
         result = self.overturn("run", "small.toml", "-o", "boundary.h5", *FEW)
         self.assert_exit(result, 74, "is an overturning boundary")
 
-    def test_tells_where_the_first_amplitude_overturns_already(self):
+    def test_reports_lines_that_overturn_at_the_first_amplitude(self):
         strong = [*FEW, "--set", "plane.frequency.last=2", "--set", "plane.amplitude.first=6"]
         words = "60 of 60 lines overturn at the first amplitude looked at"
         self.assert_exit(self.overturn("boundary", "small.toml", "-o", "strong.h5", *strong), 0,
@@ -117,8 +117,8 @@ class ABoundary(Scratch):
         self.assertNotIn("minimum overturning amplitude", picture)
         self.assertEqual(self.shades("strong.h5", "--restitution", "0"), {UNSAFE})
 
-    def test_tells_where_verdicts_are_undecided(self):
-        # Without loss a slow pulse lets the block bounce half a million times.
+    def test_reports_undecided_verdicts(self):
+        # Without loss the block bounces half a million times under a slow pulse.
         slow = [f"--set=plane.{axis}.values={values}" for axis, values in
                 (("frequency", [0.02]), ("restitution", [1]), ("amplitude", [1.000001, 1.2, 2]))]
         result = self.overturn("boundary", "small.toml", "-o", "slow.h5", *slow,
@@ -140,7 +140,7 @@ class ABoundary(Scratch):
         self.assert_exit(result, 65, "plane.amplitude has one value, 3")
         self.assertFalse((self.folder / "small_boundary.h5").exists())
 
-    def test_is_told_by_info(self):
+    def test_is_described_by_info(self):
         self.have_boundary()
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, "crossing 64 values",
                          "60 of 60 done, 64 x 1 flips each")
@@ -150,13 +150,13 @@ class ABoundary(Scratch):
                               capture_output=True, text=True, timeout=60)
 
     def drawn(self, *arguments):
-        """The picture as SVG."""
+        """Returns the picture as SVG."""
         result = self.plot(*arguments, "-o", "picture.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         return (self.folder / "picture.svg").read_text()
 
     def shades(self, *arguments):
-        """Those of the three shades that the picture has."""
+        """Returns those of the three shades that occur in the picture."""
         result = self.plot(*arguments, "-o", "picture.png")
         self.assertEqual(result.returncode, 0, result.stderr)
         pixels = pyplot.imread(self.folder / "picture.png")[:, :, :3]
@@ -165,7 +165,7 @@ class ABoundary(Scratch):
         return {shade for shade in (UNSAFE, SAFE, UNDECIDED)
                 if np.isclose(inside, to_rgb(shade), atol=1 / 255).all(axis=2).mean() > 0.01}
 
-    def test_of_an_older_file_that_tells_no_region_is_drawn_as_undecided(self):
+    def test_of_an_older_file_without_regions_is_plotted_as_undecided(self):
         self.have_boundary()
         with h5py.File(self.folder / "boundary.h5", "r+") as file:
             file["region_below"][:, :, 0] = np.where(np.isnan(file["flip_amplitude"][:, :, 0]),
@@ -173,7 +173,7 @@ class ABoundary(Scratch):
         self.assertEqual(self.shades("boundary.h5", "--restitution", "0"),
                          {UNSAFE, SAFE, UNDECIDED})
 
-    def test_is_drawn_with_what_overturns(self):
+    def test_is_plotted_with_overturning_amplitudes_shaded(self):
         self.have_boundary()
         picture = self.drawn("boundary.h5", "--restitution", "1")
         for words in ("minimum overturning amplitude", "other flips", "overturns", "safe"):
@@ -182,14 +182,14 @@ class ABoundary(Scratch):
         self.assertEqual(result.returncode, 2)
         self.assertIn("choose with --restitution", result.stderr)
 
-    def test_is_laid_over_its_spectrum_and_over_no_other(self):
+    def test_overlays_its_own_spectrum_only(self):
         self.have_boundary()
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
         result = self.plot("spectrum.h5", "--boundary", "boundary.h5", "-o", "both.svg",
                            tool="plot_spectrum")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn(">the verdict flips<", (self.folder / "both.svg").read_text())
-        for setting, words in (("plane.slenderness.values=[0.2]", "its slenderness differs"),
+        self.assertIn(">flip of the verdict<", (self.folder / "both.svg").read_text())
+        for setting, words in (("plane.slenderness.values=[0.2]", "slenderness differs"),
                                ("scene.theory=linear", "has theory nonlinear")):
             self.overturn("run", "small.toml", "-o", "other.h5", *FEW, "--set", setting)
             result = self.plot("other.h5", "--boundary", "boundary.h5", tool="plot_spectrum")
@@ -197,7 +197,7 @@ class ABoundary(Scratch):
             self.assertIn(words, result.stderr)
             (self.folder / "other.h5").unlink()
 
-    def test_a_spectrum_is_not_drawn_as_one(self):
+    def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
         result = self.plot("spectrum.h5")
         self.assertEqual(result.returncode, 74)

@@ -1,5 +1,5 @@
-"""What overturn does about disks that are full or fail, and files that change behind its back. Wants
-FAULTY_DISK, the library of tests/faults, in the environment too."""
+"""Behaviour of overturn on disks that are full or fail, and with files that change during a run.
+Also requires the library FAULTY_DISK of tests/faults in the environment."""
 
 import errno
 import os
@@ -24,7 +24,7 @@ class OnFaultyDisk(Scratch):
         return {"LD_PRELOAD": FAULTY_DISK, "FAULTY_FILE": self.folder / "out.h5", **faults}
 
     def overturn_on_faulty_disk(self, *arguments, ranks=None, **faults):
-        """Runs the program with the faults in the file out.h5."""
+        """Runs the program with these faults in the file out.h5."""
         settings = self.settings_of(faults)
         preload = "export " + " ".join(f"{name}={value}" for name, value in settings.items())
         if ranks is None:
@@ -36,7 +36,7 @@ class OnFaultyDisk(Scratch):
 
 
 class ADiskThatFails(OnFaultyDisk):
-    """From some write on none gets through: as on a disk that is full or at its quota, that went
+    """All writes fail from some write on: as on a disk that is full or over its quota, that became
     read-only after an error, or that is broken."""
 
     REASONS = {errno.ENOSPC: "no space left on device", errno.EDQUOT: "disk quota exceeded",
@@ -48,21 +48,21 @@ class ADiskThatFails(OnFaultyDisk):
         self.whole = checksum(self.folder / "whole.h5")
 
     def writes_of_a_run(self):
-        """Those that make the file, and those of the whole run."""
+        """Returns the number of writes that create the file and of all writes of a run."""
         result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5",
                                               COUNT_WRITES_IN=self.folder / "count")
         self.assert_exit(result, 0)
         every = int((self.folder / "count").read_text().split()[0])
         (self.folder / "count").unlink()
         tiles = 24
-        return every - tiles * 7, every  # six fields and the checksum, but for a few at the end
+        return every - tiles * 7, every  # six fields and the checksum; a few at the end
 
-    def test_ends_the_run_with_its_reason_and_loses_nothing(self):
+    def test_ends_the_run_with_the_reason_and_loses_no_tile(self):
         making, every = self.writes_of_a_run()
         for (number, reason), ranks in zip(self.REASONS.items(), (None, 2, 2, None)):
             (self.folder / "out.h5").unlink(missing_ok=True)
             at = ({"FAIL_AT_WRITE": (making + every) // 2} if ranks is None
-                  else {"FAIL_AT_WRITE": 10, "FAULTY_RANK": 1})  # which has no part in making it
+                  else {"FAIL_AT_WRITE": 10, "FAULTY_RANK": 1})  # rank 1 does not create the file
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   ERROR=number, **at)
             self.assert_exit(result, 74, "cannot write tile", reason)
@@ -72,7 +72,7 @@ class ADiskThatFails(OnFaultyDisk):
             self.assert_exit(resumed, 0, "going on, ")
             self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
 
-    def test_leaves_nothing_behind_while_the_file_is_made(self):
+    def test_leaves_no_file_if_creation_fails(self):
         before = self.files()
         for write in (1, 10):
             for number, reason in self.REASONS.items():
@@ -81,7 +81,7 @@ class ADiskThatFails(OnFaultyDisk):
                 self.assert_exit(result, 74, "cannot create", reason)
                 self.assertEqual(self.files(), before)
 
-    def test_is_heard_of_if_what_was_written_does_not_reach_it(self):
+    def test_is_reported_if_data_cannot_be_synced(self):
         for ranks in (None, 2):
             (self.folder / "out.h5").unlink(missing_ok=True)
             self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
@@ -93,19 +93,19 @@ class ADiskThatFails(OnFaultyDisk):
             self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
 
     def damage(self):
-        """The marks of all tiles, so that a run has something to do."""
+        """Damages the checksums of all tiles, so that a run has tiles to compute."""
         with h5py.File(self.folder / "out.h5", "r+") as file:
             file["checksum"][:] = 0
 
 
 class AStopDuringAWrite(OnFaultyDisk):
-    def test_before_a_damaged_tile_is_cleared_leaves_the_run_incomplete(self):
+    def test_before_a_damaged_tile_is_cleared_leaves_the_file_incomplete(self):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
         whole = checksum(self.folder / "out.h5")
         with h5py.File(self.folder / "out.h5", "r+") as file:
             file["velocity"][0, 0, 1, 2] += 1e-9
         for ranks in (None, 2):
-            # The first write is that by which the ranks compare their files.
+            # The first write is the one by which the ranks compare their files.
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   KILL_AT_WRITE=1, KILL_BY=int(signal.SIGUSR1))
             self.assert_stopped(result.returncode, result.stderr, ranks)
@@ -115,7 +115,7 @@ class AStopDuringAWrite(OnFaultyDisk):
 
 
 class AFullDisk(Scratch):
-    """A file system of its own, as any user may have in a namespace of mounts."""
+    """A private file system, which any user may mount in a mount namespace."""
 
     @staticmethod
     def is_possible():
@@ -125,12 +125,12 @@ class AFullDisk(Scratch):
     def setUp(self):
         super().setUp()
         if not self.is_possible():
-            self.skipTest("no namespaces of mounts here")
+            self.skipTest("mount namespaces are not available")
         self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
         self.whole = self.folder / "whole.h5"
 
     def on_small_disk(self, commands):
-        """Shell commands with $DISK, of half of the room that the file takes."""
+        """Runs shell commands with $DISK, which has half of the space that the file needs."""
         disk = self.folder / "disk"
         disk.mkdir()
         bytes_of_disk = self.whole.stat().st_size // 2
@@ -140,7 +140,7 @@ class AFullDisk(Scratch):
             env=ENVIRONMENT | {"DISK": str(disk), "OVERTURN": OVERTURN}, timeout=PATIENCE,
             capture_output=True, text=True)
 
-    def test_is_seen_before_anything_is_computed(self):
+    def test_is_detected_before_computing(self):
         result = self.on_small_disk("$OVERTURN run small.toml -o $DISK/out.h5; code=$?;"
                                     "[[ -z $(ls $DISK) ]] || exit 1; exit $code")
         size = self.whole.stat().st_size
@@ -148,14 +148,14 @@ class AFullDisk(Scratch):
         needed = int(result.stderr.split("it takes ")[1].split()[0])
         self.assertLess(abs(needed - size), 0.03 * size + 32768)
 
-    def test_is_forgiven_once_there_is_room(self):
+    def test_does_not_prevent_resuming_once_there_is_space(self):
         result = self.on_small_disk(
             "$OVERTURN run small.toml -o $DISK/out.h5; [[ $? == 74 ]] || exit 1;"
             "mount -o remount,size=64m $DISK; $OVERTURN run small.toml -o $DISK/out.h5 &&"
             "cmp $DISK/out.h5 whole.h5")
         self.assert_exit(result, 0)
 
-    def test_says_what_is_missing_if_only_the_sidecar_does_not_fit(self):
+    def test_is_reported_if_only_the_sidecar_does_not_fit(self):
         self.forget_a_tile("unfinished.h5")
         result = self.on_small_disk(
             "mount -o remount,size=64m $DISK; cp unfinished.h5 $DISK/out.h5;"
@@ -170,7 +170,7 @@ class AFullDisk(Scratch):
         with h5py.File(self.folder / name, "r+") as file:
             file["checksum"][3] = 0
 
-    def test_may_be_read_only_when_a_run_is_to_go_on(self):
+    def test_that_is_read_only_is_reported_when_resuming(self):
         self.forget_a_tile("unfinished.h5")
         result = self.on_small_disk(
             "mount -o remount,size=64m $DISK; cp unfinished.h5 $DISK/out.h5;"
@@ -179,8 +179,8 @@ class AFullDisk(Scratch):
 
 
 class ASlowDisk(OnFaultyDisk):
-    """One on which a complete file is read for seconds before a run knows that nothing is missing:
-    its metadata in a child, then again, then the values of all tiles."""
+    """A disk from which a complete file is read for seconds before a run knows that no tile is
+    missing: its metadata in a child process, then again, then the values of all tiles."""
 
     DELAYS = (0.2, 0.6, 1.2)  # of the signal [s]
     COMMAND = [OVERTURN, "run", "small.toml", "-o", "out.h5"]
@@ -199,18 +199,18 @@ class ASlowDisk(OnFaultyDisk):
             sent = time.monotonic()
             code = run.wait(timeout=PATIENCE)
             while any(pathlib.Path(f"/proc/{child}").exists() for child in children):
-                self.assertLess(time.monotonic() - sent, PATIENCE, "a child outlives its parent")
+                self.assertLess(time.monotonic() - sent, PATIENCE, "a child outlived its parent")
                 time.sleep(0.01)
             return code, time.monotonic() - sent
 
-    def test_does_not_keep_a_killed_run_from_being_resumed(self):
+    def test_does_not_prevent_resuming_a_killed_run(self):
         for delay in self.DELAYS:
             code, _ = self.end_by(signal.SIGKILL, delay)
             self.assertEqual(code, -signal.SIGKILL)
             self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "complete already")
             self.assertEqual(self.files(), ["long.toml", "out.h5", "out.h5.json", "small.toml"])
 
-    def test_does_not_keep_a_run_from_being_stopped(self):
+    def test_does_not_prevent_stopping_a_run(self):
         for delay in self.DELAYS:
             code, seconds = self.end_by(signal.SIGUSR1, delay)
             self.assertEqual(code, 85)
@@ -218,7 +218,7 @@ class ASlowDisk(OnFaultyDisk):
 
 
 class AFileThatChanges(Scratch):
-    # Some ten seconds, of which none needs more than the first two.
+    # About ten seconds, of which the tests need at most the first two.
     LONGER = JOB.format(columns=1200, rows=1200, restitutions="[0.7]", tolerance="1e-13")
 
     def setUp(self):
@@ -230,7 +230,7 @@ class AFileThatChanges(Scratch):
         return int(told.split(" tiles ")[1].split(" of ")[0]) if " tiles " in told else 0
 
     def end_of_run_after(self, change, ranks, job="longer"):
-        """What a run says after the change, made when some tiles are done."""
+        """Returns the output of a run after the change, which is made when some tiles are done."""
         output = self.folder / f"{job}.h5"
         output.unlink(missing_ok=True)
         command = [OVERTURN, "run", f"{job}.toml"]
@@ -240,18 +240,18 @@ class AFileThatChanges(Scratch):
             self.addCleanup(process.kill)
             self.assertIn("tiles", process.stdout.readline())
             while self.tiles_done(output.name) < 3:
-                self.assertIsNone(process.poll(), "ended too early")
+                self.assertIsNone(process.poll(), "the run ended too early")
             change(output)
             said, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 74, said)
         return words(said)
 
-    def test_is_missed_if_it_is_gone(self):
+    def test_is_reported_if_it_is_removed(self):
         for ranks in (None, 2):
             said = self.end_of_run_after(lambda path: path.unlink(), ranks)
             self.assertIn("was removed, moved or replaced while it was written", said)
 
-    def test_is_missed_if_it_was_moved_and_goes_on_once_it_is_back(self):
+    def test_is_reported_if_moved_and_resumes_once_moved_back(self):
         elsewhere = self.folder / "elsewhere.h5"
         said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2, job="long")
         self.assertIn("move it back and run the same command again to resume", said)
@@ -259,7 +259,7 @@ class AFileThatChanges(Scratch):
         self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "going on, ")
         self.assert_exit(self.overturn("verify", "long.h5"), 0, "147 of 147 tiles are done")
 
-    def test_is_noticed_if_another_takes_its_place(self):
+    def test_is_reported_if_it_is_replaced(self):
         def replace(path):
             path.unlink()
             path.write_text("somebody else's")
@@ -267,17 +267,17 @@ class AFileThatChanges(Scratch):
         self.end_of_run_after(replace, None)
         self.assertEqual((self.folder / "longer.h5").read_text(), "somebody else's")
 
-    def test_is_noticed_if_it_is_cut(self):
+    def test_is_reported_if_it_is_truncated(self):
         said = self.end_of_run_after(lambda path: os.truncate(path, 100_000), 2)
         self.assertIn("was cut from", said)
         self.assert_exit(self.overturn("run", "longer.toml"), 74, "longer.h5")
 
-    def test_is_refused_if_an_axis_is_not_its_jobs(self):
+    def test_is_refused_if_an_axis_differs_from_its_job(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0)
         for name in ("frequency", "slenderness", "restitution_ratio"):
             with h5py.File(self.folder / "small.h5", "r+") as file:
                 kept = file[name][...]
-                # To the last digit, but for what is up to the C library.
+                # To the last digit, except for values that depend on the C library.
                 file[name][...] = (kept * (1 + 1e-12) if name == "restitution_ratio"
                                    else np.nextafter(kept, np.inf))
             self.assert_exit(self.overturn("verify", "small.h5"), 74,
@@ -289,9 +289,9 @@ class AFileThatChanges(Scratch):
 
 
 class AnUnreadableFile(OnFaultyDisk):
-    """One at which the HDF5 library crashes."""
+    """A file at which the HDF5 library crashes."""
 
-    def test_is_damaged_in_the_words_of_whoever_reads_it(self):
+    def test_is_reported_as_damaged_by_every_command(self):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
         before = checksum(self.folder / "out.h5")
         for command in (["info", "out.h5"], ["verify", "out.h5"], ["run", "small.toml", "-o", "out.h5"],
@@ -299,7 +299,8 @@ class AnUnreadableFile(OnFaultyDisk):
                          "-o", "out.h5"]):  # fmt: skip
             result = self.overturn_on_faulty_disk(*command, CRASH_AT_READ=1)
             self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')
-        # Wherever it comes: when the values of all tiles are verified, and for a run in the metadata.
+        # In either phase: when the values of all tiles are verified, and when a run reads the
+        # metadata.
         for read in (32, 64, 128, 256):
             result = self.overturn_on_faulty_disk("verify", "out.h5", CRASH_AT_READ=read)
             self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')

@@ -1,4 +1,4 @@
-"""What overturn does about tiles that are not as they were written, and ranks that fall silent."""
+"""Behaviour of overturn with damaged tiles and silent ranks."""
 
 import os
 import signal
@@ -21,13 +21,13 @@ class ADamagedFile(Scratch):
         self.whole = checksum(self.folder / "whole.h5")
 
     def damage(self, name, tiles):
-        """One value in each of these tiles; tiles of one restitution are 3 x 4."""
+        """Changes one value in each of these tiles; each restitution has 3 x 4 tiles."""
         with h5py.File(self.folder / name, "r+") as file:
             for tile in tiles:
                 place = (0, tile // 12, tile % 12 // 4 * 64 + 1, tile % 4 * 64 + 2)
                 file["velocity"][place] += 1e-9
 
-    def test_is_found_by_verify_with_the_numbers_of_its_tiles(self):
+    def test_is_reported_by_verify_with_the_numbers_of_its_tiles(self):
         self.assert_exit(self.overturn("verify", "whole.h5"), 0,
                          "24 of 24 tiles are done, and all of them are as they were written")
         self.damage("whole.h5", (0, 7, 23))
@@ -35,7 +35,7 @@ class ADamagedFile(Scratch):
                          "3 of 24 tiles are not as they were written, by number 0, 7, 23",
                          "overturn run JOB.toml -o whole.h5")
 
-    def test_is_not_taken_for_done_if_the_run_that_would_mend_it_is_stopped(self):
+    def test_is_not_complete_if_the_repairing_run_is_stopped(self):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
         with h5py.File(self.folder / "long.h5", "r+") as file:
             file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
@@ -49,7 +49,7 @@ class ADamagedFile(Scratch):
         with h5py.File(self.folder / "long.h5") as file:
             unmarked = file["checksum"][:] == 0
             self.assertGreater(np.count_nonzero(unmarked), 100)
-            # Nor are its values taken for computed ones, by readers that know of no marks.
+            # Readers that ignore checksums must not take its values for computed ones either.
             points = unmarked.reshape(1, 3, 7, 7).repeat(64, 2).repeat(64, 3)
             for name in ("region", "status", "impacts"):
                 fill = file[name].fillvalue
@@ -57,19 +57,19 @@ class ADamagedFile(Scratch):
             for name in ("angle", "velocity", "margin"):
                 self.assertTrue((np.isnan(file[name][:]) == points).all(), name)
 
-    def test_is_found_if_the_mark_is_damaged_instead(self):
+    def test_is_reported_if_a_checksum_is_damaged(self):
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][11] += np.uint64(1)
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "by number 11")
 
-    def test_is_mended_by_the_same_run_even_if_it_was_complete(self):
+    def test_is_repaired_by_the_same_run_even_if_it_was_complete(self):
         for ranks in (None, 2):
             self.damage("whole.h5", (3, 12))
             result = self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks)
             self.assert_exit(result, 0, "22 of 24 tiles are there, 2 damaged tiles are computed again")
             self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
-    def test_is_mended_together_with_what_is_missing(self):
+    def test_is_repaired_together_with_missing_tiles(self):
         self.damage("whole.h5", (5, 6))
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][6:9] = 0
@@ -78,7 +78,7 @@ class ADamagedFile(Scratch):
         self.assert_exit(result, 0, "20 of 24 tiles are there, 1 damaged tile is")
         self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
-    def test_is_mended_if_a_killed_run_has_left_its_random_number(self):
+    def test_is_repaired_if_a_killed_run_has_left_its_random_number(self):
         for ranks in (None, 2):
             with h5py.File(self.folder / "whole.h5", "r+") as file:
                 file["checksum"][3] = 0
@@ -86,7 +86,7 @@ class ADamagedFile(Scratch):
             self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks), 0)
             self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
-    def test_is_not_complete_if_a_mark_disappears_while_the_run_lasts(self):
+    def test_is_not_complete_if_a_checksum_disappears_during_the_run(self):
         for ranks in (None, 2):
             (self.folder / "long.h5").unlink(missing_ok=True)
             with subprocess.Popen(
@@ -107,14 +107,14 @@ class ADamagedFile(Scratch):
             self.assertIn('"long.h5" lacks 1 of 147', output)
             self.assertNotIn("computed 602", output)
 
-    def test_is_refused_by_verify_if_it_lacks_its_end(self):
+    def test_is_refused_by_verify_if_truncated(self):
         path = self.folder / "whole.h5"
         os.truncate(path, path.stat().st_size - 5000)
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "damaged")
 
 
 class ASilentRank(Scratch):
-    def test_ends_the_run_which_resumes(self):
+    def test_ends_the_run_which_can_be_resumed(self):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
         for silent in (2, 0):
             with subprocess.Popen(

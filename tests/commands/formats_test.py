@@ -16,7 +16,7 @@ TOOLS = TESTS.parent / "tools"
 
 
 def make_first_format(path):
-    """What the first version of the format wrote instead."""
+    """Converts a file to the first version of the format."""
     with h5py.File(path, "r+") as file:
         del file.attrs["format_version"]
         marks = file["checksum"].attrs
@@ -30,7 +30,7 @@ def tool(name, *arguments, folder):
 
 
 class AnEarlierFormat(Scratch):
-    def test_was_written_by_earlier_programs_and_is_read(self):
+    def test_is_read_by_the_program_and_by_the_tools(self):
         for name, holds in (("spectrum", "amplitude"), ("boundary", "crossing"),
                             ("unfinished", "unfinished")):
             with self.subTest(name):
@@ -39,7 +39,7 @@ class AnEarlierFormat(Scratch):
                 self.assert_exit(self.overturn("info", "old.h5"), 0, holds)
                 self.assert_exit(self.overturn("verify", "old.h5"), 0)
 
-    def test_holds_the_same_values(self):
+    def test_gives_the_same_values(self):
         self.overturn("run", "small.toml")
         shutil.copy(self.folder / "small.h5", self.folder / "old.h5")
         make_first_format(self.folder / "old.h5")

@@ -23,7 +23,7 @@ class AHistory(Scratch):
         return subprocess.run([sys.executable, PLOT_HISTORY, *arguments], cwd=self.folder,
                               capture_output=True, text=True, timeout=60)
 
-    def test_tells_what_happens_and_writes_it(self):
+    def test_prints_the_events_and_writes_them(self):
         self.assert_exit(self.history(AT), 0, "region S", "uplift", "impact", "end_of_pulse",
                          "history.h5: written")
         with h5py.File(self.folder / "history.h5") as file:
@@ -46,14 +46,14 @@ class AHistory(Scratch):
                 self.assertEqual(found.angle.dims, ("sample",))
                 self.assertEqual(found.event_time.dims, ("event",))
 
-    def test_is_told_by_info(self):
+    def test_is_described_by_info(self):
         self.history(AT)
         self.assert_exit(self.overturn("info", "history.h5"), 0, "A small plane",
                          "holds the history of one block", "made by overturn",
                          "amplitude = { values = [1.3] }")
         self.assert_exit(self.overturn("verify", "history.h5"), 74, "it is a \"rocking history\"")
 
-    def test_a_job_of_many_points_has_to_say_which(self):
+    def test_of_a_job_with_many_points_requires_at(self):
         result = self.history("--at", "frequency=3")
         self.assert_exit(result, 2, "150 values of plane.amplitude", "--at amplitude=0.5")
         self.assertFalse((self.folder / "history.h5").exists())
@@ -64,17 +64,17 @@ class AHistory(Scratch):
         with h5py.File(self.folder / "history.h5") as file:
             self.assertEqual(file.attrs["amplitude"], 1.3)
 
-    def test_a_coordinate_that_is_none_is_refused(self):
+    def test_refuses_an_unknown_or_invalid_coordinate(self):
         for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
             self.assert_exit(self.history("--at", words), 2, "a coordinate is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
 
-    def test_a_motion_beyond_the_range_of_numbers_is_refused(self):
+    def test_refuses_a_motion_beyond_the_range_of_numbers(self):
         result = self.history("--at", "frequency=3,amplitude=1e300,restitution=1")
         self.assert_exit(result, 65, "plane.amplitude = 1e+300", "beyond the range")
         self.assertNotIn("nan", result.stdout)
         self.assertFalse((self.folder / "history.h5").exists())
-        # A spectrum keeps the point, and says what became of it.
+        # A spectrum stores the point with its status.
         one = ("--set=plane.frequency.values=[3]", "--set=plane.amplitude.values=[1.5, 1e300]")
         self.assert_exit(self.overturn("run", "small.toml", *one), 0)
         with h5py.File(self.folder / "small.h5") as file:
@@ -92,7 +92,7 @@ class AHistory(Scratch):
         self.assert_exit(result, 74, "is no rocking history")
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 
-    def test_is_drawn_with_its_point_and_events(self):
+    def test_is_plotted_with_its_point_and_events(self):
         self.history(AT)
         result = self.plot("history.h5", "-o", "history.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -101,13 +101,13 @@ class AHistory(Scratch):
             self.assertIn(f">{words}<", picture)
         self.assertIn("safe (S)", picture)
 
-    def test_is_drawn_with_the_settings_that_are_not_told_below_the_title(self):
+    def test_is_plotted_with_the_settings_not_shown_below_the_title(self):
         self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")
         self.assertEqual(self.plot("history.h5", "-o", "history.svg").returncode, 0)
         self.assertIn(">A small plane, with scene.pulse='half_sine'<",
                       (self.folder / "history.svg").read_text().replace("&apos;", "'"))
 
-    def test_a_spectrum_is_not_drawn_as_one(self):
+    def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         result = self.plot("spectrum.h5")
         self.assertEqual(result.returncode, 74)

@@ -1,5 +1,5 @@
-"""Jobs and result files of others: what they say is neither obeyed by the terminal nor makes the
-program write anywhere but to the output and its sidecar."""
+"""Untrusted jobs and result files: their texts must not control the terminal, nor make the program
+write to anything but the output and its sidecar."""
 
 import os
 import pathlib
@@ -20,12 +20,12 @@ CLEAR_SCREEN = "\x1b[2J"
 
 class AHostileJob(Scratch):
     def inner(self):
-        """A folder in the folder, so that what leaves it by ".." is seen."""
+        """Returns an inner folder, so that a file that leaves it through ".." is detected."""
         folder = self.folder / "inner"
         folder.mkdir(exist_ok=True)
         return folder
 
-    def test_writes_only_the_output_and_its_sidecar_whatever_it_says(self):
+    def test_writes_only_the_output_and_its_sidecar(self):
         outside = self.files() + ["inner"]
         for number, path in enumerate(PATHS):
             job = self.inner() / f"{number}.toml"
@@ -39,20 +39,20 @@ class AHostileJob(Scratch):
         self.assertEqual(self.files(), sorted(outside))
         self.assertFalse(os.path.exists("/tmp/overturn-was-here"))
 
-    def test_names_no_file_by_its_keys_and_words(self):
+    def test_creates_no_file_named_by_its_keys_and_values(self):
         for path in PATHS[:-1]:
             for line in (f'"{path}" = 1', f'["{path}"]', f'output.path = "{path}"',
                          f'scene.pulse = "{path}"'):  # fmt: skip
                 (self.folder / "hostile.toml").write_text(line + "\n")
                 self.assert_refused(65, ["hostile.toml"], "run", "hostile.toml", "-o", "out.h5")
 
-    def test_gives_its_output_no_folder(self):
+    def test_does_not_choose_the_folder_of_its_output(self):
         job = self.inner() / "job.toml"
         job.write_text(TINY)
         self.assert_exit(self.overturn("run", "inner/../inner/job.toml"), 0)
         self.assertIn("job.h5", self.files())
 
-    def test_cannot_command_the_terminal(self):
+    def test_sends_no_control_characters_to_the_terminal(self):
         (self.folder / "tiny.toml").write_text(TINY.replace("A small plane", "\\u001b[2J\\u009b2J"))
         checked = self.overturn("check", "tiny.toml")
         self.assert_exit(checked, 0, "?[2J?2J")
@@ -64,7 +64,7 @@ class AHostileJob(Scratch):
 
 
 class AHostileResultFile(Scratch):
-    """A complete file of the job, altered so that a run has something to compute again."""
+    """A complete file of the job, altered so that a run has tiles to recompute."""
 
     def setUp(self):
         super().setUp()
@@ -84,7 +84,7 @@ class AHostileResultFile(Scratch):
             self.assert_refused(74, [phrase], *command)
             self.assertEqual((self.folder / "elsewhere").read_bytes(), before)
 
-    def test_does_not_make_a_run_write_to_a_file_that_it_stores_values_in(self):
+    def test_does_not_make_a_run_write_to_its_external_storage(self):
         def add(file):
             creation = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
             creation.set_external(str(self.folder / "elsewhere").encode(), 0, 25)
@@ -94,7 +94,7 @@ class AHostileResultFile(Scratch):
         self.replace_region(add)
         self.assert_refused_by_all("lie in another file")
 
-    def test_does_not_make_a_run_write_to_a_file_that_it_links_to(self):
+    def test_does_not_make_a_run_write_to_a_linked_file(self):
         with h5py.File(self.folder / "elsewhere", "w") as file:
             file.create_dataset("region", (1, 1, 2, 2), "u1")
 
@@ -112,8 +112,9 @@ class AHostileResultFile(Scratch):
             file["status"] = file["region"]
         self.assert_refused_by_all("has two names")
 
-    def test_is_damaged_and_no_more_if_hdf5_crashes_at_it_or_asks_for_gigabytes(self):
-        # Found by tools/check fuzz; HDF5 1.10.8 crashes at two of these, and takes 6 GB for the third.
+    def test_is_reported_as_damaged_if_hdf5_crashes_or_requests_gigabytes(self):
+        # Found by tools/check fuzz: HDF5 1.10.8 crashes at two of these and allocates 6 GB for the
+        # third.
         for found in sorted(FOUND.iterdir()):
             shutil.copy(found, self.folder / "found.h5")
             for command in (["info", "found.h5"], ["verify", "found.h5"],
@@ -124,7 +125,7 @@ class AHostileResultFile(Scratch):
             most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
             self.assertLess(most, 2**29 + 2**28)
 
-    def test_cannot_command_the_terminal(self):
+    def test_sends_no_control_characters_to_the_terminal(self):
         for name in ("kind", "title", "program_version"):
             with h5py.File(self.folder / "tiny.h5", "r+") as file:
                 file.attrs.create(name, numpy.bytes_(CLEAR_SCREEN))

@@ -1,5 +1,5 @@
-"""One result file under two C libraries, whose functions differ in the last digit: glibc's as they
-are on processors with and without AVX2."""
+"""One result file with two C libraries whose functions differ in the last digit: glibc on
+processors with and without AVX2."""
 
 import math
 import os
@@ -13,7 +13,7 @@ import numpy as np
 from program import ENVIRONMENT, Scratch
 
 WITHOUT_AVX2 = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2"}
-# Of so many heights of a block some have another slenderness with the other arctangent.
+# Some of these heights give another slenderness with the other arctangent.
 HEIGHTS = [5 + i / 999 for i in range(3000)]
 
 JOB = """
@@ -65,7 +65,7 @@ class AnotherCLibrary(Scratch):
         self.assert_exit(self.overturn("run", "job.toml", "-o", "alone.h5"), 0)
         self.compute_with_the_other()
         with h5py.File(self.folder / "out.h5", "a") as file, h5py.File(self.folder / "alone.h5") as alone:
-            # Else this would be no other library.
+            # Otherwise the libraries would not differ.
             self.assertNotEqual(file["slenderness"][0], alone["slenderness"][0])
             file["checksum"][4:] = 0  # all but the first row of tiles
             file["region"][0, 0, 64:] = file["region"][0, 1] = 255

@@ -1,7 +1,7 @@
-"""The program as its users meet it: driven from outside, judged by exit code, words and bytes.
+"""The program as users see it: started from outside, checked by exit code, messages and bytes.
 
-The tests that use this want OVERTURN (the binary) and MPIEXEC in the environment; their arguments
-are names of test classes."""
+The tests that use this module require OVERTURN (the binary) and MPIEXEC in the environment; their
+arguments are names of test classes."""
 
 import hashlib
 import os
@@ -13,15 +13,15 @@ import unittest
 
 
 def from_environment(name):
-    """What ctest and tools/check set."""
+    """Returns a variable set by ctest and tools/check."""
     return os.environ.get(name) or sys.exit(
-        f"{name} is not in the environment: run this by ctest or tools/check, or set what the text "
-        "at the head of this script names.")
+        f"{name} is not set: run this script with ctest or tools/check, or set the variables named "
+        "in its docstring.")
 
 
 OVERTURN = from_environment("OVERTURN")
 MPIEXEC = from_environment("MPIEXEC")
-PATIENCE = 60  # [s] for one run of the program; the longest takes some seconds
+PATIENCE = 60  # [s] for one run of the program; the longest takes a few seconds
 
 ENVIRONMENT = {
     **os.environ,
@@ -47,9 +47,10 @@ tolerance = {tolerance}
 fields = ["region", "angle", "velocity", "margin", "impacts", "status"]
 """
 
-# 2 x 3 x 4 tiles, some of them cut off at the far edges: a moment's work.
+# 2 x 3 x 4 tiles, some of them cut off at the upper edges: computed at once.
 SMALL = JOB.format(columns=200, rows=150, restitutions="[0.7, 1.0]", tolerance="1e-6")
-# 3 x 7 x 7 tiles: two seconds or more on two ranks with AVX-512, so that a signal comes in the midst.
+# 3 x 7 x 7 tiles: two seconds or more on two ranks with AVX-512, so that a signal arrives during
+# it.
 LONG = JOB.format(columns=448, rows=448, restitutions="[0.7, 0.85, 1.0]",
                   tolerance="1e-14").replace('"status"]', '"status", "error"]')
 
@@ -68,13 +69,13 @@ def is_mpich():
 
 
 def children_of(pid):
-    """Also those that another thread than the first has started."""
+    """Returns the children of all threads of a process."""
     return [int(child) for thread in pathlib.Path(f"/proc/{pid}/task").iterdir()
             for child in (thread / "children").read_text().split()]
 
 
 def ranks_of(pid):
-    """The processes of the launcher's ranks, in order of rank."""
+    """Returns the processes of the launcher's ranks, in order of rank."""
 
     def numbered(parent):
         for child in children_of(parent):
@@ -87,12 +88,12 @@ def ranks_of(pid):
 
 
 def words(text):
-    """Messages break their lines where it looks well; tests do not care."""
+    """Joins the lines of a message, because tests do not check line breaks."""
     return " ".join(text.split())
 
 
 class Scratch(unittest.TestCase):
-    """A folder of its own for each test, with the two jobs in it."""
+    """A separate folder for each test, with the two jobs in it."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
@@ -102,7 +103,7 @@ class Scratch(unittest.TestCase):
         (self.folder / "long.toml").write_text(LONG)
 
     def overturn(self, *arguments, ranks=None, shell_setup=None):
-        """Runs the program to its end; without ranks, alone and without mpirun."""
+        """Runs the program to its end; without mpirun if `ranks` is None."""
         command = [OVERTURN, *map(str, arguments)]
         if shell_setup is not None:
             command = ["sh", "-c", shell_setup + '; exec "$@"', "sh", *command]
@@ -117,19 +118,21 @@ class Scratch(unittest.TestCase):
         return sorted(path.name for path in self.folder.iterdir())
 
     def assert_exit(self, result, code, *phrases):
-        """The exit code, and that the messages hold the phrases."""
+        """Checks the exit code and that the messages contain the phrases."""
         everything = words(result.stdout + result.stderr)
         self.assertEqual(result.returncode, code, everything)
         for phrase in phrases:
             self.assertIn(phrase, everything)
 
     def assert_stopped(self, code, output, ranks=None):
-        """By a signal. MPICH's launcher sometimes returns 0 instead, and 9 if it has killed a rank."""
+        """Checks for a stop by a signal. MPICH's launcher may return 0, or 9 if it killed a
+        rank."""
         codes = (85, 0, 9) if ranks is not None and is_mpich() else (85,)
         self.assertIn(code, codes, output)
 
     def assert_refused(self, code, phrases, *arguments, ranks=None):
-        """The exit code, one message with the phrases in it, and nothing written."""
+        """Checks the exit code, that one message contains the phrases, and that no file is
+        written."""
         before = self.files()
         result = self.overturn(*arguments, ranks=ranks)
         self.assert_exit(result, code, *phrases)

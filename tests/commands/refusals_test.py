@@ -1,4 +1,4 @@
-"""What overturn refuses, with which words and exit code; and what it teaches."""
+"""Refusals of overturn, with messages and exit codes, and its help."""
 
 import os
 import socket
@@ -12,12 +12,12 @@ A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitu
 
 
 class TheCommandLine(Scratch):
-    def test_help_teaches_each_subcommand_by_an_example(self):
+    def test_help_shows_an_example_of_each_subcommand(self):
         for subcommand in ("run", "check", "info"):
             self.assert_exit(self.overturn("--help"), 0, f"overturn {subcommand} ")
             self.assert_exit(self.overturn(subcommand, "--help"), 0, f"overturn {subcommand} ")
 
-    def test_version_names_what_results_depend_on(self):
+    def test_version_lists_what_results_depend_on(self):
         result = self.overturn("--version")
         self.assert_exit(result, 0, "overturn ", "commit", "kernel", "MPI", "HDF5 1.")
 
@@ -27,11 +27,11 @@ class TheCommandLine(Scratch):
             self.assert_exit(asked, 0)
             self.assertEqual(asked.stdout, self.overturn(*words, "--help").stdout)
 
-    def test_an_unknown_subcommand_is_told_with_what_was_meant(self):
+    def test_an_unknown_subcommand_is_reported_with_a_suggestion(self):
         self.assert_refused(2, ["rum", "Did you mean \"run\"?", "--help"], "rum", "small.toml")
         self.assert_refused(2, ["Did you mean \"boundary\"?"], "help", "boundry")
 
-    def test_an_unknown_subcommand_that_is_like_no_other_is_a_usage_error(self):
+    def test_an_unknown_subcommand_unlike_any_other_is_a_usage_error(self):
         result = self.overturn("compute", "small.toml")
         self.assert_exit(result, 2, "compute", "--help")
         self.assertNotIn("Did you mean", result.stderr)
@@ -48,8 +48,8 @@ class TheCommandLine(Scratch):
     def test_an_unknown_kernel_is_a_usage_error(self):
         self.assert_refused(2, ["sse2", "avx512"], "run", "small.toml", "--kernel", "sse2")
 
-    def test_a_launcher_that_mpi_does_not_know_is_a_usage_error(self):
-        # As srun --mpi=none would start four ranks that each compute everything.
+    def test_a_launcher_unknown_to_mpi_is_a_usage_error(self):
+        # srun --mpi=none would start four ranks that each compute everything.
         result = self.overturn("run", "small.toml", shell_setup="export SLURM_STEP_NUM_TASKS=4")
         self.assert_exit(result, 2, "4 processes", "MPI found 1", "srun --mpi=pmix")
         self.assertNotIn("small.h5", self.files())
@@ -63,12 +63,12 @@ class ABadJob(Scratch):
         (self.folder / "broken.toml").write_text("[scene\n")
         self.assert_refused(65, ["broken.toml:1"], "run", "broken.toml")
 
-    def test_an_unknown_key_is_told_with_what_was_meant(self):
+    def test_an_unknown_key_is_reported_with_a_suggestion(self):
         misspelt = SMALL.replace("slenderness", "slendernes")
         (self.folder / "misspelt.toml").write_text(misspelt)
         self.assert_refused(65, ["slendernes", "slenderness"], "run", "misspelt.toml")
 
-    def test_a_value_out_of_range_is_refused_before_anything_is_computed(self):
+    def test_a_value_out_of_range_is_refused_before_computing(self):
         override = "plane.restitution={ values = [1.2], of = 'absolute' }"
         self.assert_refused(65, ["1.2"], "run", "small.toml", "--set", override)
 
@@ -90,12 +90,12 @@ class ABadOutput(Scratch):
         (self.folder / "out.h5").mkdir()
         self.assert_refused(74, ["out.h5"], "run", "small.toml", "-o", "out.h5")
 
-    def test_a_file_that_is_not_ours_is_never_overwritten(self):
+    def test_a_foreign_file_is_never_overwritten(self):
         (self.folder / "notes.txt").write_text("not to be lost")
         self.assert_refused(74, ["notes.txt"], "run", "small.toml", "-o", "notes.txt")
         self.assertEqual((self.folder / "notes.txt").read_text(), "not to be lost")
 
-    def test_what_stands_where_its_record_or_its_lock_would_be_stays(self):
+    def test_a_file_with_the_name_of_its_sidecar_or_lock_is_kept(self):
         for name in ("out.h5.json", "out.h5.lock"):
             (self.folder / name).write_text("not to be lost")
             self.assert_refused(74, [name, "Move it away"], "run", "small.toml", "-o", "out.h5")
@@ -107,7 +107,7 @@ class ABadOutput(Scratch):
         (self.folder / "small.toml").rename(self.folder / "job.json")
         self.assert_refused(74, ["job.json", "Move it away"], "run", "job.json", "-o", "job")
 
-    def test_what_has_the_name_of_a_file_that_it_needs_for_a_while_stays(self):
+    def test_a_file_with_the_name_of_a_temporary_file_is_kept(self):
         for name in ("out.h5.part", "out.h5.json.part", "out.h5.lock"):
             for content in ("not to be lost", ""):
                 (self.folder / name).write_text(content)
@@ -117,7 +117,7 @@ class ABadOutput(Scratch):
                 self.assert_refused(74, [name, "Move it away"], *A_HISTORY, "-o", "out.h5")
             (self.folder / name).unlink()
 
-    def test_files_of_others_whose_names_mpi_would_use_stay(self):
+    def test_foreign_files_with_names_used_by_mpi_are_kept(self):
         names = [f"out.h5.{name}" for name in ("data.0", "data.1", "metadata.0", "metadata.1",
                                                "locktest.0", "locktest.1", "lockedfile")]  # fmt: skip
         for name in names:
@@ -128,7 +128,7 @@ class ABadOutput(Scratch):
                 self.assertEqual((self.folder / name).read_text(), "not to be lost", name)
             (self.folder / "out.h5").unlink()
 
-    def test_a_link_to_nothing_is_refused(self):
+    def test_a_dangling_link_is_refused(self):
         for name in ("out.h5", "out.h5.json", "out.h5.lock"):
             (self.folder / name).symlink_to("nowhere")
             self.assert_refused(74, [name], "run", "small.toml", "-o", "out.h5")
@@ -137,7 +137,7 @@ class ABadOutput(Scratch):
             self.assertTrue((self.folder / name).is_symlink())
             (self.folder / name).unlink()
 
-    def test_a_record_of_others_that_appears_during_the_run_stays(self):
+    def test_a_foreign_sidecar_that_appears_during_the_run_is_kept(self):
         with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
                               env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True) as run:
@@ -150,7 +150,7 @@ class ABadOutput(Scratch):
         self.assertEqual((self.folder / "out.h5.json").read_text(), "not to be lost")
         self.assert_exit(self.overturn("verify", "out.h5"), 0, "147 of 147 tiles are done")
 
-    def test_a_link_to_a_history_stays(self):
+    def test_a_link_to_a_history_is_kept(self):
         (self.folder / "results").mkdir()
         self.assert_exit(self.overturn(*A_HISTORY, "-o", "results/out.h5"), 0)
         before = checksum(self.folder / "results" / "out.h5")
@@ -166,12 +166,12 @@ class ABadOutput(Scratch):
                               env=ENVIRONMENT, stdout=subprocess.PIPE, text=True) as run:
             run.stdout.readline()
             run.kill()
-        lock.chmod(lock.stat().st_mode & ~0o777)  # as another user's may be
-        if os.geteuid() == 0:  # who may open all
+        lock.chmod(lock.stat().st_mode & ~0o777)  # as for the lock of another user
+        if os.geteuid() == 0:  # root may open all files
             without = ["setpriv", "--bounding-set=-dac_override,-dac_read_search",
                        "--inh-caps=-dac_override,-dac_read_search"]  # fmt: skip
             if subprocess.run([*without, "true"], capture_output=True).returncode:
-                self.skipTest("privileges cannot be dropped here")
+                self.skipTest("privileges cannot be dropped")
         else:
             without = []
         result = subprocess.run([*without, OVERTURN, "run", "long.toml", "-o", "out.h5"],
@@ -180,7 +180,7 @@ class ABadOutput(Scratch):
         self.assert_exit(result, 74, "cannot open the lock", "out.h5.lock\": permission denied")
         self.assertTrue(lock.exists())
 
-    def test_a_path_of_any_length_serves_under_mpirun(self):
+    def test_a_path_of_any_length_works_under_mpirun(self):
         for length in (243, 244, 245, 246, 250, 600, 2000):
             folder = self.folder
             while len(str(folder)) < length - 120:
@@ -190,7 +190,7 @@ class ABadOutput(Scratch):
             self.assertEqual(len(str(output)), length)
             self.assert_exit(self.overturn("run", "small.toml", "-o", output, ranks=2), 0)
 
-    def test_a_name_too_long_for_the_files_beside_it_is_refused_at_once(self):
+    def test_a_name_too_long_for_its_companion_files_is_refused_at_once(self):
         refused = 0
         for length in range(243, 257):
             result = self.overturn("run", "small.toml", "-o", "x" * length)
@@ -200,7 +200,7 @@ class ABadOutput(Scratch):
                 refused += 1
         self.assertGreater(refused, 10)
 
-    def test_the_file_of_another_job_stays_as_it_is(self):
+    def test_the_file_of_another_job_is_unchanged(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0)
         before = checksum(self.folder / "small.h5")
         self.assert_refused(
@@ -215,19 +215,19 @@ class ABadOutput(Scratch):
             "--set", "plane.amplitude={ first = 0.5, last = 12.0, count = 1_000_000 }",
         )  # fmt: skip
 
-    @unittest.skipIf(is_mpich(), "UCX, on which it is built, needs files of megabytes in /dev/shm")
-    def test_a_limit_of_file_sizes_is_a_message_not_a_crash(self):
+    @unittest.skipIf(is_mpich(), "its UCX needs files of megabytes in /dev/shm")
+    def test_a_file_size_limit_causes_a_message_not_a_crash(self):
         result = self.overturn("run", "small.toml", shell_setup="ulimit -f 100")
         self.assert_exit(result, 74, "overturn: ", "small.h5")
         self.assertNotIn("small.h5", self.files())
 
-    def test_info_refuses_what_is_not_there_or_not_ours(self):
+    def test_info_refuses_missing_and_foreign_files(self):
         self.assert_refused(74, ["nowhere.h5"], "info", "nowhere.h5")
         self.assert_refused(74, ["small.toml"], "info", "small.toml")
 
 
 class UnderMpirun(Scratch):
-    """What rank 0 finds wrong is said once, and mpirun returns its exit code."""
+    """Errors found by rank 0 are printed once, and mpirun returns its exit code."""
 
     def test_help_is_printed_once(self):
         result = self.overturn("--help", ranks=3)
@@ -243,7 +243,7 @@ class UnderMpirun(Scratch):
     def test_a_bad_output_ends_all_ranks(self):
         self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/o.h5", ranks=3)
 
-    def test_a_colon_in_the_name_names_no_file_system(self):
+    def test_a_colon_in_the_name_selects_no_file_system(self):
         for ranks in (None, 2):
             if "MPICH" in self.overturn("--version").stdout:
                 self.assert_refused(74, ['ufs:small.h5" has a colon'], "run", "small.toml", "-o",
@@ -253,14 +253,14 @@ class UnderMpirun(Scratch):
                 self.assert_exit(self.overturn("verify", "ufs:small.h5"), 0, "24 of 24 tiles are done")
 
     def test_ranks_that_read_different_jobs_do_not_mix_them(self):
-        # As when a folder is not shared between two hosts: one copy of the job is older.
+        # As with a folder not shared between two hosts: one copy of the job is older.
         setup = 'if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'
         result = self.overturn("run", "small.toml", "-o", "out.h5", ranks=2, shell_setup=setup)
         self.assert_exit(result, 65, "rank 1: long.toml is another job here than on rank 0")
 
 
 class RanksInDifferentFolders(Scratch):
-    """One rank in each of the folders X and Y. The result of another job in Y is to stay."""
+    """One rank in each of the folders X and Y. The result of another job in Y must be kept."""
 
     def setUp(self):
         super().setUp()
@@ -284,7 +284,7 @@ class RanksInDifferentFolders(Scratch):
         self.assertEqual(checksum(self.folder / "Y" / "out.h5"), self.theirs)
 
     def test_are_refused_if_a_path_names_different_files(self):
-        # An absolute path that depends on the process stands for a folder of one host.
+        # An absolute path that depends on the process represents a folder local to a host.
         output = "/proc/self/cwd/out.h5"
         host = socket.gethostname()
         message = (f'"{output}" is not the same file on rank 1 (host {host}) as on rank 0 (host {host}). '
@@ -295,7 +295,7 @@ class RanksInDifferentFolders(Scratch):
         (self.folder / "Y" / "out.h5").unlink()
         self.assert_exit(self.run_in_both(output), 74, message)
 
-    def test_leave_a_file_that_resumes(self):
+    def test_leave_a_file_that_can_be_resumed(self):
         self.assert_exit(self.run_in_both("/proc/self/cwd/out.h5"), 74)
         whole = self.run_in_both("whole.h5")
         self.assert_exit(whole, 0)

@@ -1,4 +1,4 @@
-"""What overturn leaves behind: equal bytes from equal jobs, and nothing lost when it is stopped."""
+"""Output of overturn: equal bytes from equal jobs, and no tile lost when it is stopped."""
 
 import json
 import os
@@ -35,7 +35,7 @@ class AFinishedFile(Scratch):
             with xarray.open_dataset(self.folder / "block.h5", engine=engine) as found:
                 period = found.region.coords["pulse_period"]
                 self.assertEqual(period.attrs["units"], "s")
-                # p = 1.130441 rad/s, as the paper's block has it.
+                # p = 1.130441 rad/s, that of the paper's block.
                 product = (period * found.frequency * 1.130441).values
                 self.assertTrue(np.allclose(product, 2 * np.pi, rtol=1e-6))
                 acceleration = found.region.coords["peak_ground_acceleration"]
@@ -61,7 +61,7 @@ class AFinishedFile(Scratch):
             self.assertTrue(
                 (table["amplitude"].reshape(shape) == found["amplitude"][:][:, None]).all())
 
-    def test_running_again_says_so_and_changes_nothing(self):
+    def test_running_again_reports_a_complete_file_and_changes_nothing(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0, "24 tiles", "60.0 k points")
         before = checksum(self.folder / "small.h5")
         for ranks in (None, 3):
@@ -69,13 +69,13 @@ class AFinishedFile(Scratch):
             self.assert_exit(result, 0, "small.h5 is complete already")
             self.assertEqual(checksum(self.folder / "small.h5"), before)
 
-    def test_of_one_point_is_told_in_the_singular(self):
+    def test_of_one_point_is_described_in_the_singular(self):
         one = ("--set=plane.frequency=3", "--set=plane.amplitude=2", "--set=plane.restitution=0.9")
         self.assert_exit(self.overturn("check", "small.toml", *one), 0, "points 1 in 1 tile")
         self.assert_exit(self.overturn("run", "small.toml", "-o", "one.h5", *one), 0,
                          "one.h5: 1 point in 1 tile; 1 rank,", "computed 1 point in")
 
-    def test_info_tells_what_it_holds(self):
+    def test_info_describes_its_contents(self):
         self.overturn("run", "small.toml")
         result = self.overturn("info", "small.h5")
         self.assert_exit(
@@ -83,7 +83,7 @@ class AFinishedFile(Scratch):
         )
         self.assertNotIn("unfinished", result.stdout)
 
-    def test_the_sidecar_tells_each_ranks_share(self):
+    def test_the_sidecar_contains_each_ranks_share(self):
         self.assert_exit(self.overturn("run", "small.toml", ranks=3), 0, "3 ranks")
         sidecar = json.loads((self.folder / "small.h5.json").read_text())
         self.assertEqual(len(sidecar["ranks"]), 3)
@@ -91,7 +91,7 @@ class AFinishedFile(Scratch):
 
 
 class Check(Scratch):
-    def test_it_tells_the_plane_its_size_and_its_time_and_writes_nothing(self):
+    def test_prints_the_plane_its_size_and_time_and_writes_nothing(self):
         before = self.files()
         result = self.overturn("check", "small.toml")
         self.assert_exit(
@@ -101,13 +101,13 @@ class Check(Scratch):
         self.assertNotIn("window", result.stdout)
         self.assertEqual(self.files(), before)
 
-    def test_it_tells_what_the_window_cuts_off_a_ricker_wavelet(self):
+    def test_prints_how_much_the_window_cuts_off_a_ricker_wavelet(self):
         # |f| at 2 pi, over the peak: 19 exp(-pi^2) and z (z^2 - 3) exp(-z^2/2) / 1.38, z = 2 pi/sqrt 3.
         for pulse, cut in (("symmetric_ricker", "0.097 %"), ("antisymmetric_ricker", "3.7 %")):
             result = self.overturn("check", "small.toml", "--set", f"scene.pulse={pulse}")
             self.assert_exit(result, 0, pulse, cut)
 
-    def test_its_time_grows_with_the_plane(self):
+    def test_estimates_a_time_that_grows_with_the_plane(self):
         def estimate(points):
             counts = [f"plane.{axis}.count={points}" for axis in ("frequency", "amplitude")]
             result = self.overturn("check", "long.toml", "--set", counts[0], "--set", counts[1])
@@ -116,7 +116,7 @@ class Check(Scratch):
             parts = text.split(" ")
             return sum(float(n) * seconds[unit] for n, unit in zip(parts[::2], parts[1::2]))
 
-        # A hundred times as many points; a busy machine is easily wrong by 2, a lost factor by more.
+        # A hundred times as many points; a busy machine may be off by 2, a lost factor by more.
         ratio = estimate(4000) / estimate(400)
         self.assertGreater(ratio, 20)
         self.assertLess(ratio, 500)
@@ -137,7 +137,7 @@ class EqualJobs(Scratch):
             for kernel in ("double", "avx2", "avx512"):
                 output = f"{method}_{kernel}.h5"
                 result = self.overturn(*run, output, "--kernel", kernel)
-                if result.returncode == 2:  # this machine lacks it
+                if result.returncode == 2:  # this machine does not support it
                     self.assert_exit(result, 2, "does not run on this processor")
                     self.assertEqual(kernel, "avx512")
                     continue
@@ -156,13 +156,13 @@ class EqualJobs(Scratch):
         first, second = fields
         self.assertTrue((first["region"] == second["region"]).all())
         self.assertTrue((first["impacts"] == second["impacts"]).all())
-        # 60,000 points, each to within some hundred steps of 1e-10 alpha; F ends at pi/2 exactly.
+        # 60,000 points, each within about a hundred steps of 1e-10 alpha; F ends at pi/2 exactly.
         self.assertLess(abs(first["angle"] - second["angle"]).max(), 1e-7)
         self.assertGreater(abs(first["angle"] - second["angle"]).max(), 0)
 
 
 class SideBySide(Scratch):
-    def test_runs_alone_do_not_disturb_each_other(self):
+    def test_single_rank_runs_do_not_interfere(self):
         runs = [
             subprocess.Popen(
                 [OVERTURN, "run", "small.toml", "-o", f"{i}.h5"], cwd=self.folder,
@@ -176,8 +176,8 @@ class SideBySide(Scratch):
             self.assertNotIn("Error", complaints)
             self.assertEqual(checksum(self.folder / f"{i}.h5"), checksum(self.folder / "0.h5"))
 
-    def test_runs_alone_share_no_folder_of_mpi(self):
-        # A folder made by each and taken away by each is a race; where none can be made, none is.
+    def test_single_rank_runs_share_no_folder_of_mpi(self):
+        # A folder created and removed by each run would be a race; here none can be created.
         self.assert_exit(
             self.overturn("run", "small.toml", shell_setup="export TMPDIR=/dev/null"), 0)
 
@@ -207,28 +207,28 @@ class AnInterruptedRun(Scratch):
         self.addCleanup(process.kill)
         deadline = time.monotonic() + PATIENCE
         while "long.h5" not in self.files() or self.tiles_done() < before + 3:
-            self.assertLess(time.monotonic(), deadline, "no tiles came")
-            self.assertIsNone(process.poll(), "ended before it could be interrupted")
+            self.assertLess(time.monotonic(), deadline, "no tiles were computed")
+            self.assertIsNone(process.poll(), "the run ended before it could be interrupted")
         return process
 
     def wait_for_end(self, pids):
         deadline = time.monotonic() + PATIENCE
         while any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids):
-            self.assertLess(time.monotonic(), deadline, "ranks outlive their launcher")
+            self.assertLess(time.monotonic(), deadline, "ranks outlived their launcher")
             time.sleep(0.05)
 
     def assert_resumes(self, ranks):
-        """With this number of ranks: goes on, ends, and nobody can tell from the bytes."""
+        """Resumes with this number of ranks; the file must equal that of an uninterrupted run."""
         done = self.tiles_done()
         self.assertGreaterEqual(done, 3)
-        self.assertLess(done, 147, "was interrupted too late to show anything")
+        self.assertLess(done, 147, "the run was interrupted too late")
         info = self.overturn("info", "long.h5")
         self.assert_exit(info, 0, f"{done} of 147 done", "overturn run JOB.toml -o long.h5")
         result = self.overturn("run", "long.toml", ranks=ranks)
         self.assert_exit(result, 0, f"going on, {done} of 147 tiles are there")
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
 
-    def test_is_not_disturbed_by_a_second_run_of_the_same_job(self):
+    def test_is_not_affected_by_a_second_run_of_the_same_job(self):
         process = self.start()
         (self.folder / "link.h5").symlink_to("long.h5")
         for name in ("long.h5", "link.h5"):
@@ -255,7 +255,7 @@ class AnInterruptedRun(Scratch):
         self.assert_stopped(process.returncode, output, ranks=3)
         self.assert_resumes(ranks=5)
 
-    def test_stops_alone_on_each_polite_signal(self):
+    def test_stops_without_mpirun_on_each_handled_signal(self):
         signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may have been started by nohup
         for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             process = self.start()
@@ -264,13 +264,13 @@ class AnInterruptedRun(Scratch):
             self.assertEqual(process.returncode, 85, output)
         self.assert_resumes(ranks=None)
 
-    @unittest.skipIf(is_mpich(), "UCX, on which it is built, handles SIGHUP before main() begins")
-    def test_goes_on_without_a_terminal_if_it_was_started_so(self):
+    @unittest.skipIf(is_mpich(), "its UCX handles SIGHUP before main() begins")
+    def test_continues_without_a_terminal_if_sighup_is_ignored(self):
         ignored = "trap '' HUP; (sleep 1; kill -HUP $$) & true"
         self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
 
-    def test_goes_on_when_nobody_reads_what_it_says(self):
-        for ranks in (None,) if is_mpich() else (None, 2):  # its launcher ends by SIGPIPE
+    def test_continues_when_its_output_is_closed(self):
+        for ranks in (None,) if is_mpich() else (None, 2):  # its launcher is terminated by SIGPIPE
             with subprocess.Popen(
                     [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "small.toml"],
                     cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
@@ -281,7 +281,7 @@ class AnInterruptedRun(Scratch):
             self.assert_exit(self.overturn("verify", "small.h5"), 0)
             (self.folder / "small.h5").unlink()
 
-    def test_stops_at_once_while_its_file_is_made(self):
+    def test_stops_at_once_while_its_file_is_created(self):
         command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
                    "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
                    "--set=plane.amplitude.count=32000"]
@@ -293,22 +293,22 @@ class AnInterruptedRun(Scratch):
                     text=True) as process:
                 self.addCleanup(process.kill)
                 self.assertIn("making a file of 1", process.stdout.readline())
-                time.sleep(0.5)  # of the second or two that it takes
+                time.sleep(0.5)  # creation takes one to two seconds
                 process.send_signal(signal.SIGUSR1)
                 sent = time.monotonic()
                 said = process.stdout.readline()
                 while said and "before the file was made" not in said:
                     said = process.stdout.readline()
-                # MPI takes a second or two more to end.
+                # MPI takes another second or two to finalize.
                 self.assertLess(time.monotonic() - sent, 2, said)
                 output, _ = process.communicate(timeout=PATIENCE / 2)
             self.assert_stopped(process.returncode, said + output, ranks)
             self.assertIn("before the file was made", said)
             self.assertEqual(self.files(), before)
 
-    def test_drops_a_tile_that_would_take_minutes(self):
-        # Without loss, these blocks bounce until they have taken all steps there are. One point of
-        # a boundary's scan takes a second or two: it is resolved.
+    def test_abandons_a_tile_that_would_take_minutes(self):
+        # Without loss, these blocks bounce until the limit of steps. One point of the scan of a
+        # boundary takes a second or two because it is resolved.
         slow = ("--set", "plane.restitution.values=[1.0]", "--set=plane.restitution.of=absolute",
                 *(f"--set=plane.{axis}.{end}={value}"
                   for axis, first, last in (("frequency", 0.003, 0.0031),
@@ -350,7 +350,7 @@ class AnInterruptedRun(Scratch):
         process = self.start(ranks=2)
         process.send_signal(signal.SIGUSR1)
         process.communicate(timeout=PATIENCE)
-        # In blocks of 512 bytes: less than the file has already, so that its far end is out of reach.
+        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
         for ranks in (None, 3):
             result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
             self.assert_exit(result, 74, "cannot write tile", "Run the same command again")

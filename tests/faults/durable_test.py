@@ -1,5 +1,5 @@
-"""What --durable brings to the disk, and when. Wants OVERTURN and FAULTY_DISK (the library) in the
-environment."""
+"""Effect of --durable: when files are synced. Requires OVERTURN and FAULTY_DISK (the library) in
+the environment."""
 
 import os
 import pathlib
@@ -19,7 +19,7 @@ class ADurableRun(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def run_job(self, name, *arguments):
-        """How often the file was brought to the disk."""
+        """Returns the number of times that the file was synced."""
         count = self.folder / f"{name}.count"
         subprocess.run([OVERTURN, "run", SMOKE, "-o", name, *arguments], cwd=self.folder,
                        check=True, timeout=60, capture_output=True,
@@ -27,8 +27,8 @@ class ADurableRun(unittest.TestCase):
                                          "FAULTY_FILE": str(self.folder / name)})
         return int(count.read_text().split()[1])
 
-    def test_brings_each_tile_to_the_disk_and_gives_the_same_bytes(self):
-        once = self.run_job("plain.h5")  # when the file is made
+    def test_syncs_each_tile_and_gives_the_same_bytes(self):
+        once = self.run_job("plain.h5")  # when the file is created
         self.assertEqual(self.run_job("durable.h5", "--durable"), once + TILES + 1)
         self.assertEqual((self.folder / "durable.h5").read_bytes(),
                          (self.folder / "plain.h5").read_bytes())

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Kills overturn again and again, and looks whether anything is lost.
+"""Kills overturn repeatedly and checks whether data are lost.
 
     kills.py [--kills N] [--seed S]
 
-Each kill hits a run of 1, 2 or 4 ranks that makes or resumes a file: at a random write to the file
-(also those that make it, those between a tile's values and its checksum, and in half of the cases
-after half of the bytes), or at a random time a rank, mpirun, or all at once. After each, what is
-marked as done must be right, byte for byte, and each file that becomes complete must be the one of
-an undisturbed run. Wants OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the environment."""
+Each kill hits a run of 1, 2 or 4 ranks that creates or resumes a file: at a random write to the
+file (including writes that create it and those between a tile's values and its checksum; in half of
+the cases after half of the bytes), or a rank, mpirun, or all processes at a random time. After each
+kill, tiles marked as done must be correct, byte for byte, and each completed file must equal that
+of an undisturbed run. Requires OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the
+environment."""
 
 import argparse
 import collections
@@ -48,7 +49,7 @@ fields = {list(FIELDS)}
 
 
 class Loss(Exception):
-    """What must not happen."""
+    """Lost data or hanging processes."""
 
 
 class Runs:
@@ -67,8 +68,8 @@ class Runs:
         with h5py.File(self.folder / "whole.h5") as file:
             self.values = {name: file[name][0] for name in FIELDS}
             self.tiles = len(file["checksum"])
-        # Each tile is of whole rows of its chunk, and takes a write per field and one for its
-        # checksum; the others make the file.
+        # A tile consists of whole rows of its chunk and takes a write per field and one for its
+        # checksum; the other writes create the file.
         self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
         self.writes = self.count_writes()
 
@@ -79,7 +80,7 @@ class Runs:
         done = subprocess.run(self.command(ranks, output), cwd=self.folder, timeout=PATIENCE,
                               env=ENVIRONMENT | more, capture_output=True, text=True)
         if done.returncode:
-            raise Loss(f"a run could not be resumed, with exit code {done.returncode}: {done.stderr}")
+            raise Loss(f"a run could not be resumed, exit code {done.returncode}: {done.stderr}")
 
     def count_writes(self):
         count = self.folder / "count"
@@ -93,7 +94,7 @@ class Runs:
                                 stderr=subprocess.DEVNULL, start_new_session=True)
 
     def kill_at_a_write(self, ranks):
-        """On one of the ranks; three times in ten while the file is made, which takes 0.02 s."""
+        """Kills one rank; three times in ten while the file is created, which takes 0.02 s."""
         rank = self.chance.randrange(ranks)
         making = self.writes - self.writes_of_tiles
         most = making if self.chance.random() < 0.3 else making + self.writes_of_tiles // ranks
@@ -102,7 +103,7 @@ class Runs:
                              FAULTY_RANK=str(rank), KILL_TORN=str(int(torn)),
                              KILL_AT_WRITE=str(self.chance.randint(1, most)))
         self.wait_for_end(process)
-        return "in the midst of a write" if torn else "just before a write"
+        return "during a write" if torn else "just before a write"
 
     def kill_at_a_time(self, ranks):
         self.torn = False
@@ -118,18 +119,19 @@ class Runs:
             try:
                 os.kill(victim, signal.SIGKILL)
             except ProcessLookupError:
-                pass  # it had ended
+                pass  # already ended
         self.wait_for_end(process)
         return f"{what} at a random time"
 
     def wait_for_end(self, process):
-        """Of all that belongs to it: ranks outlive an mpirun that was killed by a moment. And mpirun
-        sometimes hangs if a rank dies while it starts, with no rank left: that is mpirun's."""
+        """Waits for all processes of the run: ranks may outlive a killed mpirun for a moment.
+        mpirun may hang without any rank if a rank dies during start-up: this is a fault of
+        mpirun."""
         deadline = time.monotonic() + PATIENCE
         while process.poll() is None:
             half_time = time.monotonic() > deadline - PATIENCE / 2
             if half_time and not any(map(is_alive, children(process.pid))):
-                self.counts["  an mpirun that hung, without ranks"] += 1
+                self.counts["  mpirun hung without ranks"] += 1
                 process.kill()
             if time.monotonic() > deadline:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -138,14 +140,14 @@ class Runs:
         while session_is_alive(process.pid):
             if time.monotonic() > deadline:
                 os.killpg(process.pid, signal.SIGKILL)
-                raise Loss("ranks outlive mpirun")
+                raise Loss("ranks outlived mpirun")
             time.sleep(0.01)
         self.last = process.returncode
 
     def look(self):
-        """At what the kill has left; returns how far the file is."""
+        """Checks the file after a kill; returns its state."""
         if not self.file.exists():
-            return "before there was a file"
+            return "before the file existed"
         verdict = subprocess.run([OVERTURN, "verify", self.file], capture_output=True, text=True,
                                  timeout=PATIENCE)
         self.note_torn_checksums(verdict)
@@ -156,12 +158,12 @@ class Runs:
             for name in FIELDS:
                 place = self.place(tile)
                 if stored[name][place].tobytes() != self.values[name][place].tobytes():
-                    raise Loss(f"tile {tile} is marked as done, and its {name} is wrong")
-        return "with all tiles there" if len(done) == self.tiles else "between the tiles"
+                    raise Loss(f"tile {tile} is marked as done, but its {name} is wrong")
+        return "with all tiles done" if len(done) == self.tiles else "between the tiles"
 
     def note_torn_checksums(self, verdict):
-        """Half of a checksum is no mark: verify must find it. It stays until a run has come so far
-        as to look for it."""
+        """A partly written checksum must be reported by verify. It remains until a run has
+        verified the tile."""
         found = re.search(r"by number ([\d, ]+)\.", verdict.stderr)
         damaged = set(map(int, found[1].split(","))) if found else set()
         new = damaged - self.torn_checksums
@@ -179,7 +181,7 @@ class Runs:
     def finish(self):
         self.run_undisturbed(self.file.name, self.chance.choice((1, 2, 3)))
         if self.file.read_bytes() != self.whole:
-            raise Loss("the resumed file is not that of an undisturbed run")
+            raise Loss("the resumed file differs from that of an undisturbed run")
         left = {path.name for path in self.folder.iterdir()} & {"killed.h5.part", "killed.h5.lock"}
         if left:
             raise Loss(f"left behind: {left}")
@@ -192,7 +194,7 @@ class Runs:
         way = self.chance.choice((self.kill_at_a_write, self.kill_at_a_time))(ranks)
         where = self.look()
         if self.last == 0:
-            self.counts["runs that ended before"] += 1
+            self.counts["runs that ended before the kill"] += 1
         else:
             self.counts["kills"] += 1
             self.counts[f"  {way}"] += 1
@@ -213,7 +215,7 @@ def state_and_session(pid):
     try:
         after_name = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
-        return "Z", 0  # it has just ended
+        return "Z", 0  # already ended
     return after_name[0], int(after_name[3])
 
 

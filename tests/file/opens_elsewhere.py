@@ -1,6 +1,6 @@
-"""Result files as others read them: xarray with both engines, h5py, netCDF4, ncdump.
+"""Result files read by other libraries: xarray with both engines, h5py, netCDF4, ncdump.
 
-Takes the program write_sample from the environment variable WRITE_SAMPLE and mpirun from MPIEXEC.
+Requires WRITE_SAMPLE (the program write_sample) and MPIEXEC (mpirun) in the environment.
 Every warning is an error.
 """
 
@@ -28,12 +28,12 @@ def write_sample(*arguments, ranks=2):
 
 
 def position():
-    """The number of each point, frequency counting fastest."""
+    """Returns the number of each point, frequency varying fastest."""
     return np.arange(np.prod(list(SHAPE.values()))).reshape(list(SHAPE.values()))
 
 
 class Sample(unittest.TestCase):
-    """Makes a finished and an unfinished file, once for all tests."""
+    """Creates a finished and an unfinished file, once for all tests."""
 
     @classmethod
     def setUpClass(cls):
@@ -129,7 +129,7 @@ class TestXarray(Sample):
                 self.assertEqual(np.asarray(dataset[name].attrs[flags]).dtype, dataset[name].dtype)
         self.in_every_engine(self.finished, check)
 
-    def test_sees_nan_and_codes_where_nothing_is_computed(self):
+    def test_reads_nan_and_codes_in_tiles_not_computed(self):
         def check(dataset):
             missing = np.isnan(dataset.angle.values)
             self.assertEqual((~missing).sum(), 2 * 4 * 4)  # one tile of each rank
@@ -140,7 +140,7 @@ class TestXarray(Sample):
             self.assertEqual((dataset.checksum.values != 0).sum(), 2)
         self.in_every_engine(self.unfinished, check)
 
-    def test_has_the_job_and_where_the_file_comes_from(self):
+    def test_has_the_job_and_the_provenance(self):
         def check(dataset):
             self.assertEqual(dataset.attrs["Conventions"], "CF-1.8")
             self.assertEqual(dataset.attrs["title"], "Sample: r = r_max, α = 10°")
@@ -154,7 +154,7 @@ class TestXarray(Sample):
                              'output.fields=["region"]')
         self.in_every_engine(self.finished, check)
 
-    def test_writes_it_out_again(self):
+    def test_writes_the_dataset_again(self):
         def check(dataset):
             copy = os.path.join(self.folder.name, "copy.nc")
             dataset.to_netcdf(copy, engine="netcdf4")
@@ -164,7 +164,7 @@ class TestXarray(Sample):
 
 
 class TestOtherReaders(Sample):
-    def test_h5py_sees_dimension_scales(self):
+    def test_h5py_finds_dimension_scales(self):
         with h5py.File(self.finished) as file:
             for name in FIELDS:
                 self.assertEqual([scale.keys()[0] for scale in file[name].dims], list(SHAPE))
@@ -172,7 +172,7 @@ class TestOtherReaders(Sample):
             self.assertEqual(file["job_resolved"][()].tobytes().decode()[:5], "pulse")
             self.assertEqual(file["angle"].chunks, (1, 1, 4, 4))
 
-    def test_netcdf4_masks_only_what_is_not_computed(self):
+    def test_netcdf4_masks_only_points_not_computed(self):
         with netCDF4.Dataset(self.unfinished) as file:
             self.assertEqual(file["angle"].dimensions, tuple(SHAPE))
             for name in ("angle", "region"):

@@ -1,7 +1,7 @@
-"""What `cmake --install` leaves behind: a program and tools that run, a manual, and headers from which
-a project of somebody else's computes what the program computes, to the last bit.
+"""Contents of `cmake --install`: a program and tools that run, a manual, and headers with which
+another project computes the same results as the program, to the last bit.
 
-CMAKE, BUILD (the folder that is installed), CXX, CMAKE_GENERATOR and MPIEXEC come from the
+CMAKE, BUILD (the folder that is installed), CXX, CMAKE_GENERATOR and MPIEXEC must be set in the
 environment."""
 
 import os
@@ -16,7 +16,7 @@ import h5py
 
 HERE = pathlib.Path(__file__).resolve().parent
 SLENDERNESS, RESTITUTION, FREQUENCY = 0.17457163, 0.9, 3.0
-AMPLITUDES = (2.0, 3.5, 4.0)  # safe and unsafe, none of them falls during the pulse
+AMPLITUDES = (2.0, 3.5, 4.0)  # safe and unsafe; none overturns during the pulse
 JOB = f"""
 [scene]
 pulse = "one_sine"
@@ -44,16 +44,16 @@ class AnInstallation(unittest.TestCase):
         run(os.environ["MPIEXEC"], "-n", "2", cls.overturn, "run",
             cls.folder / "job.toml", "-o", cls.spectrum)
 
-    def test_the_program_tells_its_version(self):
+    def test_the_program_prints_its_version(self):
         self.assertRegex(run(self.overturn, "--version"), r"^overturn \d+\.\d+\.\d+ ")
 
-    def test_its_jobs_are_good(self):
+    def test_its_jobs_are_valid(self):
         jobs = sorted((self.prefix / "share/overturn/jobs").glob("*.toml"))
         self.assertGreater(len(jobs), 5)
         for job in jobs:
             run(self.overturn, "check", job)
 
-    def test_another_project_computes_what_the_program_computes(self):
+    def test_another_project_computes_the_same_results_as_the_program(self):
         build = self.folder / "consumer"
         run(os.environ["CMAKE"], "-S", HERE / "consumer", "-B", build, "-DCMAKE_BUILD_TYPE=Release",
             "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -Wall -Werror", f"-DCMAKE_PREFIX_PATH={self.prefix}")
@@ -68,7 +68,7 @@ class AnInstallation(unittest.TestCase):
                 regions.add(int(stored[0]))
         self.assertGreater(len(regions), 1)
 
-    def test_every_tool_is_a_command_that_the_manual_names(self):
+    def test_every_tool_is_a_command_listed_in_the_manual(self):
         manual = (pathlib.Path(os.environ["BUILD"]) / "src/commands/overturn.1").read_text()
         tools = sorted((self.prefix / "bin").glob("overturn-*"))
         self.assertGreater(len(tools), 5)
@@ -77,7 +77,7 @@ class AnInstallation(unittest.TestCase):
             self.assertIn(tool.name.replace("-", "\\-"), manual)
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 
-    def test_a_tool_draws_what_the_program_computed(self):
+    def test_a_tool_plots_results_of_the_program(self):
         history, picture = self.folder / "history.h5", self.folder / "history.png"
         run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
         run(self.prefix / "bin/overturn-plot-history", history, "-o", picture)
@@ -92,7 +92,7 @@ class AnInstallation(unittest.TestCase):
         with h5py.File(self.folder / "both.h5") as file:
             self.assertEqual(list(file["slenderness"]), [0.1, 0.2])
 
-    @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "there is no man here")
+    @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "no man or groff")
     def test_man_shows_the_manual_without_a_warning(self):
         page = self.prefix / "share/man/man1/overturn.1.gz"
         shown = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True,
@@ -120,13 +120,13 @@ class AnInstallation(unittest.TestCase):
 
 
 def run(*command):
-    """With the Python of the tests as the first on the PATH, which the tools ask for."""
+    """Runs a command with the Python of the tests first on the PATH, where the tools find it."""
     path = os.pathsep.join([os.path.dirname(sys.executable), os.environ["PATH"]])
     done = subprocess.run([str(word) for word in command], text=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           env={**os.environ, "PATH": path})
     if done.returncode != 0:
-        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stdout}")
+        raise AssertionError(f"{command} exited with {done.returncode}:\n{done.stdout}")
     return done.stdout
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """kernels_share_nothing.py NM OBJECT...: a kernel compiled for AVX2 or AVX-512 must not define a
-function that the linker could pick for the rest of the program, which runs on processors without
-them: every weak function carries the name of an instruction set. Constants have no instructions, and
-may be shared (kinds V and u)."""
+function that the linker could choose for the rest of the program, which runs on processors without
+these instructions: every weak function must contain the name of an instruction set. Constants
+contain no instructions and may be shared (kinds V and u)."""
 
 import subprocess
 import sys

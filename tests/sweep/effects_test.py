@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Effects cost nothing unless asked for: the leanest scene, which asks for the region alone, pays for
-nothing else. Counts of instructions are exact and repeatable; each is held against what the same
-build takes by hand, or for something else, so that none depends on the compiler.
+"""Options cost nothing unless requested: the leanest scene, which computes only the region, pays
+for nothing else. Instruction counts are exact and repeatable; each is compared with that of the
+same build when it calls the kernel directly, or for another scene, so that none depends on the
+compiler.
 
-What makes these fail, each tried:
-  TheLeanestStage   a record that is a flag at run time, looked at with each impact or in each step; a
+Changes that make these tests fail, each tried:
+  TheLeanestStage   a record that is a flag at run time, checked at each impact or in each step; a
                     record that every scene keeps. (One outside of any `if` stops the build.)
-  TheLeanestScene   the sweep runs the kernel that counts impacts, or works out a field, in any scene
+  TheLeanestScene   the sweep runs the kernel that counts impacts, or computes a field, in any scene
                     or with every region, whether it keeps the values or not; one kernel for both
-  EveryField        a field that is worked out for the region's sake; all fields in every scene;
-                    memory for what was not asked for
-  Choices           the linear theory, or the rectangular pulse, that works out the sine of the others
-What regions() and margins() of a kernel do inside is theirs."""
+  EveryField        a field that is computed for the region; all fields in every scene; memory for
+                    fields that were not requested
+  Choices           the linear theory, or the rectangular pulse, computes the sine of the others
+The cost of regions() and margins() inside a kernel is not tested."""
 
 import functools
 import os
@@ -24,16 +25,16 @@ sys.path.insert(0, os.environ["BENCHMARKS"])
 import effects  # noqa: E402
 
 SIDE = 24
-# Method: a loose and a fine tolerance. Of Taylor's both are within the reach of order 20, which
-# the program takes by hand.
+# Method: a loose and a fine tolerance. Both tolerances of Taylor are within the range of order 20,
+# which the benchmark program uses when it calls the kernel directly.
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
-# Per point: the heap also takes the few numbers of a row, and lists of fields.
+# Per point: the heap also holds the few numbers of a row, and lists of fields.
 BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1,
-                    "error": 8, "impacts": 8 + 2, "steps": 8 + 4,  # as found and as stored
+                    "error": 8, "impacts": 8 + 2, "steps": 8 + 4,  # as computed and as stored
                     "peak": 8 + 8, "fall_time": 8 + 8}
 BYTES_BESIDE = 0.25
-# Impacts, errors and peaks come from kernels of their own. The compiler may happen to make the one that
-# counts impacts cheaper than the one without: it has no price that a test could rely on.
+# Impacts, errors and peaks have kernels of their own. The compiler may make the one that counts
+# impacts cheaper than the one without: it has no price that a test could rely on.
 PRICED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak")]
 
 
@@ -52,7 +53,7 @@ def by_hand(what, method="rk45", side=SIDE, tolerance="1e-5"):
 
 
 def price(dearer, cheaper, of="instructions"):
-    """Per point."""
+    """Returns the difference per point."""
     return (dearer[of] - cheaper[of]) / dearer["points"]
 
 
@@ -61,14 +62,14 @@ def price_of(field):
 
 
 def waste(fields, what):
-    """What the sweep does per point beside what it takes by hand; on a larger tile, on which what is
-    done once for all counts little."""
+    """Returns what the sweep needs per point in addition to the direct call; on a larger tile, on
+    which one-time costs are small."""
     large = {"side": 64, "tolerance": "1e-3"}
     return price(sweep(*fields, **large), by_hand(what, **large))
 
 
 class TheLeanestStage(unittest.TestCase):
-    def test_is_the_machine_code_that_it_would_be_if_nothing_could_be_recorded(self):
+    def test_has_the_same_machine_code_as_without_records(self):
         def code(path):
             listing = subprocess.run([os.environ["OBJDUMP"], "-d", "--no-show-raw-insn", path],
                                      check=True, capture_output=True, text=True).stdout
@@ -79,14 +80,14 @@ class TheLeanestStage(unittest.TestCase):
         without = code(os.environ["LEAN_STAGE_WITHOUT_RECORDS"])
         differing = next(((a, b) for a, b in zip(lean, without) if a != b), None)
         self.assertTrue(lean == without,
-                        f"{len(lean)} lines of machine code, {len(without)} if nothing could be "
-                        f"recorded; the first that differ: {differing}")
+                        f"{len(lean)} lines of machine code, {len(without)} without records; "
+                        f"the first that differ: {differing}")
 
 
 class TheLeanestScene(unittest.TestCase):
     def test_runs_the_kernel_that_records_nothing(self):
-        # What stands around the kernel does not depend on the tolerance: the difference between two
-        # tolerances is the kernel's own, to the instruction.
+        # The cost around the kernel does not depend on the tolerance: the difference between two
+        # tolerances is that of the kernel, to the instruction.
         for method, (loose, fine) in TOLERANCES.items():
             with self.subTest(method=method):
                 def kernel_alone(run):
@@ -95,34 +96,34 @@ class TheLeanestScene(unittest.TestCase):
 
                 lean = kernel_alone(functools.partial(by_hand, "nothing", method))
                 counting = kernel_alone(functools.partial(by_hand, "impacts", method))
-                self.assertNotEqual(lean, counting, "the two kernels cannot be told apart")
+                self.assertNotEqual(lean, counting, "the two kernels cannot be distinguished")
                 for fields in (("region",), ("region", "angle", "velocity", "margin", "status")):
                     swept = kernel_alone(functools.partial(sweep, *fields, method=method))
                     self.assertEqual(swept, lean, fields)
 
-    def test_does_nothing_beside_its_kernel_and_its_region(self):
+    def test_computes_only_its_kernel_and_its_region(self):
         cheapest = min(price_of(field) for field in PRICED)
         self.assertLess(waste((), "nothing"), 0.5 * cheapest)
         self.assertLess(waste(("region",), "region"), 0.5 * cheapest)
 
-    def test_takes_no_memory_beside_end_states_and_regions(self):
+    def test_allocates_only_end_states_and_regions(self):
         self.assertLess(price(sweep(), by_hand("nothing"), "bytes"), BYTES_BESIDE)
         self.assertAlmostEqual(price(sweep("region"), sweep(), "bytes"), 1, delta=BYTES_BESIDE)
 
 
 class EveryField(unittest.TestCase):
-    def test_is_paid_for_where_it_is_asked_for_and_nowhere_else(self):
+    def test_costs_instructions_only_where_it_is_requested(self):
         for field in PRICED:
             with self.subTest(field=field):
                 other = "angle" if field == "status" else "status"
                 other = "angle" if field == "status" else "status"
                 beside_other = price(sweep(other, field), sweep(other))
-                # What the region works out anyway would be cheaper beside it, and what is worked
-                # out in any case would cost nothing at all.
+                # A field that the region computes anyway would be cheaper together with it, and a
+                # field computed in any case would cost nothing.
                 self.assertGreater(beside_other, 2 * waste((), "nothing"))
                 self.assertAlmostEqual(price_of(field), beside_other, delta=0.1 * beside_other)
 
-    def test_takes_its_own_memory(self):
+    def test_allocates_its_own_memory(self):
         for field in effects.FIELDS:
             with self.subTest(field=field):
                 self.assertAlmostEqual(price(sweep("region", field), sweep("region"), "bytes"),
@@ -130,13 +131,13 @@ class EveryField(unittest.TestCase):
 
 
 class Choices(unittest.TestCase):
-    # In instructions, the linear theory takes 0.70 of what the nonlinear one takes, and 0.90 if it
-    # works out the sine as well; the rectangular pulse 0.57 of the half sine, and 0.78.
-    def test_the_linear_theory_does_not_pay_for_the_sine_of_the_tilt(self):
+    # In instructions, the linear theory takes 0.70 of the nonlinear one, and 0.90 if it also
+    # computes the sine; the rectangular pulse takes 0.57 of the half sine, and 0.78.
+    def test_the_linear_theory_does_not_compute_the_sine_of_the_tilt(self):
         linear = sweep("region", theory="linear", tolerance="1e-6")["instructions"]
         self.assertLess(linear, 0.8 * sweep("region", tolerance="1e-6")["instructions"])
 
-    def test_a_constant_push_does_not_pay_for_the_sine_of_the_phase(self):
+    def test_a_constant_push_does_not_compute_the_sine_of_the_phase(self):
         rectangular = sweep("region", pulse="rectangular", tolerance="1e-6")["instructions"]
         half_sine = sweep("region", pulse="half_sine", tolerance="1e-6")["instructions"]
         self.assertLess(rectangular, 0.7 * half_sine)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""without_records.py RECORDS HEADER OUTPUT: the header of the forced stage, as if nothing could be
-recorded on the way: every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition
-names such a member of struct Records is cut out. Each must have one. Line numbers stay."""
+"""without_records.py RECORDS HEADER OUTPUT: writes the header of the forced stage without records:
+every block `if (... name ...) { ... }` or `if constexpr (...)` whose condition names such a member
+of struct Records is removed. Each member must have one. Line numbers are kept."""
 
 import pathlib
 import re
@@ -14,7 +14,7 @@ def end_of_block(text, opening):
         depth += {"{": 1, "}": -1}.get(text[position], 0)
         if depth == 0:
             return position + 1
-    sys.exit("without_records: a brace is never closed")
+    sys.exit("without_records: missing closing brace")
 
 
 def without(text, member):
@@ -25,8 +25,8 @@ def without(text, member):
         text = text[:found.start()] + "\n" * text[found.start():end].count("\n") + text[end:]
         cuts += 1
     if not cuts:
-        sys.exit(f"without_records: no block records {member}. What is recorded has to stand in an "
-                 f"\"if constexpr (records.{member})\"")
+        sys.exit(f"without_records: no block records {member}. Records must be in an "
+                 f"\"if constexpr (records.{member})\" block")
     return text
 
 
@@ -36,7 +36,7 @@ def main():
     members = re.search(r"// Recorded on the way(.*?)// Known at the end", records, re.DOTALL)
     names = re.findall(r"bool (\w+)", members.group(1)) if members else []
     if not names:
-        sys.exit("without_records: no members that are recorded on the way are found")
+        sys.exit("without_records: found no members that are recorded on the way")
     for name in names:
         text = without(text, name)
     pathlib.Path(sys.argv[3]).write_text(text)

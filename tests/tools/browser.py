@@ -1,4 +1,4 @@
-"""Chromium without a window, led through its DevTools protocol: JSON over two pipes."""
+"""Headless Chromium, controlled by its DevTools protocol: JSON over two pipes."""
 
 import collections
 import fcntl
@@ -19,11 +19,11 @@ OPTIONS = ("--headless", "--remote-debugging-pipe", "--disable-gpu", "--disable-
 
 
 class Failure(Exception):
-    """What the browser or the page complains about."""
+    """An error of the browser or the page."""
 
 
 def pipe():
-    """Both ends above the numbers that the browser gets them under."""
+    """Returns a pipe whose descriptors are above those passed to the browser."""
     ends = os.pipe()
     far = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in ends]
     for end in ends:
@@ -32,7 +32,7 @@ def pipe():
 
 
 class Browser:
-    """One page in a browser of its own, with a profile that is thrown away."""
+    """One page in a separate browser with a temporary profile."""
 
     def __init__(self, width=1280, height=900):
         self.profile = tempfile.TemporaryDirectory(prefix="overturn-test-",
@@ -42,7 +42,7 @@ class Browser:
         self.unread = b""
         its_input, self.requests = pipe()
         self.answers, its_output = pipe()
-        # It reads from 3 and writes to 4. As root it has no sandbox.
+        # It reads from 3 and writes to 4. As root it runs without a sandbox.
         self.process = subprocess.Popen(
             ["bash", "-c", 'exec "${@:3}" 3<&"$1" 4>&"$2"', "browser", str(its_input),
              str(its_output), CHROMIUM, *OPTIONS, *(["--no-sandbox"] if os.geteuid() == 0 else []),
@@ -64,7 +64,7 @@ class Browser:
             raise
 
     def close(self):
-        """Asks it to end, and sees to it, with all processes that it has started."""
+        """Closes the browser and ends all processes that it has started."""
         try:
             self.session = None
             self.ask("Browser.close")
@@ -81,7 +81,7 @@ class Browser:
         self.profile.cleanup()
 
     def ask(self, method, **parameters):
-        """The answer; events that come before it are kept."""
+        """Returns the answer; events received before it are stored."""
         number = next(self.numbers)
         message = {"id": number, "method": method, "params": parameters}
         if self.session:
@@ -122,11 +122,11 @@ class Browser:
         return answer["result"].get("value")
 
     def wait(self, expression, patience=PATIENCE):
-        """Until it is true."""
+        """Waits until the expression is true."""
         deadline = time.monotonic() + patience
         while not self.evaluate(f"Boolean({expression})"):
             if time.monotonic() > deadline:
-                raise Failure(f"never true: {expression}")
+                raise Failure(f"did not become true: {expression}")
             time.sleep(0.02)
 
     def move(self, x, y):
@@ -137,7 +137,7 @@ class Browser:
             self.ask("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
     def tap(self, x, y):
-        """With a finger."""
+        """Touches the screen."""
         self.ask("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
         self.ask("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
 
@@ -146,5 +146,5 @@ class Browser:
             self.ask("Input.dispatchKeyEvent", type=kind, key=key, code=key, modifiers=8 * shift)
 
     def screenshot(self):
-        """PNG, in base64."""
+        """Returns a PNG in base64."""
         return self.ask("Page.captureScreenshot", format="png")["data"]

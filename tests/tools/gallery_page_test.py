@@ -1,8 +1,8 @@
-"""The page of tools/paper/gallery in a browser: what is on it, and what it tells of a point.
+"""The page of tools/paper/gallery in a browser: its contents and its readout of points.
 
-Wants OVERTURN (the binary) in the environment, and CHROMIUM, if it is not chromium on the PATH.
-PICTURES names the folder of a gallery at 60 x 60 points that gallery_test.py has left; without it
-one is made.
+Requires OVERTURN (the binary) in the environment, and CHROMIUM, if it is not chromium on the PATH.
+PICTURES is the folder of a gallery at 60 x 60 points left by gallery_test.py; without it one is
+created.
 """
 
 import json
@@ -24,7 +24,7 @@ from tool import TOOLS, run_tool
 CHECKOUT = TOOLS.parent
 PANELS = "overturn:panels"
 HINT = "Move over the spectrum, tap it, or use the arrow keys."
-SPECTRA = {"07a": "7b_and_8", "14b": "15b"}  # and where they land
+SPECTRA = {"07a": "7b_and_8", "14b": "15b"}  # and the figures of their end states
 
 
 class TestThePage(unittest.TestCase):
@@ -45,16 +45,16 @@ class TestThePage(unittest.TestCase):
         self.browser.open(self.pictures / "index.html")
         self.browser.events.clear()
 
-    # What a reader does.
+    # Actions of a reader.
 
     def look_at(self, figure):
-        """Its picture comes into sight; where that is, and its panels."""
+        """Scrolls to the picture of a figure; returns its box and reads its panels."""
         self.figure = f"document.getElementById('figure_{figure}')"
         self.picture = f"{self.figure}.querySelector('.picture')"
         self.browser.evaluate(f"{self.picture}.scrollIntoView({{block: 'center'}})")
         box = self.browser.evaluate(f"{self.picture}.getBoundingClientRect().toJSON()")
         self.assertGreater(box["top"], 0)
-        self.assertLess(box["bottom"], 1000 - 80)  # what tells of the point is below it
+        self.assertLess(box["bottom"], 1000 - 80)  # the readout is below it
         path = self.pictures / self.browser.evaluate(
             f"{self.figure}.querySelector('.files a').getAttribute('href')")
         self.image = Image.open(path)
@@ -63,7 +63,7 @@ class TestThePage(unittest.TestCase):
         return box
 
     def place_of_cell(self, row, column, aside=0.0):
-        """In shares of the picture; aside is in cells."""
+        """Returns the position in fractions of the picture; aside is in cells."""
         panel = self.panels[0]
         across, up = (column + 0.5 + aside) / POINTS, (row + 0.5 + aside) / POINTS
         return (panel["left"] + across * (panel["right"] - panel["left"]),
@@ -76,8 +76,8 @@ class TestThePage(unittest.TestCase):
         return self.image.getpixel((int(place[0] * self.image.width),
                                     int(place[1] * self.image.height)))
 
-    def assert_tells(self, words):
-        """Soon: it answers after the event, and has to unpack the spectrum first."""
+    def assert_shows(self, words):
+        """Waits for the readout: it follows the event, after the spectrum is unpacked."""
         readout = f"{self.figure}.querySelector('.readout').textContent"
         try:
             self.browser.wait(f"{readout} === {json.dumps(words)}", patience=10)
@@ -89,7 +89,7 @@ class TestThePage(unittest.TestCase):
             f"[...{self.figure}.querySelectorAll('.mark')].map((mark) => "
             "[parseFloat(mark.style.left) / 100, parseFloat(mark.style.top) / 100])")
 
-    # What the page has to do.
+    # Behaviour of the page.
 
     def test_shows_every_figure_with_words_files_and_commands(self):
         figures = self.browser.evaluate("""[...document.querySelectorAll("article")].map((one) => ({
@@ -115,12 +115,12 @@ class TestThePage(unittest.TestCase):
         self.addCleanup(self.browser.resize, 1280, 1000)
         self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 420)
 
-    def test_leads_from_its_contents_to_every_figure(self):
+    def test_links_its_contents_to_every_figure(self):
         lost = self.browser.evaluate("""[...document.querySelectorAll("nav a")]
             .filter((link) => !document.querySelector(link.getAttribute("href"))).length""")
         self.assertEqual(lost, 0)
 
-    def test_asks_for_no_other_file_and_complains_of_nothing(self):
+    def test_loads_no_other_file_and_logs_no_error(self):
         self.browser.open(self.pictures / "index.html")
         for figure in ("7a", *SPECTRA.values()):
             box = self.look_at(figure)
@@ -135,15 +135,15 @@ class TestThePage(unittest.TestCase):
         for event in ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Log.entryAdded"):
             self.assertEqual(self.browser.events[event], [])
 
-    def test_tells_what_the_file_holds_at_the_point_under_the_pointer(self):
+    def test_shows_the_values_of_the_point_under_the_pointer(self):
         for figure, spectrum in self.spectra.items():
             box = self.look_at(figure.lstrip("0"))
             for point in spectrum.one_of_each_region():
                 with self.subTest(figure, point=point):
                     self.move_to(box, self.place_of_cell(*point))
-                    self.assert_tells(spectrum.words(*point))
+                    self.assert_shows(spectrum.words(*point))
 
-    def test_tells_the_region_whose_colour_is_under_the_pointer(self):
+    def test_shows_the_region_whose_colour_is_under_the_pointer(self):
         draw = random.Random(1)
         for figure, spectrum in self.spectra.items():
             box = self.look_at(figure.lstrip("0"))
@@ -151,14 +151,14 @@ class TestThePage(unittest.TestCase):
             for point in draw.sample(spectrum.borders(), 60):
                 place = self.place_of_cell(*point, aside=draw.choice((-0.4, 0.4)))
                 self.move_to(box, place)
-                self.assert_tells(spectrum.words(*point))
+                self.assert_shows(spectrum.words(*point))
                 colour = self.colour_at(place)
-                if colour in COLOURS.values():  # no label is in the way
+                if colour in COLOURS.values():  # no label covers it
                     self.assertEqual(colour, COLOURS[spectrum.region[point]])
                     coloured += 1
             self.assertGreater(coloured, 50)
 
-    def test_marks_where_the_point_lands(self):
+    def test_marks_the_end_state_of_the_point(self):
         draw = random.Random(2)
         for figure, landing in SPECTRA.items():
             spectrum = self.spectra[figure]
@@ -167,7 +167,7 @@ class TestThePage(unittest.TestCase):
             for _ in range(60):
                 point = draw.randrange(POINTS), draw.randrange(POINTS)
                 self.move_to(box, self.place_of_cell(*point))
-                self.assert_tells(spectrum.words(*point))
+                self.assert_shows(spectrum.words(*point))
                 on_the_plane, *landed = self.marks()
                 for mark, wanted in zip(on_the_plane, self.place_of_cell(*point)):
                     self.assertAlmostEqual(mark, wanted, delta=1e-5)
@@ -175,8 +175,8 @@ class TestThePage(unittest.TestCase):
                     self.assertEqual(landed, [])
                     continue
                 self.assertIn(len(landed), (1, 2))
-                # The whole view has them all. Few share a pixel there, where it has the colour of
-                # the point, unless a line or a name is drawn over it.
+                # The full view contains all end states. Few share a pixel there, and it has the
+                # colour of the point, unless a line or a name covers it.
                 own = (255 * (point[1] + 0.5) / POINTS, 0, 255 * (point[0] + 0.5) / POINTS)
                 marked += 1
                 seen += any(math.dist(self.colour_at(self.beside(landed[-1], dx, dy)), own) < 12
@@ -187,24 +187,24 @@ class TestThePage(unittest.TestCase):
     def beside(self, place, dx, dy):
         return place[0] + dx / self.image.width, place[1] + dy / self.image.height
 
-    def test_marks_the_point_of_a_spectrum_in_its_landing_picture_too(self):
+    def test_marks_the_point_of_a_spectrum_in_its_end_state_picture_too(self):
         box = self.look_at("7a")
         self.move_to(box, self.place_of_cell(30, 30))
-        self.assert_tells(self.spectra["07a"].words(30, 30))
+        self.assert_shows(self.spectra["07a"].words(30, 30))
         self.assertEqual(len(self.marks()), 1)
         self.figure = "document.getElementById('figure_7b_and_8')"
         self.assertEqual(len(self.marks()), 3)
 
-    def test_tells_nothing_outside_of_the_axes(self):
+    def test_shows_no_point_outside_of_the_axes(self):
         box = self.look_at("7a")
         inside = self.spectra["07a"].words(30, 30)
         panel = self.panels[0]
         for place in ((panel["left"] - 0.01, 0.5), (panel["right"] + 0.01, 0.5),
                       (0.4, panel["top"] - 0.01), (0.4, panel["bottom"] + 0.01), (-0.05, 0.5)):
             self.move_to(box, self.place_of_cell(30, 30))
-            self.assert_tells(inside)
+            self.assert_shows(inside)
             self.move_to(box, place)
-            self.assert_tells(HINT)
+            self.assert_shows(HINT)
             self.assertEqual(self.marks(), [])
 
     def test_keeps_the_point_of_a_click_or_a_tap_until_escape(self):
@@ -213,16 +213,16 @@ class TestThePage(unittest.TestCase):
         clicked, tapped, other = (20, 30), (25, 10), (40, 50)
         place = self.place_of_cell(*clicked)
         self.browser.click(box["x"] + place[0] * box["width"], box["y"] + place[1] * box["height"])
-        self.assert_tells(spectrum.words(*clicked))
+        self.assert_shows(spectrum.words(*clicked))
         self.move_to(box, self.place_of_cell(*other))
-        self.assert_tells(spectrum.words(*other))
+        self.assert_shows(spectrum.words(*other))
         self.move_to(box, (-0.05, 0.5))
-        self.assert_tells(spectrum.words(*clicked))
+        self.assert_shows(spectrum.words(*clicked))
         place = self.place_of_cell(*tapped)
         self.browser.tap(box["x"] + place[0] * box["width"], box["y"] + place[1] * box["height"])
-        self.assert_tells(spectrum.words(*tapped))
+        self.assert_shows(spectrum.words(*tapped))
         self.browser.press("Escape")
-        self.assert_tells(HINT)
+        self.assert_shows(HINT)
 
     def test_arrow_keys_move_by_one_point_and_not_beyond_the_edge(self):
         spectrum = self.spectra["07a"]
@@ -230,17 +230,17 @@ class TestThePage(unittest.TestCase):
         self.browser.evaluate(f"{self.picture}.focus()")
         self.browser.press("ArrowUp")
         row = column = POINTS // 2
-        self.assert_tells(spectrum.words(row, column))
+        self.assert_shows(spectrum.words(row, column))
         for key, shift, rows, columns in (
                 ("ArrowRight", False, 0, 1), ("ArrowUp", False, 1, 0), ("ArrowLeft", False, 0, -1),
                 ("ArrowDown", False, -1, 0), ("ArrowRight", True, 0, 10), ("ArrowUp", True, 10, 0),
                 ("ArrowUp", True, 10, 0), ("ArrowUp", True, 9, 0), ("ArrowUp", False, 0, 0)):
             self.browser.press(key, shift)
             row, column = row + rows, column + columns
-            self.assert_tells(spectrum.words(row, column))
+            self.assert_shows(spectrum.words(row, column))
         self.assertEqual(row, POINTS - 1)
 
-    def test_commands_make_the_picture_that_they_stand_below(self):
+    def test_commands_create_the_picture_above_them(self):
         checkout = self.folder / "checkout"
         (checkout / "build").mkdir(parents=True)
         (checkout / "build" / "overturn").symlink_to(pathlib.Path(OVERTURN).resolve())

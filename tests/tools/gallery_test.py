@@ -1,6 +1,6 @@
-"""tools/paper/gallery makes every figure, and nothing but them.
+"""tools/paper/gallery creates all figures and no other files.
 
-Wants OVERTURN (the binary) in the environment. PICTURES names a folder to leave the gallery in, for
+Requires OVERTURN (the binary) in the environment. PICTURES is a folder to keep the gallery in, for
 the test of its page.
 """
 
@@ -35,7 +35,7 @@ class InAFolder(unittest.TestCase):
 
 
 class TestTheGallery(InAFolder):
-    def test_holds_every_figure_in_both_formats_the_page_and_nothing_else(self):
+    def test_contains_every_figure_in_both_formats_the_page_and_nothing_else(self):
         pictures = pathlib.Path(os.environ.get("PICTURES", self.folder / "pictures"))
         shutil.rmtree(pictures, ignore_errors=True)
         run = self.gallery("-o", pictures, "--points", "60", "--page")
@@ -53,27 +53,27 @@ class TestTheGallery(InAFolder):
 class TestANumberOnThePage(unittest.TestCase):
     @staticmethod
     def value_of(code):
-        """As packed_spectrum.py tells it."""
+        """Decodes a number as described in packed_spectrum.py."""
         if code == 0:
             return 0.0
         exponent, digits = divmod(abs(int(code)) - 1, 900)
         return float(f"{np.sign(code) * (digits + 100)}e{exponent - 32}")
 
-    def test_has_the_three_digits_that_are_nearest(self):
+    def test_is_rounded_to_three_digits(self):
         values = np.random.default_rng(1).normal(size=2000) * 10.0**np.arange(-25, 5, 0.015)
         for value, code in zip(values, decimal_codes(values)):
             self.assertEqual(self.value_of(code), float(f"{value:.2e}"))
 
-    def test_has_them_also_at_powers_of_ten_and_just_below(self):
+    def test_is_rounded_to_three_digits_at_powers_of_ten_and_just_below(self):
         for value in (1, 10, 1000, 0.1, 0.001, 9.994, 9.996, -0.9996, -1, 1e-30, 0, -0.0):
             self.assertEqual(self.value_of(decimal_codes(np.array([value]))[0]),
                              float(f"{value:.2e}"))
 
-    def test_is_unknown_if_it_is_none_and_zero_if_it_is_tiny(self):
+    def test_is_unknown_if_not_finite_or_too_large_and_zero_if_tiny(self):
         self.assertEqual(list(decimal_codes(np.array([np.nan, np.inf, -np.inf, 2e6, 1e-31, -1e-300]))),
                          [UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN, 0, 0])
 
-    def test_comes_back_from_the_differences_of_the_bytes(self):
+    def test_is_restored_from_the_differences_of_the_bytes(self):
         codes = np.array([[30000, -30000, 5], [UNKNOWN, 32767, -1]], np.int16)
         low, high = np.frombuffer(planes(codes), np.uint8).reshape(2, 6).astype(int)
         steps = (low + 256 * high).astype(np.uint16).reshape(2, 3)
@@ -88,16 +88,16 @@ class TestAGalleryRefused(InAFolder):
         self.assertNotIn("Traceback", run.stderr)
         return run
 
-    def test_without_the_program_says_how_to_get_it(self):
+    def test_without_the_program_states_how_to_get_it(self):
         self.refuses(2, "tools/quickstart", "--overturn", "nowhere")
         self.refuses(2, "nowhere", OVERTURN="nowhere")
         self.assertEqual(list(self.folder.iterdir()), [])
 
-    def test_of_a_folder_that_cannot_be(self):
+    def test_into_an_impossible_folder(self):
         (self.folder / "file").write_text("")
         self.refuses(74, "cannot write into", "-o", "file")
 
-    def test_tells_what_failed_and_leaves_no_results(self):
+    def test_reports_the_failed_command_and_leaves_no_results(self):
         script = self.folder / "broken"
         script.write_text("#!/bin/sh\necho no such thing >&2\nexit 70\n")
         script.chmod(0o755)

@@ -1,4 +1,4 @@
-"""Tools that are started by a Python which lacks their modules."""
+"""Tools started by a Python that lacks their modules."""
 
 import os
 import pathlib
@@ -28,25 +28,25 @@ class TestAPythonWithoutTheModules(unittest.TestCase):
         return subprocess.run(command, cwd=self.folder, timeout=PATIENCE, capture_output=True,
                               text=True, env={**os.environ, "PATH": path})
 
-    def test_is_the_first_on_the_path_that_every_tool_asks_for(self):
+    def test_is_the_first_on_the_path_and_used_by_every_tool(self):
         self.assertIn(pathlib.Path("plot_spectrum"), NAMES)
         self.assertIn(pathlib.Path("paper/gallery"), NAMES)
         for name in NAMES:
             self.assertEqual((TOOLS / name).read_text().splitlines()[0], "#!/usr/bin/env python3")
 
     @unittest.skipUnless(all(map(system_has, ("h5py", "matplotlib"))), f"{SYSTEM} lacks them, too")
-    def test_is_left_for_the_systems_which_has_them_and_the_tool_says_so(self):
+    def test_is_replaced_by_the_systems_python_with_a_message(self):
         for name in NAMES:
             run = self.run_here(TOOLS / name, "--help")
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn(f"usage: {name.name} ", run.stdout)
-            if name.name != "bench":  # which imports them when it is told what to do
+            if name.name != "bench":  # which imports them only for a subcommand
                 self.assertIn(f"{name.name}: {self.programs / 'python3'} cannot import ", run.stderr)
                 self.assertIn(f"; running in {SYSTEM} instead.", run.stderr)
         run = self.run_here(TOOLS / "plot_phase", "regions", "-o", "a picture.png")
         self.assertEqual((run.returncode, run.stdout), (0, "a picture.png\n"), run.stderr)
 
-    def test_ends_with_what_to_install_if_the_systems_lacks_them_too(self):
+    def test_ends_with_the_packages_to_install_if_the_systems_lacks_them_too(self):
         for system in (self.programs / "python3", self.folder / "nothing"):
             code = (f"import sys; sys.path.insert(0, {str(TOOLS)!r}); sys.argv = ['a_tool']\n"
                     f"from overturn import interpreter; interpreter.SYSTEM = {str(system)!r}\n"

@@ -1,6 +1,6 @@
-"""What tools/join_spectra writes is held against one run over all slendernesses, byte for byte.
+"""The output of tools/join_spectra compared with one run over all slendernesses, byte for byte.
 
-Wants OVERTURN (the binary) in the environment.
+Requires OVERTURN (the binary) in the environment.
 """
 
 import os
@@ -16,7 +16,8 @@ from tool import run_tool
 
 OVERTURN = os.environ["OVERTURN"]
 
-# 2 x 2 x 3 tiles for each slenderness, some of them cut off at the far edges; every type of field.
+# 2 x 2 x 3 tiles for each slenderness, some of them cut off at the upper edges; every type of
+# field.
 JOB = """
 title = "A slender \\"plane\\""
 [scene]
@@ -46,7 +47,7 @@ class Spectra(unittest.TestCase):
         return subprocess.run(command, cwd=self.folder, timeout=100, capture_output=True, text=True)
 
     def compute(self, name, slendernesses, *settings, job="job.toml"):
-        """A spectrum; without slendernesses of the job's own block."""
+        """Computes a spectrum; without slendernesses, that of the job's own block."""
         if slendernesses is not None:
             settings = (*settings, f"plane.slenderness.values={slendernesses}")
         run = self.run_here(OVERTURN, "run", job, "-o", name,
@@ -67,21 +68,21 @@ class Spectra(unittest.TestCase):
 
 
 class TestTheWhole(Spectra):
-    def test_is_what_one_run_writes_whatever_the_order_of_the_files(self):
+    def test_equals_the_file_of_one_run_for_any_order_of_files(self):
         for value in (0.1, 0.15, 0.2):
             self.compute(f"{value}.h5", [value])
         self.compute("at_once.h5", [0.1, 0.15, 0.2])
         self.assert_joins("0.2.h5", "0.1.h5", "0.15.h5")
         self.assert_equal_files("joined.h5", "at_once.h5")
 
-    def test_takes_files_of_several_slendernesses_that_interlock(self):
+    def test_joins_files_of_interleaved_slendernesses(self):
         self.compute("outer.h5", [0.1, 0.3])
         self.compute("inner.h5", [0.2])
         self.compute("at_once.h5", [0.1, 0.2, 0.3])
         self.assert_joins("outer.h5", "inner.h5")
         self.assert_equal_files("joined.h5", "at_once.h5")
 
-    def test_keeps_other_settings_in_their_place(self):
+    def test_keeps_the_order_of_other_settings(self):
         for value in (0.1, 0.2):
             self.compute(f"{value}.h5", None, "scene.theory=linear",
                          f"plane.slenderness.values=[{value}]", "title=With settings")
@@ -90,7 +91,7 @@ class TestTheWhole(Spectra):
         self.assert_joins("0.1.h5", "0.2.h5")
         self.assert_equal_files("joined.h5", "at_once.h5")
 
-    def test_takes_jobs_that_name_their_blocks_each_in_its_own_way(self):
+    def test_joins_jobs_that_define_their_blocks_in_different_ways(self):
         (self.folder / "other.toml").write_text(JOB.replace("5.67", "3.0"))
         self.compute("block.h5", None)
         self.compute("stout.h5", None, job="other.toml")
@@ -98,8 +99,8 @@ class TestTheWhole(Spectra):
         self.assert_joins("block.h5", "stout.h5", "set.h5")
         with h5py.File(self.folder / "joined.h5") as joined:
             alphas = joined["slenderness"][:]
-            # NumPy's arctangent and the C library's, which the program takes, are each within 2 ulp
-            # of the true one. A wrong block is off by a tenth at least.
+            # NumPy's arctangent and that of the C library, used by the program, are each within 2
+            # ulp of the exact value. A wrong block is off by at least a tenth.
             np.testing.assert_allclose(alphas, np.sort(np.arctan([1 / 5.67, 1 / 3, 2 / 5.67])),
                                        rtol=4 * np.finfo(float).eps)
             self.assertNotIn("pulse_period", joined)
@@ -113,7 +114,7 @@ class TestTheWhole(Spectra):
         self.compute("at_once.h5", list(map(float, alphas)))
         self.assert_equal_files("joined.h5", "at_once.h5")
 
-    def test_serves_the_program_and_its_readers(self):
+    def test_is_readable_by_the_program_and_other_readers(self):
         for value in (0.1, 0.2):
             self.compute(f"{value}.h5", [value])
         self.assert_joins("0.1.h5", "0.2.h5")
@@ -140,7 +141,7 @@ class TestAJoinRefused(Spectra):
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
     def refuses_beside(self, *phrases, settings=(), slendernesses=(0.2,)):
-        """Of a file with these settings, beside an ordinary one."""
+        """Refuses to join a file with these settings to an ordinary one."""
         self.compute("one.h5", [0.1])
         self.compute("other.h5", list(slendernesses), *settings)
         self.refuses(74, ("\"other.h5\"", *phrases), "one.h5", "other.h5", "-o", "joined.h5")
@@ -161,7 +162,8 @@ class TestAJoinRefused(Spectra):
         self.refuses_beside("output.fields is ['region']", settings=["output.fields=[\"region\"]"])
 
     def test_of_the_same_slenderness_twice(self):
-        self.refuses_beside("\"one.h5\"", "both hold the slenderness 0.1", slendernesses=(0.1, 0.2))
+        self.refuses_beside("\"one.h5\"", "both contain the slenderness 0.1",
+                            slendernesses=(0.1, 0.2))
 
     def change(self, name, change):
         self.compute(name, [0.2])
@@ -175,7 +177,7 @@ class TestAJoinRefused(Spectra):
         self.refuses(74, ("\"part.h5\" is unfinished: 2 of 12 tiles",),
                      "part.h5", "-o", "joined.h5")
 
-    def test_of_values_that_were_not_computed(self):
+    def test_of_altered_values(self):
         def damage(file):
             file["angle"][0, 0, 5, 5] += 1e-9
         self.change("altered.h5", damage)
@@ -193,7 +195,7 @@ class TestAJoinRefused(Spectra):
                           "--overturn"),
                      "old.h5", "-o", "joined.h5")
 
-    def test_of_what_is_damaged_or_no_spectrum(self):
+    def test_of_a_damaged_file_or_another_kind_of_file(self):
         def damage(file):
             del file["job_resolved"]
         self.change("damaged.h5", damage)
@@ -204,26 +206,26 @@ class TestAJoinRefused(Spectra):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.refuses(74, ("\"boundary.h5\" is not a spectrum",), "boundary.h5", "-o", "joined.h5")
 
-    def test_of_settings_that_would_win(self):
+    def test_of_settings_that_override_the_slendernesses(self):
         plane = ("plane={ frequency = { values = [1] }, amplitude = { values = [2] }, "
                  "restitution = { values = [0.8] }, slenderness = { values = [0.1] } }")
         self.compute("one.h5", None, "plane.slenderness.values=[0.3]", plane)
         self.compute("two.h5", None, plane, "plane.slenderness.values=[0.2]")
-        self.refuses(74, ("\"one.h5\" leave no room", "another file first"),
+        self.refuses(74, ("\"one.h5\" do not allow other", "another file first"),
                      "one.h5", "two.h5", "-o", "joined.h5")
         self.assert_joins("two.h5", "one.h5")
 
-    def test_to_overwrite(self):
+    def test_does_not_overwrite_a_file(self):
         self.compute("one.h5", [0.1])
         before = (self.folder / "one.h5").read_bytes()
         self.refuses(74, ("\"one.h5\" exists",), "one.h5", "-o", "one.h5")
         self.assertEqual((self.folder / "one.h5").read_bytes(), before)
         self.refuses(74, ("cannot write",), "one.h5", "-o", "nowhere/joined.h5")
 
-    def test_of_wrong_usage(self):
+    def test_of_invalid_arguments(self):
         self.compute("one.h5", [0.1])
         self.refuses(2, ("required",), "one.h5")
-        self.refuses(2, ("named twice",), "one.h5", "one.h5", "-o", "joined.h5")
+        self.refuses(2, ("given twice",), "one.h5", "one.h5", "-o", "joined.h5")
         self.refuses(2, ("there is no program",), "one.h5", "-o", "joined.h5", "--overturn=nothing")
 
 

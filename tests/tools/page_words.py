@@ -1,10 +1,10 @@
-"""What the page of tools/paper/gallery should tell of a point, from a spectrum computed anew."""
+"""Expected readouts of the page of tools/paper/gallery, from a recomputed spectrum."""
 
 import os
 import subprocess
 
 import h5py
-from tool import TOOLS  # first: it puts the package on the path
+from tool import TOOLS  # first: adds the package to the path
 from overturn.regions import LEFT_STANDING, REGIONS
 
 POINTS = 60
@@ -14,7 +14,7 @@ COLOURS = {code: tuple(bytes.fromhex(colour[1:])) for code, (_, _, colour) in RE
 
 
 def written(value, digits):
-    """A number with so many significant digits, as JavaScript writes it."""
+    """Returns a number with this many significant digits, formatted as in JavaScript."""
     if value == 0:
         return f"{0:.{digits - 1}f}"
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
@@ -24,7 +24,7 @@ def written(value, digits):
 
 
 class Spectrum:
-    """Computed anew, as the page's was."""
+    """A spectrum recomputed like that of the page."""
 
     def __init__(self, figure, folder):
         path = folder / f"{figure}.h5"
@@ -37,7 +37,7 @@ class Spectrum:
                 setattr(self, field, file[field][0, 0])
 
     def one_of_each_region(self):
-        """From where there are enough of it."""
+        """Yields a point from the middle of each region."""
         for code in REGIONS:
             places = [(row, column) for row in range(POINTS) for column in range(POINTS)
                       if self.region[row, column] == code]
@@ -45,13 +45,13 @@ class Spectrum:
                 yield places[len(places) // 2]
 
     def borders(self):
-        """Points whose neighbour to the right or above is of another region."""
+        """Returns points whose neighbour to the right or above is in another region."""
         return [(row, column) for row in range(POINTS - 1) for column in range(POINTS - 1)
                 if self.region[row, column] != self.region[row + 1, column]
                 or self.region[row, column] != self.region[row, column + 1]]
 
     def words(self, row, column):
-        """All that the page tells of a point."""
+        """Returns the complete readout of a point."""
         code = self.region[row, column]
         name, meaning, _ = REGIONS[code]
         angle, velocity, margin = (float(values[row, column]) for values in

@@ -1,6 +1,6 @@
-"""The pictures of tools/plot_landing, and the labels it shares with tools/plot_spectrum.
+"""The pictures of tools/plot_landing, and the labels that it shares with tools/plot_spectrum.
 
-Wants OVERTURN (the binary) in the environment.
+Requires OVERTURN (the binary) in the environment.
 """
 
 import argparse
@@ -12,7 +12,7 @@ import numpy as np
 import plot_spectrum_test
 from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_MINUS, Picture,
                                 add_field)
-from tool import run_tool  # first: it puts the package on the path
+from tool import run_tool  # first: adds the package to the path
 from overturn.region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
 from overturn.spectrum_file import Axis
 
@@ -22,7 +22,7 @@ class LandingPicture(Picture):
         return run_tool("plot_landing", *arguments, cwd=self.folder)
 
     def landing(self, codes, angle, velocity):
-        """A result file whose points end in given states."""
+        """Writes a result file whose points have given end states."""
         self.spectrum(codes)
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             for name, values in (("angle", angle), ("velocity", velocity)):
@@ -30,7 +30,8 @@ class LandingPicture(Picture):
                 add_field(file, name, values, np.nan)
 
     def two_points(self, codes, angle, velocity):
-        """Alone in a plane of blocks that overturned: a label would hide where they land."""
+        """Two points in a plane of overturned blocks; otherwise a label would cover their end
+        states."""
         plane = np.full((40, 40), F_MINUS)
         ends = np.full((2, 40, 40), [[[np.pi / 2]], [[1.0]]])
         at = [20, 20], [10, 30]
@@ -40,13 +41,13 @@ class LandingPicture(Picture):
 
 
 def of_colour(picture, colour):
-    """The pixels of a colour in phase space, which begins at a third of the width; rounded to
-    bytes on the way."""
+    """Returns the pixels of a colour in phase space, which begins at a third of the width; colours
+    are rounded to bytes."""
     there = picture[:, picture.shape[1] * 35 // 100:]
     return np.argwhere((np.abs(there - colour) <= 1).all(axis=2))
 
 
-# Of the points in columns 10 and 30 of row 20, of 40: 10.5, 30.5 and 20.5 times 255 / 40.
+# Colours of columns 10 and 30 and of row 20, of 40: 10.5, 30.5 and 20.5 times 255 / 40.
 LOW, HIGH, MEAN = (67, 0, 131), (194, 0, 131), (131, 0, 131)
 
 
@@ -55,11 +56,11 @@ class TestWhereTheyLand(LandingPicture):
         picture = self.two_points([U0_MINUS, S_PLUS], [-0.15, -0.05], [-0.02, 0.08])
         low, high = of_colour(picture, LOW), of_colour(picture, HIGH)
         self.assertTrue(len(low) and len(high))
-        # Larger angles to the right, larger velocities above; rows count downward.
+        # Larger angles are to the right, larger velocities above; rows are counted downward.
         self.assertLess(low[:, 1].min(), high[:, 1].min())
         self.assertGreater(low[:, 0].max(), high[:, 0].max())
 
-    def test_points_that_meet_have_their_mean_colour(self):
+    def test_points_in_one_pixel_have_their_mean_colour(self):
         picture = self.two_points([S, S], [0.06, 0.06], [0.03, 0.03])
         self.assertEqual((len(of_colour(picture, LOW)), len(of_colour(picture, HIGH))), (0, 0))
         self.assertGreater(len(of_colour(picture, MEAN)), 0)
@@ -70,13 +71,13 @@ class TestWhereTheyLand(LandingPicture):
             self.assertGreater(len(of_colour(picture, LOW)), 0)
             self.assertEqual(len(of_colour(picture, HIGH)), 0, code)
 
-    def test_black_is_left_below_red_right_below_and_blue_left_above(self):
+    def test_black_is_bottom_left_red_bottom_right_and_blue_top_left(self):
         self.landing(np.full((40, 40), S), 0.0, 0.0)
         picture = self.picture()
         plane = np.argwhere((picture[..., 1] == 0) & (picture.sum(axis=2) > 0))
         plane = plane[plane[:, 1] < picture.shape[1] * 0.34]
         (top, left), (bottom, right) = plane.min(axis=0) + 20, plane.max(axis=0) - 20
-        # 20 pixels of some 700 away from the corners: 3 % of each colour.
+        # 20 pixels of about 700 away from the corners: 3 % of each colour.
         for place, colour in (((bottom, left), (0, 0, 0)), ((bottom, right), (255, 0, 0)),
                               ((top, left), (0, 0, 255)), ((top, right), (255, 0, 255))):
             np.testing.assert_allclose(picture[place], colour, atol=12)
@@ -91,20 +92,20 @@ class TestWhereTheyLand(LandingPicture):
 
 
 class TestTheNames(LandingPicture):
-    def test_each_region_is_named_where_it_is_and_where_it_lands(self):
+    def test_each_region_is_named_in_the_plane_and_in_phase_space(self):
         codes = np.full((30, 30), S)
         codes[15:] = U0_MINUS
         self.landing(codes, np.where(codes == S, 0.05, -0.15), np.where(codes == S, 0.02, -0.05))
         words = self.words()
         self.assertEqual((words.count("S"), words.count("U0−")), (2, 2))
 
-    def test_of_a_region_without_a_landing_stands_in_the_plane_alone(self):
+    def test_a_region_without_end_states_is_named_in_the_plane_only(self):
         codes = np.full((30, 30), S)
         codes[15:] = F_MINUS
         self.landing(codes, 0.05, 0.02)
         self.assertEqual(self.words().count("F−"), 1)
 
-    def test_a_label_stands_before_the_name(self):
+    def test_a_label_precedes_the_name(self):
         codes = np.full((30, 30), S)
         codes[15:] = U0_MINUS
         self.landing(codes, np.where(codes == S, 0.05, -0.15), np.where(codes == S, 0.02, -0.05))
@@ -113,7 +114,7 @@ class TestTheNames(LandingPicture):
 
 
 class TestAComputedLanding(LandingPicture):
-    def test_of_the_one_sine_pulse_is_drawn(self):
+    def test_of_the_one_sine_pulse_is_plotted(self):
         job = plot_spectrum_test.TestAComputedFile.JOB.replace("%s", 'angle", "velocity", "region')
         (self.folder / "job.toml").write_text(job)
         subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
@@ -128,35 +129,35 @@ class TestALabel(unittest.TestCase):
                       [S, S, S, S_PLUS],
                       [S_PLUS, S, S, S]])
 
-    def test_means_the_piece_of_its_region_that_is_nearest(self):
+    def test_belongs_to_the_nearest_piece_of_its_region(self):
         axis_of = {count: Axis(np.arange(1.0, count + 1)) for count in (3, 4)}
-        for place, cells in (("1,2", [[2, 0]]), ("4,1", [[0, 2], [1, 3]])):  # corners connect
+        for place, cells in (("1,2", [[2, 0]]), ("4,1", [[0, 2], [1, 3]])):  # diagonals connect
             piece = Label(f"x=S+@{place}").piece(self.PLANE, axis_of[4], axis_of[3])
             np.testing.assert_array_equal(np.argwhere(piece), cells)
 
-    def test_of_a_region_that_is_not_there_means_nothing(self):
+    def test_of_an_absent_region_has_no_cells(self):
         axis = Axis(np.arange(1.0, 4))
         self.assertFalse(Label("x=F+@1,1").piece(self.PLANE[:, :3], axis, axis).any())
 
-    def test_is_refused_if_it_names_no_region_or_no_point(self):
+    def test_is_refused_without_a_region_or_a_point(self):
         for words in ("III", "III=S", "III=Q@1,2", "III=S@1", "III=S@here,there"):
             with self.assertRaises(argparse.ArgumentTypeError, msg=words):
                 Label(words)
 
-    def test_stands_where_its_piece_is_widest(self):
+    def test_is_placed_where_its_piece_is_widest(self):
         mask = np.zeros((40, 60), bool)
         mask[20, 5:30] = True
         mask[14:27, 30:43] = True
         self.assertEqual(list(roomiest_cell(mask)), [20, 36])
 
-    def test_keeps_off_the_edge_unless_its_piece_does_not(self):
+    def test_is_placed_off_the_edge_if_its_piece_allows(self):
         mask = np.zeros((80, 80), bool)
         mask[:, :1] = True
         np.testing.assert_array_equal(off_the_edge(mask), mask)
         mask[:, :20] = True
         self.assertFalse(off_the_edge(mask)[:, 0].any())
 
-    def test_pieces_below_the_least_are_left_out(self):
+    def test_pieces_below_the_least_size_are_omitted(self):
         mask = self.PLANE == S_PLUS
         self.assertEqual([np.count_nonzero(piece) for piece in pieces(mask, 2)], [2])
         self.assertEqual(np.count_nonzero(connected(mask, (2, 0))), 1)
@@ -173,7 +174,7 @@ class TestALandingRefused(LandingPicture):
         (self.folder / "text.h5").write_text("not a spectrum")
         self.refuses(74, "not an HDF5 file", "text.h5")
 
-    def test_without_the_velocity_says_what_to_add(self):
+    def test_without_the_velocity_names_the_missing_field(self):
         self.landing([[S]], 0.0, 0.0)
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             del file["velocity"]
@@ -185,15 +186,15 @@ class TestALandingRefused(LandingPicture):
             del file["amplitude"]
         self.refuses(74, "is damaged", "spectrum.h5")
 
-    def test_of_several_spectra_asks_for_one(self):
+    def test_of_several_spectra_lists_the_choices(self):
         self.landing(np.zeros((1, 3, 2, 2)), 0.0, 0.0)
         self.refuses(2, "--restitution (0 to 2)", "spectrum.h5")
         run = self.plot("spectrum.h5", "--restitution", "1")
         self.assertEqual((run.returncode, run.stdout), (0, "spectrum_landing.png\n"), run.stderr)
 
-    def test_of_a_label_shows_one_that_is_right(self):
+    def test_of_an_invalid_label_shows_an_example(self):
         self.landing([[S]], 0.0, 0.0)
-        self.refuses(2, "should be like III=S+@5,10", "spectrum.h5", "--label", "III")
+        self.refuses(2, "is not of the form III=S+@5,10", "spectrum.h5", "--label", "III")
 
 
 if __name__ == "__main__":

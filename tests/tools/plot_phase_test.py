@@ -1,4 +1,5 @@
-"""The portraits of tools/plot_phase: their colours against Eq. 20, their words read from SVG."""
+"""The portraits of tools/plot_phase: their colours compared with Eq. 20, their texts read from
+SVG."""
 
 import pathlib
 import re
@@ -7,7 +8,7 @@ import unittest
 
 import numpy as np
 from matplotlib import colors, pyplot
-from tool import run_tool  # first: it puts the package on the path
+from tool import run_tool  # first: adds the package to the path
 from overturn.phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
 from overturn.regions import REGIONS
 
@@ -16,8 +17,8 @@ HIGHEST = 1.5
 
 
 def painted(paint):
-    """What a painter does to a panel that reaches from -pi/2 to pi/2, -HIGHEST to HIGHEST; rows
-    upward."""
+    """Returns the picture of a panel from -pi/2 to pi/2 and from -HIGHEST to HIGHEST, filled by
+    `paint`; rows are counted upward."""
     figure = pyplot.figure(figsize=(4, 4), dpi=100)
     panel = figure.add_axes([0, 0, 1, 1], xlim=(-np.pi / 2, np.pi / 2), ylim=(-HIGHEST, HIGHEST))
     panel.axis("off")
@@ -29,8 +30,8 @@ def painted(paint):
 
 
 def region_by_the_criterion(angle, rate):
-    """Eqs. 12, 16, 18 and 20, with Fig. 4's names; None near a boundary of regions, where a pixel
-    mixes two: it is 0.0075 high, and q0 changes by 2.4 times that at most."""
+    """Region by Eqs. 12, 16, 18 and 20, with the names of Fig. 4; None near a boundary, where a
+    pixel mixes two regions: it is 0.0075 high, and q0 changes by at most 2.4 times that."""
     q0 = 4 * np.sin((ALPHA - abs(angle)) / 2)**2 - rate**2
     q_max = 4 * np.sin(ALPHA / 2)**2
     q_min = q_max * (1 - 1 / R)
@@ -62,7 +63,7 @@ class TestTheRegions(unittest.TestCase):
                 self.assertEqual(list(found), colour_of[name], (angle, rate, name))
         self.assertEqual(seen, {"S", "S+", "S−", "U0+", "U0−", "U1+", "U1−"})
 
-    def test_the_libration_region_is_where_they_are_safe(self):
+    def test_the_libration_region_consists_of_the_safe_regions(self):
         picture = painted(lambda panel: fill_libration(panel, FreeBlock(ALPHA, R), "black"))
         for row, column in np.ndindex(100, 100):
             name = region_by_the_criterion(((4 * column + 2) / 400 - 0.5) * np.pi,
@@ -103,7 +104,7 @@ class TestAPortrait(unittest.TestCase):
         return run_tool("plot_phase", *arguments, cwd=self.folder)
 
     def text(self, portrait, *arguments):
-        """All words in a line; a bar or a prime comes as a word of its own."""
+        """Returns all words in one line; a bar or a prime is a separate word."""
         run = self.plot(portrait, "-o", "picture.svg", *arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         picture = (self.folder / "picture.svg").read_text("utf-8")
@@ -120,7 +121,7 @@ class TestAPortrait(unittest.TestCase):
             for name in names:
                 self.assertRegex(words, rf"\b{name}\b", portrait)
 
-    def test_tells_the_block(self):
+    def test_names_the_block(self):
         words = self.text("libration", "--slenderness", "0.3", "--restitution", "0.75")
         self.assertIn("0.3 rad", words)
         self.assertIn("0.75", words)
@@ -132,7 +133,7 @@ class TestAPortrait(unittest.TestCase):
                 run = self.plot(portrait, "--slenderness", alpha, *loss)
                 self.assertEqual((run.returncode, run.stderr), (0, ""), (portrait, alpha, r))
 
-    def test_is_refused_for_no_block_and_no_format(self):
+    def test_is_refused_for_invalid_blocks_and_formats(self):
         for arguments, sentence in ((("regions", "--slenderness", "1.6"), "outside (0, pi/2)"),
                                     (("regions", "--restitution", "1.2"), "outside (0, 1]"),
                                     (("pendulum", "--restitution", "1"), "no loss at impacts"),

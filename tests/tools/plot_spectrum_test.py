@@ -1,6 +1,6 @@
-"""The pictures of tools/plot_spectrum: their colours are counted, their words are read from SVG.
+"""The pictures of tools/plot_spectrum: their colours are counted, their texts read from SVG.
 
-Wants OVERTURN (the binary) in the environment.
+Requires OVERTURN (the binary) in the environment.
 """
 
 import os
@@ -13,7 +13,7 @@ import unittest
 import h5py
 import numpy as np
 from matplotlib import colors, image
-from tool import run_tool  # first: it puts the package on the path
+from tool import run_tool  # first: adds the package to the path
 from overturn.regions import REGIONS
 from overturn.spectrum_file import Axis
 from overturn.ticks import log_ticks
@@ -30,8 +30,8 @@ class Picture(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def spectrum(self, codes, frequency=None, amplitude=None, **attributes):
-        """A result file with the given codes; slenderness and restitution may be left out. Each
-        point is a tile, which is not marked where it is not computed."""
+        """Writes a result file with the given codes; slenderness and restitution may be omitted.
+        Each point is a tile, which has no checksum where it is not computed."""
         codes = np.array(codes, np.uint8)
         codes = codes.reshape((1,) * (4 - codes.ndim) + codes.shape)
         slendernesses, restitutions, rows, columns = codes.shape
@@ -67,23 +67,23 @@ def add_field(file, name, values, fill):
 
 
 def where(picture, code):
-    """The pixels in the colour of a region."""
+    """Returns the pixels in the colour of a region."""
     colour = [round(255 * part) for part in colors.to_rgb(REGIONS[code][2])]
     return (picture == colour).all(axis=2)
 
 
 def shares(picture, codes):
-    """How the pixels divide among regions. Legend boxes are a thousandth of the map."""
+    """Returns the share of pixels of each region. Legend boxes are a thousandth of the map."""
     counts = np.array([np.count_nonzero(where(picture, code)) for code in codes])
     return counts / counts.sum()
 
 
 class TestTheMap(Picture):
-    # Spines, ticks and legend boxes take some pixels: a hundredth. Cells drawn between their values
-    # instead of around them, or all equally wide, would miss by a tenth at least.
+    # Spines, ticks and legend boxes take about a hundredth of the pixels. Cells drawn between their
+    # values instead of around them, or all equally wide, would be off by at least a tenth.
     TOLERANCE = 0.01
 
-    def test_cells_reach_to_the_midpoints_between_values(self):
+    def test_cells_extend_to_the_midpoints_between_values(self):
         self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1.0, 2.0, 10.0])
         # Edges at 0.5, 1.5, 6 and 14.
         np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]),
@@ -94,7 +94,7 @@ class TestTheMap(Picture):
         np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]), 1 / 3,
                                    atol=self.TOLERANCE)
 
-    def test_a_short_stretch_of_equal_steps_is_not_taken_for_geometric(self):
+    def test_a_short_axis_of_equal_steps_is_not_geometric(self):
         self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0])).scale, "linear")
         self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0])).scale, "log")
 
@@ -103,7 +103,7 @@ class TestTheMap(Picture):
         picture = self.picture()
         middle = {code: np.median(np.argwhere(where(picture, code)), axis=0)
                   for code in (S, F_MINUS, U0_PLUS)}
-        self.assertGreater(middle[S][0], middle[U0_PLUS][0] + 100)  # rows count downward
+        self.assertGreater(middle[S][0], middle[U0_PLUS][0] + 100)  # rows are counted downward
         self.assertLess(middle[S][1], middle[F_MINUS][1] - 100)
 
     def test_more_cells_than_pixels_keep_pure_colours_and_shares(self):
@@ -111,7 +111,7 @@ class TestTheMap(Picture):
         codes[:, ::7] = F_MINUS
         self.spectrum(codes)
         picture = self.picture()
-        # Mixed colours would leave neither.
+        # Mixed colours would change both.
         np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [6 / 7, 1 / 7],
                                    atol=self.TOLERANCE)
         pure = np.count_nonzero(where(picture, S) | where(picture, F_MINUS))
@@ -125,7 +125,7 @@ class TestTheMap(Picture):
         kinds = [[3, 4], [0], [5, 6], [7, 8], [1, 2]]  # U0, S, U1, F, S+-
         for lighter, darker in zip(kinds, kinds[1:]):
             gap = min(map(lightness, lighter)) - max(map(lightness, darker))
-            # About 2 is the least that an eye sees side by side; apart in a map it takes more.
+            # About 2 is the least visible difference side by side; apart in a map more is needed.
             self.assertGreater(gap, 7, (lighter, darker))
 
 
@@ -144,13 +144,13 @@ class TestTheTicks(Picture):
             self.assertTrue((ticks <= high * (1 + 1e-9)).all())
             self.assertIn(len(ticks), range(4, 10), (low, high))
             for tick in ticks:
-                # As many digits as tell the limits apart, and one more.
+                # One digit more than needed to distinguish the limits.
                 digits = max(2, int(np.ceil(-np.log10(np.log10(high / low)))) + 2)
                 self.assertAlmostEqual(float(f"{tick:.{digits - 1}e}") / tick, 1, places=12)
 
 
 class TestTheWords(Picture):
-    def test_the_legend_lists_the_regions_that_are_there_and_no_others(self):
+    def test_the_legend_lists_exactly_the_regions_in_the_picture(self):
         self.spectrum([[S, S_PLUS, UNDECIDED]])
         words = self.words()
         legend = [word for word in words if "safe" in word or "overturns" in word
@@ -158,30 +158,30 @@ class TestTheWords(Picture):
         self.assertEqual(legend, ["S  safe, no impact needed", "S+  safe after one impact",
                                   "undecided: see field status"])
 
-    def test_an_unfinished_file_is_drawn_and_says_so(self):
+    def test_an_unfinished_file_is_plotted_and_labelled(self):
         self.spectrum([[S, NOT_COMPUTED]])
         words = self.words()
         self.assertIn("not computed yet", words)
         self.assertIn("unfinished: 1 of 2 tiles computed", " ".join(words))
-        # Half of the map is there, and the other half in no region's colour.
+        # Half of the map is coloured, the other half has no region's colour.
         self.assertAlmostEqual(np.count_nonzero(where(self.picture(), S)) / 1e6, 0.5, delta=0.01)
 
-    def test_a_finished_file_does_not_call_itself_unfinished(self):
+    def test_a_finished_file_is_not_labelled_unfinished(self):
         self.spectrum([[S, F_MINUS]])
         self.assertNotIn("unfinished", " ".join(self.words()))
 
-    def test_title_pulse_and_block_stand_above(self):
+    def test_title_pulse_and_block_are_above_the_map(self):
         self.spectrum([[S]], pulse="symmetric_ricker", theory="linear")
         words = self.words()
         self.assertIn("A title", words)
         self.assertIn("symmetric Ricker wavelet,  linear theory,  α = 0.1 rad,  "
                       "r = 0.7 r_max = 0.625", words)
 
-    def test_a_title_may_hold_any_character(self):
+    def test_a_title_may_contain_any_character(self):
         self.spectrum([[S]], title="from $1 to $2_x\nin Ω")
         self.assertIn("from $1 to $2_x in Ω", self.words())
 
-    def test_settings_are_told_with_the_title_cut_off_if_they_are_long(self):
+    def test_settings_follow_the_title_and_are_shortened(self):
         self.spectrum([[S]])
         settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
@@ -189,7 +189,7 @@ class TestTheWords(Picture):
         self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",
                       [word.replace("&quot;", '"') for word in self.words()])
 
-    def test_another_title_replaces_the_jobs(self):
+    def test_another_title_replaces_that_of_the_job(self):
         self.spectrum([[S]])
         words = self.words("--title", "Mine")
         self.assertIn("Mine", words)
@@ -197,20 +197,20 @@ class TestTheWords(Picture):
 
 
 class TestSeveralSpectra(Picture):
-    def test_each_gets_a_panel_of_its_own(self):
+    def test_each_has_its_own_panel(self):
         self.spectrum([[[[S]], [[F_MINUS]], [[U0_PLUS]]], [[[S]], [[U0_PLUS]], [[U0_PLUS]]]])
         self.assertEqual(len([word for word in self.words() if word.startswith("α = ")]), 6)
         np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_PLUS]),
                                    np.array([2, 1, 3]) / 6, atol=0.01)
 
-    def test_an_index_chooses_one(self):
+    def test_an_index_selects_one(self):
         self.spectrum([[[[S]], [[F_MINUS]]], [[[U0_PLUS]], [[U0_MINUS]]]])
         picture = self.picture("--slenderness", "1", "--restitution", "0")
         self.assertGreater(np.count_nonzero(where(picture, U0_PLUS)), 900_000)
         self.assertEqual([np.count_nonzero(where(picture, code))
                           for code in (S, F_MINUS, U0_MINUS)], [0, 0, 0])
 
-    def test_more_than_fit_are_refused_with_the_choice(self):
+    def test_too_many_are_refused_with_the_choices(self):
         self.spectrum(np.zeros((1, 13, 2, 2)))
         run = self.plot("spectrum.h5")
         self.assertEqual(run.returncode, 2)
@@ -248,7 +248,7 @@ class TestAComputedFile(Picture):
         np.testing.assert_allclose(shares(self.picture(), present), counts / counts.sum(),
                                    atol=0.01)
 
-    def test_without_the_field_says_what_to_add(self):
+    def test_without_the_region_names_the_missing_field(self):
         self.compute("margin")
         run = self.plot("spectrum.h5")
         self.assertEqual(run.returncode, 74)
@@ -262,14 +262,14 @@ class TestARefusal(Picture):
         self.assertIn(sentence, run.stderr)
         self.assertNotIn("Traceback", run.stderr)
 
-    def test_of_no_file_at_all(self):
+    def test_of_a_missing_file(self):
         self.refuses(74, "No such file", "nowhere.h5")
 
     def test_of_a_text_file(self):
         (self.folder / "text.h5").write_text("not a spectrum")
         self.refuses(74, "not an HDF5 file", "text.h5")
 
-    def test_of_somebody_elses_hdf5_file(self):
+    def test_of_a_foreign_hdf5_file(self):
         with h5py.File(self.folder / "other.h5", "w") as file:
             file["region"] = [1]
         self.refuses(74, "not a spectrum written by overturn run", "other.h5")
@@ -286,16 +286,16 @@ class TestARefusal(Picture):
             del file["frequency"]
         self.refuses(74, "is damaged", "spectrum.h5")
 
-    def test_of_an_index_out_of_range_names_the_range(self):
+    def test_of_an_index_out_of_range_shows_the_range(self):
         self.spectrum(np.zeros((1, 3, 2, 2)))
-        self.refuses(2, "allows 0 to 2", "spectrum.h5", "--restitution", "3")
-        self.refuses(2, "allows 0 to 0", "spectrum.h5", "--slenderness", "-1")
+        self.refuses(2, "has 0 to 2", "spectrum.h5", "--restitution", "3")
+        self.refuses(2, "has 0 to 0", "spectrum.h5", "--slenderness", "-1")
 
     def test_of_a_picture_in_an_unknown_format(self):
         self.spectrum([[S]])
         self.refuses(2, ".png, .pdf or .svg", "spectrum.h5", "-o", "picture.jpg")
 
-    def test_of_a_picture_in_no_folder(self):
+    def test_of_a_picture_in_a_missing_folder(self):
         self.spectrum([[S]])
         self.refuses(74, "cannot write", "spectrum.h5", "-o", "nowhere/picture.png")
 

@@ -1,6 +1,6 @@
-"""What tools/to_xdmf writes: its references are followed to the values, here and by ParaView.
+"""The output of tools/to_xdmf: its references are resolved to values, here and by ParaView.
 
-Wants OVERTURN (the binary) in the environment, and for ParaView PVPYTHON, its Python.
+Requires OVERTURN (the binary) in the environment, and for ParaView PVPYTHON, its Python.
 """
 
 import json
@@ -34,7 +34,7 @@ FIELDS = {"region", "angle", "velocity", "margin", "error", "peak", "fall_time",
 
 
 def follow(folder, item):
-    """The values that a DataItem stands for, by the rules of XDMF 2."""
+    """Returns the values of a DataItem, by the rules of XDMF 2."""
     shape = [int(count) for count in item.get("Dimensions").split()]
     if item.get("ItemType") == "HyperSlab":
         corners, source = item
@@ -63,7 +63,7 @@ class Described(Picture):
         return run_tool("to_xdmf", *arguments, cwd=self.folder)
 
     def described(self, *arguments, output="spectrum.xdmf2"):
-        """The steps of what the tool wrote."""
+        """Returns the steps in the output of the tool."""
         run = self.describe(*arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         root = ElementTree.parse(self.folder / output).getroot()
@@ -74,7 +74,7 @@ class Described(Picture):
         return series.findall("Grid")
 
     def values(self, step, folder=None):
-        """By name, what is at the points of a step."""
+        """Returns the values at the points of a step, by name."""
         return {field.get("Name"): follow(folder or self.folder, field[0])
                 for field in step.findall("Attribute") if field.get("Center") == "Node"}
 
@@ -112,7 +112,7 @@ class TestTheReferences(Described):
             np.testing.assert_array_equal(up, amplitude)
             np.testing.assert_array_equal(out, [0])
 
-    def test_steps_count_and_tell_their_slenderness_and_restitution(self):
+    def test_steps_have_a_number_and_their_slenderness_and_restitution(self):
         self.compute()
         steps = self.described("spectrum.h5")
         self.assertEqual([step.find("Time").get("Value") for step in steps], list("012345"))
@@ -140,7 +140,7 @@ class TestTheReferences(Described):
             steps = self.described("results/spectrum.h5", "-o", output, output=output)
             self.assert_values_of("results/spectrum.h5", steps, (self.folder / output).parent)
 
-    def test_titles_and_file_names_may_hold_any_letter(self):
+    def test_titles_and_file_names_may_contain_any_letter(self):
         name = "ü&<é> \"1\" 'x'"
         self.spectrum([[S, F_MINUS]], title="from <1> & \"2\"\nin Ω\x01")
         (self.folder / "spectrum.h5").rename(self.folder / (name + ".h5"))
@@ -148,7 +148,7 @@ class TestTheReferences(Described):
         self.assert_values_of(name + ".h5", steps)
         self.assertEqual(self.name, "from <1> & \"2\" in Ω ")
 
-    def test_an_unfinished_file_has_its_codes_as_they_are(self):
+    def test_an_unfinished_file_keeps_its_codes(self):
         self.spectrum([[S, UNDECIDED, NOT_COMPUTED]])
         step, = self.described("spectrum.h5")
         np.testing.assert_array_equal(self.values(step)["region"],
@@ -186,7 +186,7 @@ class TestADescriptionRefused(Described):
         self.assertIn(sentence, run.stderr)
         self.assertNotIn("Traceback", run.stderr)
 
-    def test_of_what_is_no_spectrum(self):
+    def test_of_other_kinds_of_files(self):
         (self.folder / "text.h5").write_text("not a spectrum")
         self.refuses(74, "not an HDF5 file", "text.h5")
         for kind in ("history", "boundary", "accuracy"):
@@ -204,25 +204,25 @@ class TestADescriptionRefused(Described):
     def test_to_overwrite_the_result_file(self):
         self.spectrum([[S]])
         before = (self.folder / "spectrum.h5").read_bytes()
-        self.refuses(2, "should end in .xdmf2", "spectrum.h5", "-o", "spectrum.h5")
+        self.refuses(2, "must end in .xdmf2", "spectrum.h5", "-o", "spectrum.h5")
         (self.folder / "link.xdmf2").symlink_to("spectrum.h5")
         self.refuses(2, "is the result file itself", "spectrum.h5", "-o", "link.xdmf2")
         (self.folder / "link.json").symlink_to("spectrum.h5")
         self.refuses(2, "is the result file itself", "spectrum.h5", "--colours", "link.json")
         self.assertEqual((self.folder / "spectrum.h5").read_bytes(), before)
 
-    def test_of_an_output_in_no_folder(self):
+    def test_of_an_output_in_a_missing_folder(self):
         self.spectrum([[S]])
         self.refuses(74, "cannot write", "spectrum.h5", "-o", "nowhere/spectrum.xdmf2")
 
-    def test_of_a_name_that_paraview_cannot_follow(self):
+    def test_of_a_name_that_paraview_cannot_open(self):
         self.spectrum([[S]])
         for name in ("a:b.h5", "a\nb.h5"):
             (self.folder / name).symlink_to("spectrum.h5")
-            self.refuses(74, "ParaView cannot follow", name)
+            self.refuses(74, "ParaView cannot open", name)
 
 
-# Prints what ParaView makes of each step: the grid, its values, what a filter sees of it.
+# Writes ParaView's view of each step: the grid, its values, the output of a filter.
 LOOK = """
 import json, sys
 from paraview.simple import Contour, GetColorTransferFunction, ImportPresets, OpenDataFile
@@ -259,10 +259,11 @@ TYPES = {"uint8": "unsigned char", "uint16": "unsigned short", "uint32": "unsign
          "float64": "double"}
 
 
-@unittest.skipUnless("PVPYTHON" in os.environ, "there is no ParaView")
+@unittest.skipUnless("PVPYTHON" in os.environ, "ParaView is not installed")
 class TestInParaView(Described):
     def look(self, name):
-        """Read in another folder than the file's: ParaView is seldom started beside it."""
+        """Reads a file from another folder, because ParaView is rarely started in that of the
+        file."""
         run = self.describe(name + ".h5", "--colours", "regions.json")
         self.assertEqual(run.returncode, 0, run.stderr)
         (self.folder / "elsewhere").mkdir()
@@ -298,19 +299,19 @@ class TestInParaView(Described):
                 self.assertEqual(told, {"slenderness": file["slenderness"][i],
                                         "restitution": file["restitution"][k],
                                         "restitution_ratio": file["restitution_ratio"][i, k]})
-                # Filters see the whole plane: the verdict flips from side to side.
+                # Filters process the whole plane: the verdict flips from side to side.
                 left, right, _, top, *_ = step["contour"]
                 self.assertEqual((left, top), (0.5, 12))
                 self.assertGreater(right, 6)
 
-    def test_opens_with_the_reader_that_knows_parts_and_names_the_regions(self):
+    def test_opens_with_the_reader_that_supports_hyperslabs_and_names_the_regions(self):
         self.compute()
         seen = self.look("spectrum")
         self.assertEqual(seen["reader"], "XdmfReader")
         names = dict(zip(seen["names"][::2], seen["names"][1::2]))
         self.assertEqual((names["0"], names["3"], names["255"]), ("S", "U0+", "not computed yet"))
 
-    def test_reads_what_is_not_computed_yet_as_such(self):
+    def test_reads_points_not_computed_as_such(self):
         with h5py.File(self.folder / "whole.h5", "w") as whole:
             self.spectrum(np.zeros((1, 2, 6, 5)))
             with h5py.File(self.folder / "spectrum.h5") as file:

@@ -1,7 +1,7 @@
-"""What the tools make of tiles that are not marked as computed, but hold values: zeros, which would
-be safe blocks.
+"""Behaviour of the tools for tiles that are not marked as computed but contain values: zeros, which
+would be safe blocks.
 
-Wants OVERTURN (the binary) in the environment.
+Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
@@ -16,7 +16,7 @@ import unittest
 import h5py
 import numpy as np
 from matplotlib import colors, image
-from tool import TOOLS, run_tool  # first: it puts the package on the path
+from tool import TOOLS, run_tool  # first: adds the package to the path
 from overturn.fields import read_field
 from overturn.regions import NOT_COMPUTED, REGIONS
 
@@ -81,7 +81,7 @@ class TestATileWithoutAMark(unittest.TestCase):
                 values = read_field(file, name, (0, 0))
                 np.testing.assert_array_equal(values[unmarked], fills.get(name, np.nan), name)
                 np.testing.assert_array_equal(values[~unmarked], file[name][0, 0][~unmarked], name)
-                # Rows that begin and end within tiles.
+                # Ranges of rows that begin and end within tiles.
                 np.testing.assert_array_equal(read_field(file, name, (0, 0), slice(10, 70)),
                                               values[10:70], name)
 
@@ -95,10 +95,10 @@ class TestATileWithoutAMark(unittest.TestCase):
         self.assertFalse([word for word in words if "safe" in word])
         self.assertIn("unfinished: 5 of 6 tiles computed", " ".join(words))
 
-    def test_lands_nowhere(self):
+    def test_has_no_end_states(self):
         self.compute()
         self.run_tool("plot_landing", "spectrum.h5", "-o", "picture.png")
-        self.assertGreater(self.count("0.8"), 1000)  # the colour of what is not computed
+        self.assertGreater(self.count("0.8"), 1000)  # the colour of points not computed
         with_zeros = image.imread(self.folder / "picture.png")
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             file["region"][0, 0, UNMARKED[0], UNMARKED[1]] = NOT_COMPUTED
@@ -116,7 +116,7 @@ class TestATileWithoutAMark(unittest.TestCase):
             self.assertEqual((row["region"] == "255", row["margin"] == "nan",
                               row["steps"] == "4294967295"), (within,) * 3, i)
 
-    def test_is_no_point_on_the_page(self):
+    def test_has_no_points_on_the_page(self):
         self.compute()
         with_zeros = PackedSpectrum(self.folder / "spectrum.h5").text
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
@@ -128,7 +128,7 @@ class TestATileWithoutAMark(unittest.TestCase):
         self.compute()
         run = run_tool("to_xdmf", "spectrum.h5", cwd=self.folder)
         self.assertEqual(run.returncode, 74)
-        self.assertIn("holds values of region in tiles that are not marked as computed", run.stderr)
+        self.assertIn("has values of region in tiles that are not marked as computed", run.stderr)
         self.assertFalse((self.folder / "spectrum.xdmf2").exists())
 
     def test_stops_a_join(self):
