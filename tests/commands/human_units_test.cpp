@@ -5,7 +5,7 @@
 namespace overturn {
 namespace {
 
-TEST(HumanUnits, CountsCarryThreeDigitsAndAPrefix)
+TEST(HumanUnits, CountsHaveThreeDigitsAndAPrefix)
 {
     EXPECT_EQ(human_count(0), "0");
     EXPECT_EQ(human_count(999), "999");
@@ -22,14 +22,14 @@ TEST(HumanUnits, CountsNeverShowFourDigitsBeforeAPrefix)
     EXPECT_EQ(human_count(99'960), "100 k");
 }
 
-TEST(HumanUnits, OneThingIsASingularNoun)
+TEST(HumanUnits, ACountOfOneUsesTheSingular)
 {
     EXPECT_EQ(noun_of(1, "tiles"), "tile");
     EXPECT_EQ(noun_of(0, "tiles"), "tiles");
     EXPECT_EQ(noun_of(21, "tiles"), "tiles");
 }
 
-TEST(HumanUnits, DurationsNameOneOrTwoUnits)
+TEST(HumanUnits, DurationsUseOneOrTwoUnits)
 {
     EXPECT_EQ(human_duration(0.314), "314 ms");
     EXPECT_EQ(human_duration(1.25), "1.25 s");
@@ -47,7 +47,7 @@ TEST(HumanUnits, DurationsCarryOverWhenTheyRoundUp)
     EXPECT_EQ(human_duration(3599.7), "1 h 00 min");
 }
 
-TEST(HumanUnits, BytesCountInPowersOfAThousand)
+TEST(HumanUnits, BytesUsePowersOfAThousand)
 {
     EXPECT_EQ(human_bytes(640), "640 bytes");
     EXPECT_EQ(human_bytes(12e3), "12.0 kB");

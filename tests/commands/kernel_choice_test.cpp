@@ -1,4 +1,4 @@
-// A build whose kernels this processor cannot run: src/sweep/kernel.cpp is compiled with none.
+// A build without kernels for this processor: src/sweep/kernel.cpp is compiled with none.
 #include "commands/exit_code.hpp"
 #include "commands/kernel_choice.hpp"
 
@@ -10,10 +10,10 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(AKernelThatWasNotCompiled, IsRefusedWithTheOptionThatCompilesIt)
+TEST(AKernelThatWasNotCompiled, IsRefusedAndTheBuildOptionIsNamed)
 {
     if (!processor_runs(Kernel::avx2)) {
-        GTEST_SKIP() << "this processor runs no kernel, which is said first";
+        GTEST_SKIP() << "this processor runs no kernel, which is reported first";
     }
     EXPECT_THAT(
         [] { kernel_called("avx2"); },
@@ -21,10 +21,10 @@ TEST(AKernelThatWasNotCompiled, IsRefusedWithTheOptionThatCompilesIt)
                                   "with -DOVERTURN_KERNELS=all."));
 }
 
-TEST(ABuildWithoutAKernelForThisProcessor, NamesTheOptionThatCompilesOne)
+TEST(ABuildWithoutAKernelForThisProcessor, NamesTheBuildOption)
 {
     if (!processor_runs(Kernel::one_lane)) {
-        GTEST_SKIP() << "no build has one";
+        GTEST_SKIP() << "no build has a kernel for this processor";
     }
     EXPECT_THAT([] { kernel_called("auto"); },
                 ThrowsMessage<ProcessorError>(HasSubstr("-DOVERTURN_KERNELS=all")));

@@ -14,7 +14,7 @@ namespace {
 constexpr bool terminal = true;
 constexpr bool log_file = false;
 
-/// What a Progress on the given kind of stream writes while `use` works with it.
+/// Returns the output of a Progress on the given kind of stream while `use` updates it.
 template <class Use>
 std::string written(bool is_terminal, Use use)
 {
@@ -30,25 +30,25 @@ std::string written(bool is_terminal, Use use)
     return text;
 }
 
-TEST(ProgressText, TellsDoneShareRateAndTimeLeft)
+TEST(ProgressText, ShowsCountShareRateAndTimeLeft)
 {
     const Moment moment{.before = 0, .done = 1'200'000, .all = 3'000'000, .seconds = 2};
     EXPECT_EQ(progress_text(moment), "1.20 M of 3.00 M points, 40 %, 600 k points/s, 3.00 s left");
 }
 
-TEST(ProgressText, CountsTheRateWithoutThePointsOfAnEarlierRun)
+TEST(ProgressText, ExcludesThePointsOfAnEarlierRunFromTheRate)
 {
     const Moment moment{.before = 1000, .done = 2000, .all = 12'000, .seconds = 1};
     EXPECT_EQ(progress_text(moment), "2.00 k of 12.0 k points, 16 %, 1.00 k points/s, 10 s left");
 }
 
-TEST(ProgressText, SaysAHundredPercentOnlyWhenComplete)
+TEST(ProgressText, ShowsAHundredPercentOnlyWhenComplete)
 {
     const Moment nearly{.before = 0, .done = 99'999, .all = 100'000, .seconds = 1};
     EXPECT_NE(progress_text(nearly).find(" 99 %"), std::string::npos);
 }
 
-TEST(ProgressText, PromisesNothingBeforeTheFirstPoint)
+TEST(ProgressText, ShowsNoRateBeforeTheFirstPoint)
 {
     Moment moment{.before = 500, .done = 500, .all = 1000, .seconds = 1};
     EXPECT_EQ(progress_text(moment), "500 of 1.00 k points, 50 %");
@@ -66,7 +66,7 @@ TEST(Progress, IsSilentInAShortRun)
     EXPECT_EQ(written(log_file, short_run), "");
 }
 
-TEST(Progress, RedrawsOneLineOnATerminalAndEndsIt)
+TEST(Progress, RedrawsOneLineOnATerminalAndTerminatesIt)
 {
     const std::string text = written(terminal, [](Progress& progress) {
         std::this_thread::sleep_for(std::chrono::milliseconds(250));

@@ -17,7 +17,7 @@ const StopRequest no_stop{never, never};
 constexpr std::chrono::seconds patience{60};
 const auto no_progress = [](std::int64_t) {};
 
-/// The farm without anything to write.
+/// Runs the farm without writing anything.
 FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                        const std::function<void(std::int64_t)>& compute,
                        const std::function<void(std::int64_t)>& on_progress,
@@ -31,7 +31,7 @@ FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t
                     {stop_requested, never}, patience);
 }
 
-/// Every `stride`-th number from 0, on rank 0; nothing elsewhere, as the farm wants it.
+/// Every `stride`-th number from 0 on rank 0; empty on other ranks, as the farm requires.
 std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_t count,
                                           std::int64_t stride = 1)
 {
@@ -42,7 +42,7 @@ std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_
     return tiles;
 }
 
-/// How often each tile number in [0, numbers) was computed, over all ranks; on all ranks.
+/// How often each tile number in [0, numbers) was computed by all ranks; returned on all ranks.
 std::vector<int> over_all_ranks(const MpiSession& session, std::vector<int> times)
 {
     MPI_Allreduce(MPI_IN_PLACE, times.data(), int(times.size()), MPI_INT, MPI_SUM,
@@ -55,7 +55,7 @@ void work_for(std::chrono::microseconds duration)
     std::this_thread::sleep_for(duration); // other ranks of a small machine may compute meanwhile
 }
 
-TEST(Farm, ComputesEachTileOnceOnSomeRank)
+TEST(Farm, ComputesEachTileOnce)
 {
     const MpiSession session;
     for (const int count : {0, 1, 2, 3, 4, 7, 50, 1000}) {
@@ -82,7 +82,7 @@ TEST(Farm, ComputesOnlyTheTilesOfTheList)
     }
 }
 
-TEST(Farm, ReportsWhatEachRankDid)
+TEST(Farm, ReportsTheShareOfEachRank)
 {
     const MpiSession session;
     std::int64_t own = 0;
@@ -111,12 +111,12 @@ TEST(Farm, ReportsWhatEachRankDid)
         EXPECT_GE(report.ranks[rank].compute_seconds, 0.002 * double(counted[rank]));
         EXPECT_GE(report.ranks[rank].write_seconds, 0.001 * double(counted[rank]));
     }
-    // Every worker asks for its first range, and one ahead of each.
+    // Every worker requests its first range, and one ahead of each.
     EXPECT_GE(report.dealing.requests, 2 * (session.size() - 1));
     EXPECT_EQ(report.dealing.seconds > 0, session.size() > 1);
 }
 
-TEST(Farm, ProgressGrowsToTheNumberOfTiles)
+TEST(Farm, ProgressIncreasesToTheNumberOfTiles)
 {
     const MpiSession session;
     std::vector<std::int64_t> seen{0};
@@ -143,14 +143,14 @@ TEST(Farm, SharesUnequalTilesEvenly)
         most = std::max(most, rank.compute_seconds);
     }
     // Equal parts of the list would give the first rank all the long tiles: 1.6 fair shares of the
-    // 580 ms on two ranks, 2.4 on three, 3.6 on five. Handed out as they are asked for, the busiest
-    // rank has 1.1 on a calm machine; on a busy one its clock may run on for half as long again.
+    // 580 ms on two ranks, 2.4 on three, 3.6 on five. With tiles dealt on request, the busiest rank
+    // has 1.1 on an idle machine; on a busy one its time may be half as long again.
     if (session.rank() == 0 && session.size() > 1) {
         EXPECT_LT(most, 20 * 0.019 + 0.001 * (200.0 / session.size() - 20));
     }
 }
 
-TEST(Farm, AStopOfAnyRankLeavesTheRestUndone)
+TEST(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
 {
     const MpiSession session;
     for (int stopping_rank = 0; stopping_rank < session.size(); ++stopping_rank) {
@@ -170,8 +170,8 @@ TEST(Farm, AStopOfAnyRankLeavesTheRestUndone)
         EXPECT_TRUE(report.stopped);
         EXPECT_EQ(report.tiles, done);
         EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
-        // Others finish the ranges that they hold, of a 16th of a fair share, one in hand and one
-        // ahead.
+        // Others finish the ranges that they hold, one in progress and one ahead, each of a 16th of
+        // a fair share.
         EXPECT_LT(done, count / 2);
         if (session.rank() == stopping_rank) {
             EXPECT_EQ(own, 5);
@@ -191,7 +191,7 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
     EXPECT_TRUE(report.stopped);
 }
 
-TEST(Farm, ATileDroppedAtAStopIsNeitherWrittenNorCounted)
+TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
 {
     const MpiSession session;
     const int stopping_rank = session.size() - 1;
@@ -215,7 +215,7 @@ TEST(Farm, ATileDroppedAtAStopIsNeitherWrittenNorCounted)
     EXPECT_TRUE(report.stopped);
 }
 
-TEST(Farm, WorkersGoOnWhileRank0ComputesALongTile)
+TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
 {
     const MpiSession session;
     constexpr std::int64_t count = 100;
@@ -239,7 +239,7 @@ TEST(Farm, WorkersGoOnWhileRank0ComputesALongTile)
     }
 }
 
-TEST(Farm, AStopAfterTheLastTileIsNoStop)
+TEST(Farm, AStopAfterTheLastTileIsIgnored)
 {
     const MpiSession session;
     const FarmReport report = compute_all(

@@ -7,7 +7,7 @@
 namespace overturn {
 namespace {
 
-TEST(StopSignals, AreSeenOnceOneWasSent)
+TEST(StopSignals, AreDetectedAfterOneWasSent)
 {
     const StopSignals signals;
     EXPECT_FALSE(StopSignals::requested());

@@ -50,9 +50,9 @@ TEST(TileDealer, DealsEachTileOnceInOrder)
     }
 }
 
-TEST(TileDealer, CutsRangesWhereNumbersAreMissing)
+TEST(TileDealer, SplitsRangesWhereNumbersAreMissing)
 {
-    // What an interrupted run leaves: holes where its ranks had been.
+    // Missing tiles of an interrupted run: scattered where its ranks had computed.
     std::vector<std::int64_t> tiles;
     for (std::int64_t number = 0; number < 500; ++number) {
         if (number % 7 != 3) {
@@ -70,7 +70,7 @@ TEST(TileDealer, DealsShorterRangesTowardsTheEnd)
         EXPECT_LE(length(ranges[i]), length(ranges[i - 1]));
     }
     EXPECT_GT(length(ranges.front()), 8);
-    // Two ranks with one range each in hand and one ahead: the last four decide the balance.
+    // Two ranks with one range each in progress and one ahead: the last four decide the balance.
     for (std::size_t i = ranges.size() - 4; i < ranges.size(); ++i) {
         EXPECT_EQ(length(ranges[i]), 1);
     }
@@ -91,21 +91,21 @@ TEST(TileDealer, DealsRangesWithinLimitsUntilTheEnd)
     EXPECT_TRUE(dealer.deal(limits).empty());
 }
 
-TEST(RangeLimits, LeaveRank0HalfOfItsTime)
+TEST(RangeLimits, LeaveRank0HalfOfItsTimeForTiles)
 {
-    // 10,000 ranks on tiles of 0.4 ms ask 25 million times a second for one tile each; an answer
-    // takes 0.4 us, so that rank 0 can give 1.25 million in half of its time: 20 tiles each.
+    // 10,000 ranks with tiles of 0.4 ms send 25 million requests per second for single tiles; an
+    // answer takes 0.4 us, so that rank 0 gives 1.25 million in half of its time: 20 tiles each.
     const RangeLimits limits = range_limits(10000, 4e-7, 4e-4);
     EXPECT_EQ(limits.least, 20u);
     EXPECT_EQ(limits.most, 250u); // 0.1 s
 }
 
-TEST(RangeLimits, AreThoseOfAFewRanksWhereRank0HasTime)
+TEST(RangeLimits, AreThoseOfAFewRanksIfRank0HasTime)
 {
     EXPECT_EQ(range_limits(8, 1e-6, 1e-2).least, 1u);
     EXPECT_EQ(range_limits(8, 1e-6, 1e-2).most, 16u);
     EXPECT_EQ(range_limits(8, 1e-6, 100).most, 16u);
-    EXPECT_EQ(range_limits(8, 1e-6, 0).least, 1u); // nothing is known yet
+    EXPECT_EQ(range_limits(8, 1e-6, 0).least, 1u); // no measurements yet
     EXPECT_GE(range_limits(1 << 20, 1e-3, 1e-9).most, range_limits(1 << 20, 1e-3, 1e-9).least);
 }
 

@@ -1,14 +1,14 @@
-// Preloaded into overturn, a disk with faults, in the result file that FAULTY_FILE names:
+// Preloaded into overturn: simulates faults of the disk for the result file FAULTY_FILE:
 //
-//   KILL_AT_WRITE=17       SIGKILL in the midst of the 17th write of this process
-//   KILL_TORN=1            half of its bytes get through
-//   KILL_BY=10             with this signal instead of SIGKILL
-//   FAIL_AT_WRITE=17       from the 17th write on all of them fail, with the error number ERROR
-//   FAIL_AT_SYNC=1         and so does bringing it to the disk
-//   CRASH_AT_READ=17       a crash at the 17th read of this process
+//   KILL_AT_WRITE=17       SIGKILL during the 17th write of this process
+//   KILL_TORN=1            half of the bytes of that write are written
+//   KILL_BY=10             this signal instead of SIGKILL
+//   FAIL_AT_WRITE=17       all writes from the 17th on fail, with the error number ERROR
+//   FAIL_AT_SYNC=1         syncing fails, too
+//   CRASH_AT_READ=17       crash at the 17th read of this process
 //   READ_TAKES=10          milliseconds of each read
-//   COUNT_WRITES_IN=PATH   at exit, the writes and how often the file was brought to the disk
-//   FAULTY_RANK=1          all this in this rank alone; without a launcher the rank is 0
+//   COUNT_WRITES_IN=PATH   writes the numbers of writes and syncs at exit
+//   FAULTY_RANK=1          only in this rank; without a launcher the rank is 0
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -27,7 +27,7 @@ long number_from(const char* name, long otherwise)
     return text == nullptr ? otherwise : std::atol(text);
 }
 
-/// Whether the descriptor is of the file, under its name or as the part that it begins as.
+/// Whether the descriptor is that of the file, under its name or its temporary name.
 bool is_the_file(int descriptor)
 {
     const char* wanted = std::getenv("FAULTY_FILE");
@@ -65,7 +65,7 @@ Function original(const char* name)
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-/// A write of so many bytes, done by write_some(bytes).
+/// A write of the given number of bytes, done by write_some(bytes).
 template <class WriteSome>
 ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
 {

@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The message of the FileError that the call throws; empty if it throws none.
+/// Returns the message of the FileError thrown by the call; empty if none is thrown.
 template <class Call>
 std::string refusal(const Call& call)
 {
@@ -29,7 +29,7 @@ std::string refusal(const Call& call)
     }
 }
 
-/// A global attribute that is a number; nothing if there is none of that name.
+/// Returns a numeric global attribute, or nullopt if it does not exist.
 std::optional<double> global_number(const std::string& path, const char* name)
 {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -52,7 +52,7 @@ TEST(CreateSpectrumFile, GivesEqualBytesForEqualJobs)
     EXPECT_EQ(bytes_of(folder / "one.h5"), bytes_of(folder / "two.h5"));
 }
 
-TEST(CreateSpectrumFile, StoresOnlyTheFieldsThatTheJobAsksForInItsOrder)
+TEST(CreateSpectrumFile, StoresOnlyTheFieldsOfTheJobInItsOrder)
 {
     const ScratchFolder folder;
     Job job = sample_job();
@@ -65,7 +65,7 @@ TEST(CreateSpectrumFile, StoresOnlyTheFieldsThatTheJobAsksForInItsOrder)
     EXPECT_THAT(names, ElementsAre("margin", "region"));
 }
 
-TEST(CreateSpectrumFile, KeepsJobsLongerThanAnAttributeCanBe)
+TEST(CreateSpectrumFile, StoresJobsTooLongForAnAttribute)
 {
     const ScratchFolder folder;
     Job job = sample_job();
@@ -77,7 +77,7 @@ TEST(CreateSpectrumFile, KeepsJobsLongerThanAnAttributeCanBe)
     EXPECT_EQ(summarize(folder / "a.h5").resolved_job, job.resolved);
 }
 
-TEST(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobNamesOne)
+TEST(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
 {
     const ScratchFolder folder;
     Job job = sample_job();
@@ -100,7 +100,7 @@ TEST(CreateSpectrumFile, StoresAWindowForRickerWaveletsOnly)
     EXPECT_EQ(global_number(folder / "sine.h5", "window"), std::nullopt);
 }
 
-TEST(CreateSpectrumFile, LeavesNothingElseInTheFolder)
+TEST(CreateSpectrumFile, LeavesNoOtherFileInTheFolder)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
@@ -112,11 +112,11 @@ TEST(CreateSpectrumFile, LeavesNothingElseInTheFolder)
     EXPECT_THAT(names, ElementsAre("a.h5"));
 }
 
-TEST(CreateSpectrumFile, TakesThePlaceOfAPartLeftByAKilledRun)
+TEST(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
-    // The part's name is linked to another one, which stays when the part is removed.
+    // A hard link to the part keeps its data when the part is removed.
     struct Killed {};
     const auto link_and_stop = [&] {
         std::filesystem::create_hard_link(folder / "a.h5.part", folder / "left");
@@ -131,7 +131,7 @@ TEST(CreateSpectrumFile, TakesThePlaceOfAPartLeftByAKilledRun)
     EXPECT_EQ(examine(folder / "a.h5", job, sample_tiling(job)), Existing::unfinished);
 }
 
-TEST(CreateSpectrumFile, RemovesNoPartThatItDidNotMake)
+TEST(CreateSpectrumFile, DoesNotRemoveAForeignPart)
 {
     const ScratchFolder folder;
     write_bytes(folder / "a.h5.part", "somebody else's");
@@ -142,7 +142,7 @@ TEST(CreateSpectrumFile, RemovesNoPartThatItDidNotMake)
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
 }
 
-TEST(CreateSpectrumFile, LeavesALinkToNothingAsItIs)
+TEST(CreateSpectrumFile, DoesNotReplaceADanglingLink)
 {
     const ScratchFolder folder;
     std::filesystem::create_symlink("nowhere", folder / "a.h5");
@@ -152,7 +152,7 @@ TEST(CreateSpectrumFile, LeavesALinkToNothingAsItIs)
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.h5"));
 }
 
-TEST(CreateSpectrumFile, CanBeEndedBetweenAnyTwoTilesAndLeavesNothingBehind)
+TEST(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
@@ -171,7 +171,7 @@ TEST(CreateSpectrumFile, CanBeEndedBetweenAnyTwoTilesAndLeavesNothingBehind)
     EXPECT_FALSE(std::filesystem::exists(folder / "b.h5.part"));
 }
 
-// As overturn's own files, a result bears no mark of a file that exists for a while.
+// A complete result must not keep the permissions of overturn's temporary files.
 TEST(CreateSpectrumFile, GivesTheFileUsualPermissions)
 {
     const ScratchFolder folder;
@@ -182,7 +182,7 @@ TEST(CreateSpectrumFile, GivesTheFileUsualPermissions)
               std::filesystem::status(folder / "usual").permissions());
 }
 
-TEST(CreateSpectrumFile, NamesAMissingFolder)
+TEST(CreateSpectrumFile, ReportsAMissingFolder)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
@@ -192,7 +192,7 @@ TEST(CreateSpectrumFile, NamesAMissingFolder)
     EXPECT_THAT(refusal(create), HasSubstr("there is no folder \"" + folder / "results" + "\""));
 }
 
-TEST(CreateSpectrumFile, SaysHowManyBytesAreNeededWhenTheyAreNotThere)
+TEST(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
 {
     const ScratchFolder folder;
     Job job = sample_job();
@@ -207,9 +207,9 @@ TEST(CreateSpectrumFile, SaysHowManyBytesAreNeededWhenTheyAreNotThere)
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
-// A limit on the size of files stands in for a full disk: it needs no privileges, and HDF5 meets it
-// in the middle of its work just the same.
-TEST(CreateSpectrumFile, LeavesNothingBehindWhenTheDiskFailsMidway)
+// A limit on the size of files simulates a full disk: it needs no privileges, and HDF5 encounters
+// it during its work in the same way.
+TEST(CreateSpectrumFile, LeavesNoFileIfTheDiskFailsDuringCreation)
 {
     const ScratchFolder folder;
     const Job job = sample_job();
@@ -219,7 +219,7 @@ TEST(CreateSpectrumFile, LeavesNothingBehindWhenTheDiskFailsMidway)
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
-TEST(SpectrumFileBytes, AreTheFilesSizeOrLittleMore)
+TEST(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
 {
     const ScratchFolder folder;
     for (const std::int64_t size : {1, 40, 500}) {
@@ -232,12 +232,12 @@ TEST(SpectrumFileBytes, AreTheFilesSizeOrLittleMore)
         create_spectrum_file(path, job, tiling);
         const auto actual = static_cast<long double>(std::filesystem::file_size(path));
         EXPECT_GE(spectrum_file_bytes(job, tiling), actual) << size;
-        // What the header promises. Forgetting the text would miss by half at 500.
+        // The bound stated in the header. Omitting the text would be off by half at 500.
         EXPECT_LE(spectrum_file_bytes(job, tiling), actual + actual / 32 + 32768) << size;
     }
 }
 
-// A plane can be as large as can be addressed, and what comes with each of its tiles is larger.
+// A plane can have the largest addressable size, and its tiles need additional space.
 TEST(SpectrumFileBytes, DoNotOverflow)
 {
     Job job = sample_job();

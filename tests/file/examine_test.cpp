@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Lt;
 using testing::SizeIs;
 
-/// The message with which the file at `path` is refused; empty if it is not.
+/// Returns the message with which the file at `path` is refused; empty if it is accepted.
 std::string refusal(const std::string& path, const Job& job)
 {
     try {
@@ -35,7 +35,7 @@ class Examine : public testing::Test {
 protected:
     void create() { create_spectrum_file(path, job, sample_tiling(job)); }
 
-    /// Overwrites a global text attribute, as another program of the same format would have it.
+    /// Overwrites a global text attribute, as written by another program of the same format.
     void set_attribute(const char* name, const std::string& text)
     {
         const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -56,18 +56,18 @@ protected:
     Job job = sample_job();
 };
 
-TEST_F(Examine, FindsNothingWhereNothingStands)
+TEST_F(Examine, FindsNoFileWhereNoneExists)
 {
     EXPECT_EQ(examine(path, job, sample_tiling(job)), Existing::nothing);
 }
 
-TEST_F(Examine, FindsANewFileUnfinished)
+TEST_F(Examine, ReportsANewFileAsUnfinished)
 {
     create();
     EXPECT_EQ(examine(path, job, sample_tiling(job)), Existing::unfinished);
 }
 
-TEST_F(Examine, LeavesTheFileAsItIs)
+TEST_F(Examine, DoesNotChangeTheFile)
 {
     create();
     const std::string before = bytes_of(path);
@@ -75,7 +75,7 @@ TEST_F(Examine, LeavesTheFileAsItIs)
     EXPECT_EQ(bytes_of(path), before);
 }
 
-// Many network file systems have no locks, or stale ones.
+// Many network file systems have no locks or stale ones.
 TEST_F(Examine, DoesNotWaitForLocks)
 {
     create();
@@ -85,7 +85,7 @@ TEST_F(Examine, DoesNotWaitForLocks)
     close(descriptor);
 }
 
-TEST_F(Examine, SaysInWhichLineAnotherJobDiffers)
+TEST_F(Examine, ShowsTheLineInWhichAnotherJobDiffers)
 {
     create();
     job.resolved = "pulse = \"symmetric_ricker\"\nwindow = 1.5\ntolerance = 1e-09\n";
@@ -94,7 +94,7 @@ TEST_F(Examine, SaysInWhichLineAnotherJobDiffers)
                       HasSubstr("window = 1.25\n"), HasSubstr("window = 1.5\n"), HasSubstr("-o")));
 }
 
-TEST_F(Examine, SaysThatAnotherJobIsLonger)
+TEST_F(Examine, ReportsThatAnotherJobIsLonger)
 {
     create();
     job.resolved += "one more line\n";
@@ -102,7 +102,7 @@ TEST_F(Examine, SaysThatAnotherJobIsLonger)
                                           HasSubstr("one more line")));
 }
 
-TEST_F(Examine, ShowsOnlyThePartOfALongLineThatDiffers)
+TEST_F(Examine, ShowsOnlyTheDifferingPartOfALongLine)
 {
     const std::string many(30000, '7');
     job.resolved = "values = [" + many + ", 0.25, " + many + "]";
@@ -152,17 +152,17 @@ TEST_F(Examine, RefusesAFolder)
     EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a file"));
 }
 
-TEST_F(Examine, RefusesAFileThatLacksItsEnd)
+TEST_F(Examine, RefusesATruncatedFile)
 {
     create();
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
     EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("damaged"), HasSubstr("truncated file")));
 }
 
-/// What a run would otherwise write to: values, links and views that lie in other files.
-class ExamineOfAFileThatLeadsElsewhere : public Examine {
+/// Values, links and views in other files, to which a run must not write.
+class ExamineExternalReferences : public Examine {
 protected:
-    /// Replaces the field `region`, and leaves a file of that name to those who follow.
+    /// Replaces the field `region` and keeps a file of that name as a target.
     template <class Add>
     void replace_region(const Add& add)
     {
@@ -178,7 +178,7 @@ protected:
         ASSERT_GE(H5Fclose(file), 0);
     }
 
-    /// A dataset in place of `region`, stored as `set` says.
+    /// Creates a dataset in place of `region` with the storage set by `set`.
     template <class Set>
     void store_region(const Set& set)
     {
@@ -195,7 +195,7 @@ protected:
     std::string elsewhere = folder / "elsewhere.h5";
 };
 
-TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesValuesInAnotherFile)
+TEST_F(ExamineExternalReferences, RefusesValuesInAnotherFile)
 {
     store_region([&](hid_t creation, hid_t) {
         H5Pset_external(creation, elsewhere.c_str(), 0, H5F_UNLIMITED);
@@ -203,7 +203,7 @@ TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesValuesInAnotherFile)
     EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
 }
 
-TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesAViewOfAnotherFile)
+TEST_F(ExamineExternalReferences, RefusesAViewOfAnotherFile)
 {
     store_region([&](hid_t creation, hid_t space) {
         H5Pset_virtual(creation, space, elsewhere.c_str(), "region", space);
@@ -211,7 +211,7 @@ TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesAViewOfAnotherFile)
     EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
 }
 
-TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkToAnotherFile)
+TEST_F(ExamineExternalReferences, RefusesALinkToAnotherFile)
 {
     replace_region([&](hid_t file, hid_t) {
         return H5Lcreate_external(elsewhere.c_str(), "region", file, "region", H5P_DEFAULT,
@@ -220,7 +220,7 @@ TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkToAnotherFile)
     EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
 }
 
-TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkByName)
+TEST_F(ExamineExternalReferences, RefusesALinkByName)
 {
     replace_region([&](hid_t file, hid_t) {
         return H5Lcreate_soft("moved", file, "region", H5P_DEFAULT, H5P_DEFAULT);
@@ -228,7 +228,7 @@ TEST_F(ExamineOfAFileThatLeadsElsewhere, RefusesALinkByName)
     EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
 }
 
-TEST_F(Examine, RefusesAFileThatIsCutIntoOtherTiles)
+TEST_F(Examine, RefusesAFileWithOtherTiles)
 {
     create_spectrum_file(path, job, Tiling(shape_of(job.plane), 3, 3));
     EXPECT_THAT(refusal(path, job), HasSubstr("tiles"));

@@ -24,14 +24,14 @@ RunRecord sample_record()
     return record;
 }
 
-TEST(Sidecar, StandsBesideTheSpectrum)
+TEST(Sidecar, IsWrittenNextToTheSpectrum)
 {
     const ScratchFolder folder;
     write_sidecar(folder / "a.h5", sample_record());
     EXPECT_TRUE(std::filesystem::exists(folder / "a.h5.json"));
 }
 
-TEST(Sidecar, TellsWhenAndWhereTheRunWas)
+TEST(Sidecar, StatesTimeAndHostOfTheRun)
 {
     const ScratchFolder folder;
     write_sidecar(folder / "a.h5", sample_record());
@@ -48,7 +48,7 @@ TEST(Sidecar, TellsWhenAndWhereTheRunWas)
             "{\"host\": \"node2\", \"tiles\": 0, \"compute_seconds\": 0, \"write_seconds\": 0}"));
 }
 
-TEST(Sidecar, EscapesWhatJsonReserves)
+TEST(Sidecar, EscapesCharactersReservedInJson)
 {
     const ScratchFolder folder;
     write_sidecar(folder / "a.h5", sample_record());
@@ -67,7 +67,7 @@ TEST(Sidecar, ReplacesAnOlderOne)
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
 }
 
-TEST(Sidecar, LeavesAFileThatIsNoneAsItIs)
+TEST(Sidecar, DoesNotReplaceAForeignFile)
 {
     const ScratchFolder folder;
     write_bytes(folder / "a.h5.json", "somebody else's");
@@ -75,13 +75,13 @@ TEST(Sidecar, LeavesAFileThatIsNoneAsItIs)
     EXPECT_EQ(bytes_of(folder / "a.h5.json"), "somebody else's");
 }
 
-TEST(Sidecar, ThatADiskDoesNotTakeSaysThatNothingElseIsLost)
+TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 {
     const ScratchFolder folder;
     const FileSizeLimit limit(20);
     try {
         write_sidecar(folder / "a.h5", sample_record());
-        ADD_FAILURE() << "was written";
+        ADD_FAILURE() << "the sidecar was written";
     } catch (const FileError& error) {
         EXPECT_THAT(error.what(), HasSubstr("a.h5.json\", the record of this run: file too large"));
         EXPECT_THAT(error.what(), HasSubstr("all the same"));
@@ -89,7 +89,7 @@ TEST(Sidecar, ThatADiskDoesNotTakeSaysThatNothingElseIsLost)
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
-TEST(Sidecar, NeedsAFolder)
+TEST(Sidecar, RequiresAFolder)
 {
     const ScratchFolder folder;
     EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_record()), FileError);

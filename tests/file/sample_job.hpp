@@ -1,4 +1,4 @@
-// A small job with four axes and every field, and made-up values for its tiles.
+// A small job with four axes and every field, and artificial values for its tiles.
 #pragma once
 
 #include "overturn/job/job.hpp"
@@ -28,13 +28,13 @@ inline Job sample_job()
     return job;
 }
 
-/// Tiles whose edges do not fit the plane: 7 = 4 + 3 rows, 11 = 4 + 4 + 3 columns.
+/// Tiles that do not divide the plane evenly: 7 = 4 + 3 rows, 11 = 4 + 4 + 3 columns.
 inline Tiling sample_tiling(const Job& job)
 {
     return Tiling(shape_of(job.plane), 4, 4);
 }
 
-/// Every point has a value that no other point has: its position in the plane goes into it.
+/// Every point has a unique value, computed from its position in the plane.
 inline TileFields sample_values(const Job& job, const Tile& tile)
 {
     TileFields result;

@@ -12,12 +12,12 @@
 namespace overturn {
 namespace {
 
-TEST(SoleWriter, IsRefusedByNothingButAnother)
+TEST(SoleWriter, IsRefusedOnlyIfAnotherExists)
 {
     const ScratchFolder folder;
     const std::string path = folder / "a.h5";
     std::atomic<int> held = 0;
-    // Locks appear and disappear between any two steps of the others.
+    // Locks of other writers may appear and disappear between any two steps.
     const auto take_turns = [&] {
         for (int turn = 0; turn < 20'000; ++turn) {
             try {

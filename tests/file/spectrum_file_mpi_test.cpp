@@ -51,7 +51,7 @@ protected:
         }
     }
 
-    /// The bytes of the finished file, when one rank writes all tiles in ascending order.
+    /// Returns the bytes of the finished file if one rank writes all tiles in ascending order.
     std::string bytes_from_one_rank(const std::string& path) const
     {
         if (rank == 0) {
@@ -71,12 +71,12 @@ protected:
     int ranks = 1;
 };
 
-TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhoeverWritesTheTilesInWhateverOrder)
+TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
 {
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "many.h5");
     SpectrumFile file(folder / "many.h5", MPI_COMM_WORLD, job);
-    // Unequal shares, from the last tile to the first: rank 0 takes half of them.
+    // Unequal shares, from the last tile to the first: rank 0 writes half of them.
     std::vector<std::int64_t> mine;
     for (std::int64_t number = tiling.size() - 1; number >= 0; --number) {
         const auto owner = int(number % 2 == 0 ? 0 : number % ranks);
@@ -95,7 +95,7 @@ TEST_F(SpectrumFileOnRanks, IsCompleteWhenEveryTileIsWritten)
     EXPECT_EQ(examine(folder / "a.h5", job, tiling), Existing::complete);
 }
 
-TEST_F(SpectrumFileOnRanks, MissesTheTilesThatNobodyWrote)
+TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
 {
     create(folder / "a.h5");
     {
@@ -116,7 +116,7 @@ TEST_F(SpectrumFileOnRanks, MissesTheTilesThatNobodyWrote)
     file.close();
 }
 
-TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenItIsFinishedLater)
+TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenFinishedLater)
 {
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "resumed.h5");
@@ -132,13 +132,13 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenItIsFinishedLater)
     EXPECT_TRUE(bytes_of(folder / "resumed.h5") == expected);
 }
 
-TEST_F(SpectrumFileOnRanks, HoldsValuesThatMatchTheirChecksums)
+TEST_F(SpectrumFileOnRanks, HasValuesThatMatchTheirChecksums)
 {
     bytes_from_one_rank(folder / "a.h5");
     EXPECT_THAT(damaged_tiles(folder / "a.h5"), IsEmpty());
 }
 
-TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileOnceAllTilesAreForgotten)
+TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 {
     create(folder / "new.h5");
     bytes_from_one_rank(folder / "a.h5");
@@ -152,7 +152,7 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileOnceAllTilesAreForgotten)
     EXPECT_TRUE(bytes_of(folder / "a.h5") == bytes_of(folder / "new.h5"));
 }
 
-TEST_F(SpectrumFileOnRanks, CannotBeOpenedWhereItIsNot)
+TEST_F(SpectrumFileOnRanks, CannotBeOpenedIfItDoesNotExist)
 {
     try {
         SpectrumFile file(folder / "nowhere.h5", MPI_COMM_WORLD, job);
@@ -162,7 +162,7 @@ TEST_F(SpectrumFileOnRanks, CannotBeOpenedWhereItIsNot)
     }
 }
 
-TEST_F(SpectrumFileOnRanks, IsComparedOverTheRanksWithoutAChange)
+TEST_F(SpectrumFileOnRanks, IsComparedBetweenRanksWithoutBeingChanged)
 {
     create(folder / "a.h5");
     const std::string before = bytes_of(folder / "a.h5");
@@ -172,10 +172,10 @@ TEST_F(SpectrumFileOnRanks, IsComparedOverTheRanksWithoutAChange)
     EXPECT_TRUE(bytes_of(folder / "a.h5") == before);
 }
 
-TEST_F(SpectrumFileOnRanks, IsNotTheSameIfARankHasAnEqualCopyOrNone)
+TEST_F(SpectrumFileOnRanks, DiffersBetweenRanksIfOneHasACopyOrNoFile)
 {
     for (const char* name : {"copy.h5", "nowhere.h5"}) {
-        MPI_Barrier(MPI_COMM_WORLD); // the ranks may still read what is made again here
+        MPI_Barrier(MPI_COMM_WORLD); // the ranks may still read the file that is recreated here
         create(folder / "a.h5");
         create(folder / "copy.h5");
         const bool differs = rank > 0 && rank == ranks - 1;
@@ -185,9 +185,9 @@ TEST_F(SpectrumFileOnRanks, IsNotTheSameIfARankHasAnEqualCopyOrNone)
     }
 }
 
-// A limit on the size of files stands in for a full disk. The file is left open, as a failing rank
-// leaves it; MPI_COMM_SELF keeps the other ranks out of it.
-TEST_F(SpectrumFileOnRanks, NamesTheTileAndTheReasonWhenAWriteFails)
+// A limit on the size of files simulates a full disk. The file is left open, as by a failing rank;
+// MPI_COMM_SELF excludes the other ranks.
+TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
 {
     const std::string path = folder / ("limited" + std::to_string(rank));
     create_spectrum_file(path, job, tiling);
@@ -208,7 +208,8 @@ TEST_F(SpectrumFileOnRanks, NamesTheTileAndTheReasonWhenAWriteFails)
     EXPECT_EQ(message, "cannot write tile 17 of \"region\": file too large. Run the same command "
                        "again to resume.");
     file.close();
-    EXPECT_EQ(summarize(path).tiles_done, 0) << "a tile that failed must not count as done";
+    EXPECT_EQ(summarize(path).tiles_done, 0)
+        << "a tile that was not written must not count as done";
 }
 
 } // namespace

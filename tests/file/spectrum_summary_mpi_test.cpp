@@ -32,7 +32,7 @@ protected:
     Tiling tiling = sample_tiling(job);
 };
 
-TEST_F(Summary, TellsWhatTheFileHolds)
+TEST_F(Summary, DescribesTheContentsOfTheFile)
 {
     const SpectrumSummary summary = summarize(path);
     EXPECT_EQ(summary.title, job.title);
@@ -63,12 +63,12 @@ TEST_F(Summary, RefusesAMissingFile)
     EXPECT_THROW(summarize(folder / "nowhere.h5"), FileError);
 }
 
-TEST_F(Summary, FindsTilesWithoutValuesUndamaged)
+TEST_F(Summary, ReportsTilesWithoutValuesAsUndamaged)
 {
     EXPECT_THAT(damaged_tiles(path), IsEmpty());
 }
 
-TEST_F(Summary, IsEndedByWhatIsThrownBetweenTiles)
+TEST_F(Summary, IsEndedByAnExceptionBetweenTiles)
 {
     struct Stopped {};
     int calls = 0;
@@ -81,9 +81,9 @@ TEST_F(Summary, IsEndedByWhatIsThrownBetweenTiles)
     EXPECT_EQ(calls, 3);
 }
 
-TEST_F(Summary, FindsTheTileInWhichOneBitHasFlipped)
+TEST_F(Summary, FindsTheTileWithAFlippedBit)
 {
-    // The angle at the last point of tile 5: a number that stands nowhere else in the file.
+    // The angle at the last point of tile 5: a number that occurs nowhere else in the file.
     const TileFields fields = sample_values(job, tiling[5]);
     const double value = std::get<std::vector<double>>(fields.values[1]).back();
     std::string bytes = bytes_of(path);
@@ -95,8 +95,8 @@ TEST_F(Summary, FindsTheTileInWhichOneBitHasFlipped)
     EXPECT_THAT(damaged_tiles(path), ElementsAre(5));
 }
 
-// Whatever byte is wrong, the answer is a summary or a FileError: no crash, no endless loop, no
-// other exception. A prime stride meets all kinds of bytes; all 58000 would take minutes.
+// For any wrong byte the result is a summary or a FileError: no crash, no endless loop, no other
+// exception. A prime stride reaches all kinds of bytes; all 58000 would take minutes.
 TEST_F(Summary, SurvivesAnyWrongByte)
 {
     const std::string good = bytes_of(path);
@@ -115,7 +115,7 @@ TEST_F(Summary, SurvivesAnyWrongByte)
     EXPECT_GT(refused, 0);
 }
 
-TEST_F(Summary, RefusesAFileThatEndsAnywhere)
+TEST_F(Summary, RefusesAFileTruncatedAnywhere)
 {
     const std::string good = bytes_of(path);
     for (std::size_t length = 0; length < good.size(); length += 509) {

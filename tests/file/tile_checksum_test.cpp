@@ -8,14 +8,14 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Shorts = std::vector<std::uint16_t>;
 
-// The published xxHash64 of nothing and of "abc", seed 0.
+// The published xxHash64 of the empty string and of "abc", seed 0.
 TEST(TileChecksum, IsXxHash64)
 {
     EXPECT_EQ(tile_checksum({}), 0xef46db3751d8e999u);
     EXPECT_EQ(tile_checksum({Bytes{'a', 'b', 'c'}}), 0x44bc2cf5ad770999u);
 }
 
-TEST(TileChecksum, RunsOnFromFieldToField)
+TEST(TileChecksum, ContinuesFromFieldToField)
 {
     EXPECT_EQ(tile_checksum({Bytes{'a'}, Shorts{'b' + 256 * 'c'}}),
               tile_checksum({Bytes{'a', 'b', 'c'}}));

@@ -1,6 +1,6 @@
 // write_sample OUT.h5 [TILES [kill]]: writes the sample spectrum and its sidecar on all ranks, or
-// goes on with an unfinished one. Each rank stops after TILES tiles; `kill` ends it there by
-// SIGKILL, in the middle of everything.
+// resumes an unfinished one. Each rank stops after TILES tiles; with `kill` it ends there by
+// SIGKILL.
 #include "file/sample_job.hpp"
 
 #include "overturn/file/provenance.hpp"
@@ -14,7 +14,7 @@
 namespace overturn {
 namespace {
 
-/// A job with a list that no attribute could hold.
+/// A job with a list that is too long for an attribute.
 Job job_with_long_text()
 {
     Job job = sample_job();
@@ -45,7 +45,7 @@ void write_sample(const std::string& path, Stop stop)
     }
     MPI_Barrier(MPI_COMM_WORLD);
     SpectrumFile file(path, MPI_COMM_WORLD, job);
-    // All ranks learn what is missing before the first of them writes.
+    // All ranks read the list of missing tiles before the first of them writes.
     const std::vector<std::int64_t> missing = file.missing_tiles();
     MPI_Barrier(MPI_COMM_WORLD);
     std::int64_t written = 0;

@@ -14,7 +14,7 @@ namespace overturn {
 
 namespace {
 
-/// Bytes that choose; zeros when they are used up.
+/// Bytes of the recipe; zeros when they are used up.
 class Recipe {
 public:
     explicit Recipe(std::string_view bytes) : bytes_(bytes) {}
@@ -67,7 +67,7 @@ constexpr std::array<hsize_t, 12> lengths{0,
                                           (hsize_t(1) << 61) - 1,
                                           hsize_t(1) << 62};
 
-/// A new type, to be closed. Calls that fail leave the file as it is: that is an answer, too.
+/// Creates a type, to be closed by the caller. Calls may fail, which leaves the file unchanged.
 hid_t type_of(Recipe& recipe)
 {
     const std::array plain{H5T_IEEE_F64LE, H5T_IEEE_F64BE, H5T_STD_U8LE,  H5T_STD_U64LE,
@@ -136,7 +136,7 @@ void set_attribute(hid_t file, Recipe& recipe)
     H5Oclose(object);
 }
 
-/// How a dataset of this shape is stored.
+/// The storage of a dataset of this shape.
 hid_t creation_of(Recipe& recipe, const std::vector<hsize_t>& shape, hid_t space,
                   const std::string& elsewhere)
 {

@@ -1,5 +1,5 @@
-// Result files that are sound HDF5 and yet not what overturn writes. Bytes altered at random are
-// mostly noticed by HDF5; these get past it, to our own checks.
+// Result files that are valid HDF5 but not as written by overturn. HDF5 detects most bytes altered
+// at random; these files pass it and reach overturn's own checks.
 #pragma once
 
 #include "overturn/job/job.hpp"
@@ -9,10 +9,10 @@
 
 namespace overturn {
 
-/// A spectrum of 2 x 2 points; what such a file is examined for.
+/// A spectrum of 2 x 2 points, the job with which such files are examined.
 Job job_to_alter();
 
-/// Writes its result file to `path`, and alters it as the recipe says: any bytes are one.
+/// Writes its result file to `path` and alters it by the recipe, which may be any bytes.
 /// Attributes, datasets and links are replaced by others of any type, shape and storage, also
 /// outside of the file: in `elsewhere`.
 void write_altered_result_file(const std::string& path, std::string_view recipe,

@@ -1,5 +1,5 @@
-// Fuzzes the readers of result files, with files that are sound to HDF5. KEEP_FILE=PATH in the
-// environment leaves the file there.
+// Fuzzes the readers of result files with files that are valid HDF5. KEEP_FILE=PATH in the
+// environment keeps the file there.
 #include "altered_result_file.hpp"
 #include "hostile_input.hpp"
 #include "support/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-// Fuzzes the reader of jobs, and --set with it.
+// Fuzzes the reader of jobs and of --set.
 #include "hostile_input.hpp"
 #include "support/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-// Fuzzes the readers of result files, with bytes that HDF5 is given as they are.
+// Fuzzes the readers of result files with raw bytes.
 #include "hostile_input.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -16,7 +16,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace {
 
-/// A block of metadata, which ends in its checksum.
+/// A block of metadata that ends with its checksum.
 struct Block {
     std::size_t begin;
     std::size_t checksum;
@@ -62,7 +62,7 @@ std::uint32_t checksum_of(const std::uint8_t* data, std::size_t size)
     return c;
 }
 
-/// The block that begins at `begin`, if one of a usual length does.
+/// Returns the block that begins at `begin`, if one of a usual length does.
 std::vector<Block> block_at(const std::uint8_t* data, std::size_t size, std::size_t begin)
 {
     constexpr std::size_t longest = 1024;
@@ -74,7 +74,7 @@ std::vector<Block> block_at(const std::uint8_t* data, std::size_t size, std::siz
     return {};
 }
 
-/// Any block, if there is one.
+/// Returns any block, if there is one.
 std::vector<Block> any_block(const std::uint8_t* data, std::size_t size, std::mt19937& random)
 {
     constexpr std::array<std::string_view, 6> signatures{"OHDR", "OCHK", "FRHP",
@@ -88,8 +88,8 @@ std::vector<Block> any_block(const std::uint8_t* data, std::size_t size, std::mt
 
 } // namespace
 
-// HDF5 refuses metadata with a wrong checksum, and would hardly ever see altered ones: every other
-// time they get a right one.
+// HDF5 refuses metadata with a wrong checksum, so that altered metadata would rarely be read: every
+// other time they get a correct one.
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed)
 {

@@ -1,6 +1,6 @@
-// What the program reads, given any bytes. Each entry point takes what the fuzz targets and the
-// test of hostile input make up, and hands it to the readers; nothing but the errors that they
-// promise may come out of them, and nothing may be computed or written.
+// Readers of the program for arbitrary bytes. Each entry point passes the input of the fuzz targets
+// and of the test of hostile input to the readers, which may only throw their documented errors;
+// nothing may be computed or written.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@ namespace overturn {
 
 enum class Verdict { accepted, refused };
 
-/// The beginning of the input may be lines "--set KEY=VALUE"; the rest becomes a job file at
-/// `path`. A job that is accepted has to come back from its own resolved text.
+/// The input may begin with lines "--set KEY=VALUE"; the rest becomes a job file at `path`. Reading
+/// the resolved text of an accepted job must give the same job.
 Verdict use_as_job(std::string_view bytes, const std::string& path);
 
-/// A result file as it may stand at `path`, for overturn info, verify and run.
+/// Reads any file at `path` as a result file, like overturn info, verify and run.
 Verdict use_as_result_file(const std::string& path);
 
-/// The bytes become the file at `path` first.
+/// Writes the bytes to the file at `path` first.
 Verdict use_as_result_file(std::string_view bytes, const std::string& path);
 
-/// The arguments, one to a line.
+/// Reads the arguments, one per line.
 Verdict use_as_command_line(std::string_view bytes);
 
 } // namespace overturn

@@ -1,6 +1,6 @@
-// Whatever stands in a job, a result file or a command line: it is accepted or refused, nothing
-// else happens, and nothing is written. The inputs are the seeds of the fuzz targets, and as many
-// alterations of them as some seconds allow, the same in every run.
+// Any job, result file or command line is accepted or refused; nothing else happens, and nothing is
+// written. The inputs are the seeds of the fuzz targets and as many alterations of them as a few
+// seconds allow, the same in every run.
 #include "altered_result_file.hpp"
 #include "hostile_input.hpp"
 #include "support/scratch_folder.hpp"
@@ -31,14 +31,14 @@ std::vector<std::string> seeds_of(const std::string& reader)
          std::filesystem::directory_iterator(std::string(OVERTURN_CORPUS "/") + reader)) {
         paths.push_back(entry.path());
     }
-    std::sort(paths.begin(), paths.end()); // a folder has no order
+    std::sort(paths.begin(), paths.end()); // folders are unordered
     std::vector<std::string> seeds;
     std::transform(paths.begin(), paths.end(), std::back_inserter(seeds),
                    [](const auto& path) { return bytes_of(path.string()); });
     return seeds;
 }
 
-/// The seeds, and what a few cuts, flips and splices make of them.
+/// The seeds, and alterations of them by a few cuts, flips and splices.
 class Alterations {
 public:
     Alterations(const std::string& reader, std::size_t count)
@@ -47,7 +47,7 @@ public:
 
     std::size_t size() const { return size_; }
 
-    /// Depends on nothing but the number.
+    /// Depends only on the number.
     std::string operator[](std::size_t number) const
     {
         if (number < seeds_.size()) {
@@ -93,8 +93,8 @@ std::vector<std::string> files_in(const std::string& folder)
     return names;
 }
 
-/// Hands every alteration to `use`; nothing may come out of it, and no file but one of that name
-/// may appear in the folder.
+/// Passes every alteration to `use`, which must not throw; no file except one of that name may
+/// appear in the folder.
 template <class Use>
 void expect_no_harm(const Alterations& inputs, const Use& use, const ScratchFolder& folder,
                     const std::vector<std::string>& files)
@@ -109,7 +109,7 @@ void expect_no_harm(const Alterations& inputs, const Use& use, const ScratchFold
     }
 }
 
-TEST(AnyBytes, AreAJobOrNone)
+TEST(AnyBytes, AreAcceptedOrRefusedAsAJob)
 {
     const ScratchFolder folder;
     const std::string path = folder / "job.toml";
@@ -118,14 +118,14 @@ TEST(AnyBytes, AreAJobOrNone)
                    {"job.toml"});
 }
 
-TEST(AnyBytes, AreACommandLineOrNone)
+TEST(AnyBytes, AreAcceptedOrRefusedAsACommandLine)
 {
     const ScratchFolder folder;
     expect_no_harm(Alterations("command_line", 2000),
                    [&](const std::string& bytes) { use_as_command_line(bytes); }, folder, {});
 }
 
-TEST(AnyHdf5File, IsAResultFileOrNone)
+TEST(AnyHdf5File, IsAcceptedOrRefusedAsAResultFile)
 {
     const ScratchFolder folder;
     const std::string path = folder / "input.h5";
@@ -137,10 +137,10 @@ TEST(AnyHdf5File, IsAResultFileOrNone)
                    folder, {"input.h5"});
 }
 
-/// Where a process was when it died.
+/// The place at which a process crashed.
 enum Death { elsewhere = 97, in_hdf5 = 98 };
 
-/// HDF5 1.10 does not survive every file. What it dies of is no fault of ours, but for the rest.
+/// HDF5 1.10 crashes at some files. Crashes within HDF5 are accepted, others are not.
 [[noreturn]] void tell_where_it_died(int)
 {
     void* frames[64];
@@ -155,11 +155,11 @@ enum Death { elsewhere = 97, in_hdf5 = 98 };
     _exit(elsewhere);
 }
 
-/// In a process of its own, from `next` on: which it moves on, and dies with.
+/// Reads the inputs from `next` on in a child process, which increments `next` and may crash.
 [[noreturn]] void use_all_from(std::size_t& next, const Alterations& inputs,
                                const std::string& path)
 {
-    constexpr unsigned patience = 200; // [s] for all of them
+    constexpr unsigned patience = 200; // [s] for all inputs
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
         std::signal(number, tell_where_it_died);
     }
@@ -175,7 +175,7 @@ enum Death { elsewhere = 97, in_hdf5 = 98 };
     _exit(0);
 }
 
-TEST(AnyBytes, AreAResultFileOrNone)
+TEST(AnyBytes, AreAcceptedOrRefusedAsAResultFile)
 {
     const ScratchFolder folder;
     const std::string path = folder / "input.h5";

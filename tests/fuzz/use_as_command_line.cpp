@@ -13,12 +13,12 @@ namespace {
 
 [[noreturn]] int refuse_to_run()
 {
-    throw std::logic_error("reading a command line has run a command");
+    throw std::logic_error("parsing a command line has run a command");
 }
 
 } // namespace
 
-// The parser needs something to name; nothing is ever executed here.
+// The parser needs names of commands; none is executed here.
 int run(const RunOptions&)
 {
     refuse_to_run();
@@ -49,7 +49,7 @@ Verdict use_as_command_line(std::string_view bytes)
     std::vector<std::string> words{"overturn"};
     while (!bytes.empty()) {
         const std::string_view line = bytes.substr(0, bytes.find('\n'));
-        words.emplace_back(line.substr(0, line.find('\0'))); // where an argument ends
+        words.emplace_back(line.substr(0, line.find('\0'))); // an argument ends at a null
         bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
     }
     std::vector<const char*> arguments;
@@ -57,7 +57,7 @@ Verdict use_as_command_line(std::string_view bytes)
         arguments.push_back(word.c_str());
     }
     const int count = int(arguments.size());
-    arguments.push_back(nullptr); // as main() is given them
+    arguments.push_back(nullptr); // as for main()
     try {
         const Command command = read_command_line(count, arguments.data());
         return command.execute ? Verdict::accepted

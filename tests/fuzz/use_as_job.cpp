@@ -21,7 +21,7 @@ void demand(bool condition, const std::string& otherwise)
     }
 }
 
-/// Takes the lines "--set KEY=VALUE" off the beginning.
+/// Removes the lines "--set KEY=VALUE" from the beginning.
 std::vector<std::string> take_overrides(std::string_view& bytes)
 {
     constexpr std::string_view option = "--set ";
@@ -53,7 +53,7 @@ void use(const Job& job, const std::string& path)
 
 Verdict use_as_job(std::string_view bytes, const std::string& path)
 {
-    const UntrappedFloatingPoint overflows; // of jobs that are refused because it did
+    const UntrappedFloatingPoint overflows; // in jobs that are refused because of it
     const std::vector<std::string> overrides = take_overrides(bytes);
     write_bytes(path, std::string(bytes));
     try {
@@ -61,7 +61,7 @@ Verdict use_as_job(std::string_view bytes, const std::string& path)
         return Verdict::accepted;
     } catch (const JobError& error) {
         const std::string message = error.what();
-        demand(message.find('\n') == message.npos, "a refusal takes more than a line: " + message);
+        demand(message.find('\n') == message.npos, "a refusal has more than one line:  " + message);
         return Verdict::refused;
     }
 }

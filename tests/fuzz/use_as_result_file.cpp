@@ -11,7 +11,7 @@ namespace overturn {
 
 namespace {
 
-/// Whether what was asked for has been answered, and not refused.
+/// Whether the request was answered and not refused.
 template <class Question>
 bool is_answered(const Question& question)
 {

@@ -1,5 +1,6 @@
-// Slow pulses that hardly lift the block: what is small at uplift is 1e6 to 1e15 times larger at
-// the end. Each of these points once had a bound that its error exceeded, and a wrong verdict.
+// Slow pulses that hardly lift the block: errors that are small at uplift are 1e6 to 1e15 times
+// larger at the end. The bound of each of these points was once exceeded by its error, with a wrong
+// verdict.
 #include "verdicts.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ TEST(Amplification, OverOneLongStepIsPartOfTheError)
                            .amplitude = 1.0054021134247213});
 }
 
-TEST(Amplification, OfImpactsOnALongWayIsPartOfTheError)
+TEST(Amplification, OfImpactsOverALongTimeIsPartOfTheError)
 {
     expect_right_verdicts({.pulse = PulseKind::one_cosine,
                            .slenderness = 0.2972200856338059,
@@ -42,9 +43,9 @@ TEST(Amplification, OfImpactsOnALongWayIsPartOfTheError)
                            .amplitude = 1.0027857893189558});
 }
 
-TEST(Amplification, OfRoundOffThatIsWrongAllTheTimeIsPartOfTheError)
+TEST(Amplification, OfSystematicRoundOffIsPartOfTheError)
 {
-    // The peak of the pulse is rounded once, and pushes too hard in every step.
+    // The peak of the pulse is rounded once, which makes every step push too hard.
     for (const double frequency :
          {0.15277345754571803, 0.15277345754571806, 0.1527734575457181, 0.15277345754571825}) {
         expect_right_verdicts({.pulse = PulseKind::symmetric_ricker,
@@ -63,9 +64,9 @@ TEST(Amplification, OfRoundOffThatIsWrongAllTheTimeIsPartOfTheError)
     }
 }
 
-TEST(Amplification, InFiftyDigitsLeavesTheirErrorWithinItsBound)
+TEST(Amplification, InFiftyDigitsKeepsTheErrorWithinItsBound)
 {
-    // Eight impacts that amplify the errors of their landings, too.
+    // Eight impacts that also amplify the errors of locating them.
     const HardCase point{.pulse = PulseKind::antisymmetric_ricker,
                          .theory = Theory::linear,
                          .slenderness = 0.30232279446291216,
@@ -78,10 +79,10 @@ TEST(Amplification, InFiftyDigitsLeavesTheirErrorWithinItsBound)
     EXPECT_NEAR(truth_of(point).margin, -0.002851210435169135554626, 4e-19);
 }
 
-TEST(Amplification, ThatIsUndoneOnTheWayDownLeavesRoundOffOfTheBoundItself)
+TEST(Amplification, ThatIsReversedOnTheWayDownLeavesRoundOffOfTheBound)
 {
     // Twice from top to top without loss: errors grow to a tenth of alpha, and shrink to less than
-    // a bound in doubles can hold beside them.
+    // the round-off of a bound in doubles.
     expect_right_verdicts({.pulse = PulseKind::symmetric_ricker,
                            .theory = Theory::linear,
                            .slenderness = 0.051923607403811856,
@@ -93,8 +94,8 @@ TEST(Amplification, ThatIsUndoneOnTheWayDownLeavesRoundOffOfTheBoundItself)
 
 TEST(Amplification, OfThousandsOfBouncesIsKnownInDoubles)
 {
-    // Bounces after a first lobe that hardly lifts, and after one of two that hardly do. In long
-    // double either is known to 1e-6; the bound of doubles is that times a few thousand.
+    // Bounces after a first lobe that hardly lifts, and after one of two that hardly lift. In long
+    // double both are known to 1e-6; the bound of doubles is that times a few thousand.
     const HardCase side_lobe{.pulse = PulseKind::symmetric_ricker,
                              .slenderness = 0.024413150530126933,
                              .restitution = 1,
@@ -115,10 +116,11 @@ TEST(Amplification, OfThousandsOfBouncesIsKnownInDoubles)
     }
 }
 
-TEST(Amplification, OfThousandsOfLandingsIsPartOfTheErrorOfRungeKuttaSteps)
+TEST(Amplification, OfThousandsOfImpactsIsPartOfTheErrorOfRungeKuttaSteps)
 {
-    // A landing moves the end of its step. Left out of the linearised motion, that was enough to
-    // turn errors of the time into errors of the energy and back, and the bound through zero.
+    // Locating an impact moves the end of its step. Omitting this from the linearised motion was
+    // enough to convert errors of the time into errors of the energy and back, and to make the
+    // bound negative.
     HardCase linear{.pulse = PulseKind::symmetric_ricker,
                     .theory = Theory::linear,
                     .slenderness = 1.1,
@@ -149,9 +151,9 @@ TEST(Amplification, OfThousandsOfLandingsIsPartOfTheErrorOfRungeKuttaSteps)
     EXPECT_GT(bounded, 80); // at 1e-9 at least
 }
 
-TEST(Uplift, HappensOnceOnAFlank)
+TEST(Uplift, OccursOnceOnAFlank)
 {
-    // Lifted by a last bit, the block is down again before a step of 1e-4 sees it rise.
+    // Lifted by a last bit, the block is down again before a step of 1e-4 detects its rise.
     for (const double amplitude : {1 + 0x1p-52, 1 + 1e-12}) {
         const HardCase point{.pulse = PulseKind::one_cosine,
                              .slenderness = 0.4675,

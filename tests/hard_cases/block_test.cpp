@@ -1,4 +1,4 @@
-// Blocks at the ends of what blocks can be: nearly plastic, loss-free, needles and slabs.
+// Extreme blocks: nearly plastic, loss-free, very slender and very stout.
 #include "boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 const double limit_of_slenderness = std::asin(std::sqrt(2.0 / 3)); ///< there r_max = 0
 
-/// The verdict from a gentle to a strong push.
+/// Verdicts from weak to strong pushes.
 void expect_right_verdicts_at_all_amplitudes(HardCase point)
 {
     for (const PulseKind pulse : {PulseKind::one_sine, PulseKind::one_cosine,
@@ -24,7 +24,7 @@ void expect_right_verdicts_at_all_amplitudes(HardCase point)
     }
 }
 
-TEST(NearlyPlasticBlock, RestsAfterItsFirstImpact)
+TEST(NearlyPlasticBlock, ComesToRestAfterItsFirstImpact)
 {
     const HardCase point{.restitution = 1e-12, .frequency = 3, .amplitude = 2};
     const Truth truth = expect_right_verdicts(point);
@@ -35,19 +35,19 @@ TEST(NearlyPlasticBlock, RestsAfterItsFirstImpact)
     }
 }
 
-TEST(NearlyPlasticBlock, GetsItsVerdictAtAllAmplitudes)
+TEST(NearlyPlasticBlock, HasAVerdictAtAllAmplitudes)
 {
     expect_right_verdicts_at_all_amplitudes({.restitution = 1e-12});
 }
 
-TEST(NearlyPlasticBlock, IsResolvedWhereItJustFallsOnItsOwnSide)
+TEST(NearlyPlasticBlock, IsResolvedWhereItJustOverturnsToItsOwnSide)
 {
     const Neighbours flip = neighbours_of_root({.restitution = 1e-12}, &HardCase::amplitude, 3.64,
                                                3.65, &Truth::margin);
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(NearlyPlasticBlock, AtRestIsSafeHoweverLittleEnergyItKeeps)
+TEST(NearlyPlasticBlock, AtRestIsSafeHoweverSmallTheRestitution)
 {
     for (const double restitution : {1e-16, 1e-24, 1e-32}) {
         expect_right_verdicts({.restitution = restitution, .amplitude = 0.5});
@@ -55,23 +55,23 @@ TEST(NearlyPlasticBlock, AtRestIsSafeHoweverLittleEnergyItKeeps)
     }
 }
 
-TEST(LossFreeBlock, GetsItsVerdictAtAllAmplitudes)
+TEST(LossFreeBlock, HasAVerdictAtAllAmplitudes)
 {
     // q_min = 0: both branches of the margin meet at the top.
     expect_right_verdicts_at_all_amplitudes({.restitution = 1});
 }
 
-TEST(LossFreeBlock, IsResolvedWhereItFirstFalls)
+TEST(LossFreeBlock, IsResolvedAtTheFirstOverturningAmplitude)
 {
     const Neighbours flip =
         neighbours_of_root({.restitution = 1}, &HardCase::amplitude, 1.2, 1.4, &Truth::margin);
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(LossFreeBlock, ThatRisesToTheTopIsResolvedWhicheverWayItFalls)
+TEST(LossFreeBlock, ThatRisesToTheTopIsResolvedForEitherOutcome)
 {
-    // It comes up from an impact to near the top, where both branches of the margin are close: the
-    // one that looks larger reacts far more to an error.
+    // After an impact it rises to near the top, where both branches of the margin are close: the
+    // one that looks larger is far more sensitive to an error.
     const HardCase nonlinear{.pulse = PulseKind::antisymmetric_ricker,
                              .slenderness = 0.2,
                              .restitution = 1,
@@ -91,7 +91,7 @@ TEST(LossFreeBlock, ThatRisesToTheTopIsResolvedWhicheverWayItFalls)
     }
 }
 
-TEST(Block, ThatLosesLessThanAFlatBaseLetsGetsItsVerdictAtAllAmplitudes)
+TEST(Block, WithRestitutionAboveTheMaximumHasAVerdictAtAllAmplitudes)
 {
     // r above r_max = 0.91.
     for (const double restitution : {0.92, 0.96, 1 - 0x1p-53}) {
@@ -99,7 +99,7 @@ TEST(Block, ThatLosesLessThanAFlatBaseLetsGetsItsVerdictAtAllAmplitudes)
     }
 }
 
-TEST(Block, OfAnySlendernessGetsItsVerdictAtAllAmplitudes)
+TEST(Block, OfAnySlendernessHasAVerdictAtAllAmplitudes)
 {
     for (const double alpha : {1e-6, 1.0, 1.5}) {
         for (const double restitution : {0.1, 0.9}) {
@@ -112,16 +112,16 @@ TEST(Block, OfAnySlendernessGetsItsVerdictAtAllAmplitudes)
 TEST(Block, OfAnySlendernessIsResolvedWhereTheVerdictFlips)
 {
     for (const double alpha : {1e-6, 1.0, 1.5}) {
-        // Not lifted to thrown over: there is a flip between.
+        // From not lifted to overturned: there is a flip in between.
         const Neighbours flip = neighbours_of_root({.slenderness = alpha, .restitution = 0.5},
                                                    &HardCase::amplitude, 1, 10, &Truth::margin);
         expect_right_verdicts_around(flip, &HardCase::amplitude);
     }
 }
 
-TEST(Block, OfLimitingSlendernessGetsItsVerdictAtAllAmplitudes)
+TEST(Block, OfLimitingSlendernessHasAVerdictAtAllAmplitudes)
 {
-    // r_max is about 2e-14, 2e-22, and of the last bits of alpha.
+    // r_max is about 2e-14, 2e-22, and determined by the last bits of alpha.
     for (const double below : {1e-7, 1e-11, 1e-15}) {
         const double alpha = limit_of_slenderness - below;
         const double restitution = largest_restitution(alpha);

@@ -1,4 +1,4 @@
-// Series of bounces: that die out, that hardly do, that never do.
+// Series of bounces that die out, hardly die out, or never die out.
 #include "boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace overturn {
 namespace {
 
-TEST(BounceSeries, ThatDiesOutLaysTheBlockToRest)
+TEST(BounceSeries, ThatDiesOutBringsTheBlockToRest)
 {
     for (const double amplitude : {1.001, 1.005, 1.01}) {
         const HardCase point{.amplitude = amplitude};
@@ -22,9 +22,9 @@ TEST(BounceSeries, ThatDiesOutLaysTheBlockToRest)
     }
 }
 
-TEST(BounceSeries, ThatHardlyDiesOutBeforeTheNextUpliftGivesTheSameVerdictEitherWay)
+TEST(BounceSeries, ThatHardlyDiesOutBeforeTheNextUpliftHasTheSameVerdictEitherWay)
 {
-    // Whether a series is closed is a matter of what is known of its bounces, not of digits.
+    // Whether a series is closed depends on the bounds of its bounces, not on the digits.
     const auto rests = [](const HardCase& point) {
         const Outcome outcome = outcome_of(point, {.method = Method::taylor, .tolerance = 1e-12});
         return outcome.status == status::came_to_rest ? 1.0 : -1.0;
@@ -38,9 +38,9 @@ TEST(BounceSeries, ThatHardlyDiesOutBeforeTheNextUpliftGivesTheSameVerdictEither
     }
 }
 
-TEST(BounceSeries, ThatIsCutShortByTheNextUpliftIsResolvedWhereTheVerdictFlips)
+TEST(BounceSeries, InterruptedByTheNextUpliftIsResolvedWhereTheVerdictFlips)
 {
-    // Nine to eleven impacts between the lobes; what is left of the bounces decides.
+    // Nine to eleven impacts between the lobes; the remaining bounces decide.
     for (const auto& [low, high] : {std::array{1.042, 1.044}, std::array{1.052, 1.054}}) {
         const Neighbours flip =
             neighbours_of_root({.frequency = 0.5}, &HardCase::amplitude, low, high, &Truth::margin);
@@ -60,9 +60,9 @@ TEST(BounceSeries, WithoutLossNeverDiesOutAndIsCounted)
     }
 }
 
-TEST(BounceSeries, WithoutLossAndHardlyLiftedEndsAtTheCapOfStepsAndSaysSo)
+TEST(BounceSeries, WithoutLossAndHardlyLiftedEndsAtTheLimitOfStepsWithAFlag)
 {
-    // Lifted by a millionth of the threshold it would bounce for millions of times.
+    // Lifted by a millionth of the threshold it would bounce millions of times.
     const HardCase point{.restitution = 1, .frequency = 3, .amplitude = 1 + 1e-6};
     const Outcome outcome = expect_right_verdict(point, {.method = Method::rk45, .tolerance = 1e-9},
                                                  {}, {.most_steps = 1 << 20, .undecided = true});
@@ -74,7 +74,7 @@ TEST(BounceSeries, WithoutLossAndHardlyLiftedEndsAtTheCapOfStepsAndSaysSo)
 
 TEST(BounceSeries, ThatProvablyStaysLowIsSafeHoweverLong)
 {
-    // The same, and one that doubles follow for some hundred thousand bounces.
+    // The same series, and one followed in doubles for about a hundred thousand bounces.
     const HardCase endless{.restitution = 1, .frequency = 3, .amplitude = 1 + 1e-6};
     const HardCase long_one{.pulse = PulseKind::one_cosine,
                             .slenderness = 0.01070179327811405,
@@ -94,10 +94,10 @@ TEST(BounceSeries, ThatProvablyStaysLowIsSafeHoweverLong)
     }
 }
 
-TEST(BounceSeries, TooLongForMoreDigitsIsGivenUpBeforeTheyAreTried)
+TEST(BounceSeries, TooLongForMoreDigitsIsNotTriedWithThem)
 {
-    // The second lobe lifts what bounces before it, so nobody can tell without following it; and
-    // more digits would need as many steps as doubles.
+    // The second lobe lifts the block while it bounces, so its verdict requires following the
+    // bounces; and more digits would need as many steps as doubles.
     const HardCase point{.pulse = PulseKind::one_cosine,
                          .slenderness = 0.3,
                          .restitution = 1,

@@ -1,4 +1,4 @@
-// Points on a boundary: neighbouring doubles between which 50 digits see something change.
+// Points on a boundary: neighbouring doubles between which a quantity in 50 digits changes.
 #pragma once
 
 #include "verdicts.hpp"
@@ -11,7 +11,7 @@
 
 namespace overturn {
 
-/// A hard case on either side of a change.
+/// A hard case on each side of a change.
 struct Neighbours {
     HardCase below;
     HardCase above;
@@ -19,8 +19,8 @@ struct Neighbours {
 
 using Coordinate = double HardCase::*;
 
-/// Where the value, a function of the coordinate, changes its sign between `low` and `high`: at
-/// neighbouring doubles. Needs five evaluations or so if the value is smooth, fifty if it jumps.
+/// Neighbouring doubles in [low, high] between which the value, a function of the coordinate,
+/// changes its sign. Needs about five evaluations if the value is smooth, fifty if it jumps.
 template <class Value>
 Neighbours neighbours_of_root(HardCase point, Coordinate coordinate, double low, double high,
                               const Value& value)
@@ -39,7 +39,7 @@ Neighbours neighbours_of_root(HardCase point, Coordinate coordinate, double low,
     return found;
 }
 
-/// The same for a quantity of the end in 50 digits.
+/// The same for a quantity of the end state in 50 digits.
 inline Neighbours neighbours_of_root(const HardCase& point, Coordinate coordinate, double low,
                                      double high, double Truth::*quantity)
 {
@@ -47,7 +47,7 @@ inline Neighbours neighbours_of_root(const HardCase& point, Coordinate coordinat
                               [&](const HardCase& at) { return truth_of(at).*quantity; });
 }
 
-/// The same for a fact that turns from true to false or back.
+/// The same for a condition that changes between true and false.
 template <class Fact>
 Neighbours neighbours_of_change(const HardCase& point, Coordinate coordinate, double low,
                                 double high, const Fact& fact)
@@ -56,8 +56,8 @@ Neighbours neighbours_of_change(const HardCase& point, Coordinate coordinate, do
                               [&](const HardCase& at) { return fact(truth_of(at)) ? 1.0 : -1.0; });
 }
 
-/// Expects the right verdicts on both neighbours, and beside them at distances from the last bits
-/// of a double to where a loose tolerance is sure: an error of the verdict, at a tolerance of 1e-4
+/// Expects correct verdicts at both neighbours, and next to them at distances from the last bits of
+/// a double to where a loose tolerance is certain: an error of the verdict, at a tolerance of 1e-4
 /// or finer, shows at one of them.
 inline void expect_right_verdicts_around(const Neighbours& boundary, Coordinate coordinate,
                                          const Allowance& allowed = {})

@@ -1,4 +1,4 @@
-// The bound of the error where the run cannot know it: infinite, never "not a number".
+// The bound of the error where it is unknown: infinite, never NaN.
 #include "verdicts.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// One point of a plane together with its scene: what a hard case is made of.
+// A hard case: one point of a plane together with its scene.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -9,7 +9,7 @@
 
 namespace overturn {
 
-/// Unless a case says otherwise: the paper's block under a one-sine pulse.
+/// By default the paper's block under a one-sine pulse.
 struct HardCase {
     PulseKind pulse = PulseKind::one_sine;
     Theory theory = Theory::nonlinear;

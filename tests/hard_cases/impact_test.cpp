@@ -1,4 +1,4 @@
-// Impacts that hardly happen, that come in pairs, and that happen at a bad moment.
+// Grazing impacts, pairs of impacts, and impacts at critical moments.
 #include "boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace overturn {
 namespace {
 
-/// Touches of the ground, between neighbouring amplitudes: two impacts below, none above.
+/// Grazing impacts between neighbouring amplitudes: two impacts below, none above.
 const std::vector<Neighbours>& grazes()
 {
     static const std::vector<Neighbours> found = [] {
@@ -38,15 +38,15 @@ TEST(GrazingImpact, IsTwoImpactsOrNone)
     }
 }
 
-TEST(GrazingImpact, LeavesTheVerdictRightOnBothSides)
+TEST(GrazingImpact, HasTheRightVerdictOnBothSides)
 {
     for (const Neighbours& graze : grazes()) {
         expect_right_verdicts_around(graze, &HardCase::amplitude);
     }
 }
 
-/// Expects every run that knows its error to count the impacts rightly: a finite error says that no
-/// event is left in doubt.
+/// Expects every run with a finite error to have the right number of impacts: a finite error means
+/// that no event is in doubt.
 void expect_impacts_counted(const HardCase& point)
 {
     const double impacts = truth_of(point).impacts;
@@ -59,10 +59,10 @@ void expect_impacts_counted(const HardCase& point)
     }
 }
 
-TEST(GrazingImpact, IsCountedByWhoeverKnowsItsError)
+TEST(GrazingImpact, IsCountedByEveryRunWithAFiniteError)
 {
-    // The two impacts lie within what would be one step: a tenth of a unit of time apart at the
-    // larger distances, a millionth at the smaller ones.
+    // The two impacts would be within one step: a tenth of a unit of time apart at the larger
+    // distances, a millionth at the smaller ones.
     for (const Neighbours& graze : grazes()) {
         for (const double distance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12}) {
             HardCase touching = graze.below;
@@ -75,9 +75,9 @@ TEST(GrazingImpact, IsCountedByWhoeverKnowsItsError)
     }
 }
 
-TEST(GrazingImpact, IsSeenByEveryMethodOnceItsErrorIsSmallEnough)
+TEST(GrazingImpact, IsDetectedByEveryMethodIfItsErrorIsSmallEnough)
 {
-    // So that the test above is not passed by infinite errors alone.
+    // Ensures that the test above does not pass only because of infinite errors.
     for (const Neighbours& graze : grazes()) {
         HardCase point = graze.below;
         point.amplitude *= 1 - 1e-6;
@@ -90,16 +90,16 @@ TEST(GrazingImpact, IsSeenByEveryMethodOnceItsErrorIsSmallEnough)
 
 TEST(GrazingImpact, ThatDecidesTheVerdictIsResolved)
 {
-    // Under a slow pulse, one touch more or less is the difference between standing and falling:
-    // the margin jumps across zero within this line.
+    // Under a slow pulse, one touch more or less decides between safe and overturning: the margin
+    // changes its sign in a jump within this line.
     const Neighbours flip =
         neighbours_of_root({.frequency = 0.5}, &HardCase::amplitude, 1.046, 1.048, &Truth::margin);
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(Impact, WhereTheGroundAccelerationCrossesTheUpliftValueKeepsTheVerdict)
+TEST(Impact, WhereTheGroundAccelerationCrossesTheUpliftValueHasTheRightVerdict)
 {
-    // There the pull to the new side vanishes: from the impact on the block hangs in the balance.
+    // There the restoring force on the new side vanishes: the block is balanced from the impact on.
     const Neighbours impact =
         neighbours_of_root({}, &HardCase::amplitude, 1.3, 2.3, angle_at_second_uplift_value);
     expect_right_verdicts_around(impact, &HardCase::amplitude);
@@ -107,7 +107,7 @@ TEST(Impact, WhereTheGroundAccelerationCrossesTheUpliftValueKeepsTheVerdict)
 
 TEST(Impact, WhereTheGroundAccelerationCrossesTheUpliftValueIsResolvedWhereTheVerdictFlips)
 {
-    // The impact does not move with r, so there is one with which the block just falls after it.
+    // The impact does not depend on r, so there is an r at which the block just overturns after it.
     const HardCase point = neighbours_of_root({.frequency = 2}, &HardCase::amplitude, 1.25, 1.4,
                                               angle_at_second_uplift_value)
                                .below;
@@ -117,7 +117,7 @@ TEST(Impact, WhereTheGroundAccelerationCrossesTheUpliftValueIsResolvedWhereTheVe
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(Impact, AtTheVeryEndOfAPushToOneSideKeepsTheVerdict)
+TEST(Impact, AtTheVeryEndOfAPushToOneSideHasTheRightVerdict)
 {
     const Neighbours impact = neighbours_of_root({.pulse = PulseKind::half_sine},
                                                  &HardCase::amplitude, 1.14, 1.15, &Truth::angle);

@@ -1,4 +1,4 @@
-// The largest and smallest values that a job file accepts: a verdict, or a flag that says why not.
+// The largest and smallest values accepted in a job file give a verdict or a flag with the reason.
 #include "verdicts.hpp"
 
 #include "support/untrapped_floating_point.hpp"
@@ -23,7 +23,7 @@ class LargestValues : public testing::Test {
     UntrappedFloatingPoint untrapped_;
 };
 
-TEST_F(LargestValues, OfTheFrequencyLeaveTheBlockWhereItIs)
+TEST_F(LargestValues, OfTheFrequencyDoNotMoveTheBlock)
 {
     for (const double frequency : {1e16, 1e100, 1e300}) {
         const Truth truth = expect_right_verdicts({.frequency = frequency});
@@ -32,30 +32,30 @@ TEST_F(LargestValues, OfTheFrequencyLeaveTheBlockWhereItIs)
     expect_right_verdicts({.frequency = largest}, anything_with_a_flag);
 }
 
-TEST_F(LargestValues, OfThePulsesLengthLeaveNoDoubtThatTheBlockFalls)
+TEST_F(LargestValues, OfThePulseLengthOverturnTheBlockWithCertainty)
 {
-    // While a double's phase stands still, the block falls all the same.
+    // The block overturns although its phase does not change in doubles.
     for (const double frequency : {1e-5, 1e-10, 1e-17}) {
         const Truth truth = expect_right_verdicts({.frequency = frequency});
         EXPECT_EQ(truth.region, Region::F_minus);
     }
 }
 
-TEST_F(LargestValues, OfThePulsesLengthMayStayUnresolved)
+TEST_F(LargestValues, OfThePulseLengthMayRemainUnresolved)
 {
-    // 50 digits do not tell the phase at which it falls from that of its uplift.
+    // 50 digits do not distinguish the phase of overturning from that of uplift.
     expect_right_verdicts({.frequency = 1e-40}, {.unresolved = true});
     expect_right_verdicts({.frequency = 1e-100}, {.unresolved = true});
 }
 
-TEST_F(LargestValues, OfThePulsesLengthGiveAnErrorThatIsANumberOrInfinite)
+TEST_F(LargestValues, OfThePulseLengthGiveAnErrorThatIsFiniteOrInfinite)
 {
     for (const double frequency : {1e-300, smallest}) {
         expect_right_verdicts({.frequency = frequency}, {.unresolved = true});
     }
 }
 
-TEST_F(LargestValues, OfTheAmplitudeThrowTheBlockOver)
+TEST_F(LargestValues, OfTheAmplitudeOverturnTheBlock)
 {
     const Truth truth = expect_right_verdicts({.amplitude = 1e16});
     EXPECT_EQ(truth.region, Region::F_minus);
@@ -64,7 +64,7 @@ TEST_F(LargestValues, OfTheAmplitudeThrowTheBlockOver)
     EXPECT_EQ(larger.region, Region::F_minus);
 }
 
-TEST_F(LargestValues, OfTheAmplitudeOverflowAndSaySo)
+TEST_F(LargestValues, OfTheAmplitudeOverflowAndSetAFlag)
 {
     for (const double amplitude : {1e155, 1e300, largest}) {
         for (const Numerics& numerics : plain_numerics()) {
@@ -73,7 +73,7 @@ TEST_F(LargestValues, OfTheAmplitudeOverflowAndSaySo)
     }
 }
 
-TEST_F(LargestValues, OfTheAmplitudeGiveUpWithAnInfiniteErrorInFiftyDigits)
+TEST_F(LargestValues, OfTheAmplitudeFailWithAnInfiniteErrorInFiftyDigits)
 {
     expect_right_verdict({.amplitude = 1e300},
                          {.method = Method::taylor, .tolerance = 1e-4, .resolve = true}, {},
@@ -91,7 +91,7 @@ TEST_F(LargestValues, OfAmplitudeAndFrequencyTogetherCancel)
     expect_right_verdicts({.frequency = 1e300, .amplitude = 1e300}, anything_with_a_flag);
 }
 
-TEST_F(LargestValues, OfTheAmplitudeOverALongestPulseGiveAVerdictOrAFlag)
+TEST_F(LargestValues, OfTheAmplitudeWithTheLongestPulseGiveAVerdictOrAFlag)
 {
     for (const auto& [frequency, amplitude] :
          {std::array{1e-17, 1e16}, std::array{1e-100, 1e100}, std::array{1e100, 1e-100}}) {
@@ -115,7 +115,7 @@ TEST_F(LargestValues, OfTheSlendernessGiveAVerdict)
                 {.slenderness = alpha, .restitution = 0.5, .amplitude = amplitude});
         }
     }
-    // A block so flat that doubles take a million steps to lift it: the push is 1e16 g.
+    // A block so stout that doubles need a million steps to lift it: the push is 1e16 g.
     const HardCase point{
         .slenderness = std::nextafter(std::acos(0.0), 0), .restitution = 0.5, .amplitude = 1.2};
     const Truth truth = expect_right_verdicts(point, {.most_steps = 1 << 20, .undecided = true});
@@ -124,7 +124,7 @@ TEST_F(LargestValues, OfTheSlendernessGiveAVerdict)
 
 TEST_F(LargestValues, OfTheHeightGiveARightVerdictOrAFlag)
 {
-    // The smallest slenderness that a job may have: squares of rates come near the smallest double.
+    // The smallest slenderness allowed in a job: squares of rates are near the smallest double.
     const HardCase point{.slenderness = 1e-100, .restitution = 0.5, .amplitude = 2};
     const Truth truth = expect_right_verdicts(point, anything_with_a_flag);
     EXPECT_TRUE(truth.settled);
@@ -140,7 +140,7 @@ TEST_F(LargestValues, OfTheHeightGiveAFiniteMarginOrAFlag)
     const Numerics taylor{.method = Method::taylor, .tolerance = 1e-4};
     const HardCase highest{.slenderness = 1e-100, .restitution = 0.5, .amplitude = 2};
     expect_right_verdict(highest, taylor, {}, anything_with_a_flag);
-    // It falls, at -theta'^2 / q_max of 1e200.
+    // It overturns with -theta'^2 / q_max of 1e200.
     const HardCase falls{.pulse = PulseKind::rectangular,
                          .slenderness = 1e-100,
                          .restitution = 0.5,

@@ -6,9 +6,9 @@
 namespace overturn {
 namespace {
 
-TEST(LongPulse, LiftsTheBlockForAMomentAndLaysItToRestTwice)
+TEST(LongPulse, LiftsTheBlockBrieflyAndBringsItToRestTwice)
 {
-    // Over 6283 units of time, the ground exceeds the threshold for one and a half in either lobe.
+    // In 6283 units of time, the ground exceeds the threshold for one and a half in each lobe.
     const HardCase point{.frequency = 1e-3, .amplitude = 1 + 1e-7};
     const Truth truth = expect_right_verdicts(point);
     EXPECT_EQ(truth.region, Region::S);
@@ -22,11 +22,11 @@ TEST(LongPulse, LiftsTheBlockForAMomentAndLaysItToRestTwice)
     }
 }
 
-TEST(LongPulse, TopplesTheBlockAsSoonAsItLiftsItForLong)
+TEST(LongPulse, OverturnsTheBlockIfItLiftsItLongEnough)
 {
     const Neighbours flip = neighbours_of_root({.frequency = 1e-3}, &HardCase::amplitude, 1 + 1e-7,
                                                1 + 1e-5, &Truth::margin);
-    // The flip lies some 1e-6 above 1: distances count from there.
+    // The flip is about 1e-6 above 1: distances are measured from there.
     EXPECT_LT(flip.below.amplitude - 1, 5e-6);
     expect_right_verdicts(flip.below);
     expect_right_verdicts(flip.above);
@@ -37,9 +37,9 @@ TEST(LongPulse, TopplesTheBlockAsSoonAsItLiftsItForLong)
     }
 }
 
-TEST(LongPulse, ARestAfterAnExcursionToTheTopIsAsCertainAsTheExcursion)
+TEST(LongPulse, RestAfterAnExcursionToTheTopIsAsCertainAsTheExcursion)
 {
-    // Close to the top the block may turn back or not; once it rests nothing tells of the doubt.
+    // Near the top the block may turn back or not; once at rest it does not show this uncertainty.
     const Truth truth = expect_right_verdicts({.pulse = PulseKind::antisymmetric_ricker,
                                                .slenderness = 0.55443270095467534,
                                                .restitution = 0.1800942256249258,
@@ -48,7 +48,7 @@ TEST(LongPulse, ARestAfterAnExcursionToTheTopIsAsCertainAsTheExcursion)
     EXPECT_EQ(truth.region, Region::F_plus);
 }
 
-TEST(LongPulse, OfAConstantPushStillEnds)
+TEST(LongPulse, OfAConstantPushTerminates)
 {
     for (const double amplitude : {1.0, 1 + 1e-15, 1 + 1e-6, 2.0}) {
         expect_right_verdicts(
@@ -76,16 +76,16 @@ TEST(ShortPulse, OfEveryShapeGivesAVerdict)
     }
 }
 
-TEST(ShortPulse, TopplesTheBlockByItsImpulseAlone)
+TEST(ShortPulse, OverturnsTheBlockByItsImpulseAlone)
 {
-    // A half sine of frequency Omega leaves the velocity 2 a alpha / Omega: the flip lies near
-    // a = Omega / 2, and the block has hardly tilted.
+    // A half sine of frequency Omega gives the velocity 2 a alpha / Omega: the flip is near a =
+    // Omega / 2, and the block has hardly tilted.
     const Neighbours flip = neighbours_of_root({.pulse = PulseKind::half_sine, .frequency = 1e4},
                                                &HardCase::amplitude, 4900, 5100, &Truth::margin);
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(ShortPulse, OfTwoLobesTopplesTheBlockByTheTiltThatItLeaves)
+TEST(ShortPulse, OfTwoLobesOverturnsTheBlockByItsFinalTilt)
 {
     const Neighbours flip =
         neighbours_of_root({.frequency = 1e4}, &HardCase::amplitude, 1e6, 1e8, &Truth::margin);

@@ -8,7 +8,7 @@ namespace {
 
 using T = Digits50;
 
-/// Leaves 25 digits and more at the end of a pulse.
+/// Gives at least 25 correct digits at the end of a pulse.
 constexpr double tolerance = 1e-30;
 
 Point<T> in_digits(const HardCase& point)

@@ -1,4 +1,4 @@
-// What becomes of a hard case, in 50 digits.
+// The outcome of a hard case in 50 digits.
 #pragma once
 
 #include "hard_case.hpp"
@@ -10,19 +10,19 @@ namespace overturn {
 /// The end of the forced stage in 50 digits, rounded after all differences were taken.
 struct Truth {
     Region region = Region::undecided;
-    bool settled = false; ///< it has ended, and its margin exceeds the error of 50 digits
+    bool settled = false; ///< the run has ended, and its margin exceeds the error of 50 digits
     bool fell = false;
     bool rested = false;
-    double impacts = 0;    ///< those of a series that died out are not all counted
+    double impacts = 0;    ///< excludes some of a series that died out
     double steps = 0;      ///< of the reference
     double angle = 0;      ///< theta [rad]
     double velocity = 0;   ///< theta' [rad]
     double margin = 0;     ///< [1]
     double below_top = 0;  ///< alpha - |theta| [rad]
-    double within_arc = 0; ///< c - |theta'|: its sign is that of q0 [rad]
+    double within_arc = 0; ///< c - |theta'|, with the sign of q0 [rad]
 };
 
-/// Steps of half a millisecond: those of most cases number a hundred.
+/// Limit of steps of half a millisecond each; most cases need a hundred.
 inline constexpr int steps_of_a_second = 2000;
 
 Truth truth_of(const HardCase& point, int step_limit = steps_of_a_second);

@@ -1,5 +1,5 @@
-// Wavelets cut by a window: where they begin, the ground may be about to lift the block, lift it
-// already, or be past it.
+// Wavelets cut by a window: at their beginning, the ground may be about to lift the block, already
+// lift it, or no longer lift it.
 #include "boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(RickerWindow, OnlyTheMainLobeLiftsTheBlockUnlessASideLobeReachesTheThreshol
     }
 }
 
-TEST(RickerWindow, UpliftInTheTailIsFollowedFromThereOn)
+TEST(RickerWindow, UpliftInTheTailIsIntegratedFromThereOn)
 {
     for (const PulseKind pulse : wavelets) {
         for (const double amplitude : {1e2, 1e4, 1e8}) {

@@ -1,4 +1,4 @@
-// Ground accelerations at the one that lifts the block, just above it, and far above.
+// Ground accelerations at the uplift threshold, just above it, and far above it.
 #include "verdicts.hpp"
 
 #include "support/untrapped_floating_point.hpp"
@@ -57,7 +57,8 @@ TEST(UpliftThreshold, NoMotionOfTheGroundLeavesTheBlockAtRest)
 TEST(UpliftThreshold, AnAccelerationThatOnlyReachesItDoesNotLiftTheBlock)
 {
     for_every_pulse_and_theory([](HardCase point) {
-        // The peak of the antisymmetric wavelet is no double; the next one below stays below.
+        // The peak of the antisymmetric wavelet is not a double; the next smaller double is below
+        // it.
         point.amplitude =
             peak_of(point.pulse) == 1 ? 1 : 1 / peak_of(point.pulse) * (1 - 8 * 0x1p-52);
         expect_never_lifted(point);
@@ -88,10 +89,10 @@ TEST(UpliftThreshold, AMillionthAboveItIsSafe)
     });
 }
 
-TEST(UpliftThreshold, OneUlpAboveItTopplesTheBlockIfThePushLastsLongEnough)
+TEST(UpliftThreshold, OneUlpAboveItOverturnsTheBlockIfThePushLastsLongEnough)
 {
-    // The tilt grows like 2^-52 alpha exp(tau): at tau = 314 the block has long fallen, and what
-    // lifts it is less than the round-off of the equation of motion.
+    // The tilt grows like 2^-52 alpha exp(tau): at tau = 314 the block has long overturned, and the
+    // initial push is less than the round-off of the equation of motion.
     for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
         const Truth truth = expect_right_verdicts({.pulse = PulseKind::rectangular,
                                                    .theory = theory,
@@ -101,9 +102,9 @@ TEST(UpliftThreshold, OneUlpAboveItTopplesTheBlockIfThePushLastsLongEnough)
     }
 }
 
-TEST(UpliftThreshold, OneUlpAboveItIsAsSafeAsThePushIsShort)
+TEST(UpliftThreshold, OneUlpAboveItIsSafeIfThePushIsShort)
 {
-    // The last push that leaves the block standing lasts about ln(2^52) = 36 units of time.
+    // The longest push that does not overturn the block lasts about ln(2^52) = 36 units of time.
     HardCase point{.pulse = PulseKind::rectangular, .amplitude = one_ulp_above};
     for (const double duration : {33.0, 34.0, 35.0, 36.0, 37.0, 38.0}) {
         point.frequency = std::acos(-1.0) / duration;
@@ -111,9 +112,9 @@ TEST(UpliftThreshold, OneUlpAboveItIsAsSafeAsThePushIsShort)
     }
 }
 
-TEST(UpliftThreshold, AThousandAndAMillionTimesItThrowTheBlockOver)
+TEST(UpliftThreshold, AThousandAndAMillionTimesItOverturnTheBlock)
 {
-    // At a million, a trial step of rk45 may go 1e191 rad far before it is given up.
+    // At a million, a trial step of rk45 may reach 1e191 rad before it is rejected.
     const UntrappedFloatingPoint overflow_in_trial_steps;
     for_every_pulse_and_theory([](HardCase point) {
         for (const double amplitude : {1e3, 1e6}) {
@@ -125,7 +126,7 @@ TEST(UpliftThreshold, AThousandAndAMillionTimesItThrowTheBlockOver)
     });
 }
 
-TEST(UpliftThreshold, AMillionTimesItDoesLittleIfThePulseIsShortEnough)
+TEST(UpliftThreshold, AMillionTimesItHasLittleEffectIfThePulseIsShortEnough)
 {
     for_every_pulse_and_theory([](HardCase point) {
         point.amplitude = 1e6;

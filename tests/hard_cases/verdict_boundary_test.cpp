@@ -1,4 +1,4 @@
-// Blocks that the pulse leaves on a boundary between two regions, to the last bits of a double.
+// End states on a boundary between two regions, to the last bits of a double.
 #include "boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -28,14 +28,14 @@ TEST(VerdictBoundary, OnTheSeparatrixBelowTheTopIsResolved)
 
 TEST(VerdictBoundary, OnTheSeparatrixBeyondTheTopIsResolved)
 {
-    // The block has passed its balance and swings back: too slowly, or just fast enough.
+    // The block is beyond its balance and moves back: too slowly, or just fast enough.
     const Neighbours flip =
         neighbours_of_root({}, &HardCase::amplitude, 3.64, 3.65, &Truth::margin);
     expect_regions(flip, Region::S_plus, Region::U0_minus);
     expect_right_verdicts_around(flip, &HardCase::amplitude);
 }
 
-TEST(VerdictBoundary, WhereTheNextImpactJustTakesEnoughEnergyIsResolved)
+TEST(VerdictBoundary, WhereTheNextImpactJustDissipatesEnoughEnergyIsResolved)
 {
     // q0 = q_min, the other branch of the margin.
     const Neighbours flip =
@@ -64,9 +64,9 @@ TEST(VerdictBoundary, OnTheSeparatrixIsResolvedInTheLinearTheory)
     }
 }
 
-TEST(VerdictBoundary, BetweenSafeForSureAndSafeThanksToAnImpactKeepsTheVerdict)
+TEST(VerdictBoundary, BetweenSafeWithoutAndSafeAfterAnImpactKeepsTheVerdict)
 {
-    // q0 = 0 with the block on its way to the ground.
+    // q0 = 0 with the block moving towards the ground.
     const HardCase point{.pulse = PulseKind::antisymmetric_ricker, .frequency = 4, .amplitude = 3};
     const Neighbours change =
         neighbours_of_root(point, &HardCase::window, 0.30, 0.32, &Truth::within_arc);
@@ -97,7 +97,7 @@ TEST(VerdictBoundary, AnImpactAtTheVeryEndKeepsTheVerdictOfASafeBlock)
 
 TEST(VerdictBoundary, AnImpactAtTheVeryEndKeepsTheVerdictOfAnUnsafeBlock)
 {
-    // Beyond it, the same fall is one after an impact yet to come.
+    // Beyond this point, the block overturns after an impact that follows the pulse.
     const Neighbours impact =
         neighbours_of_root({}, &HardCase::amplitude, 2.38, 2.39, &Truth::angle);
     expect_regions(impact, Region::U0_plus, Region::U1_plus);
@@ -107,7 +107,7 @@ TEST(VerdictBoundary, AnImpactAtTheVeryEndKeepsTheVerdictOfAnUnsafeBlock)
 TEST(VerdictBoundary, AnImpactAtTheVeryEndThatLeavesTheBlockOnTheSeparatrixIsResolved)
 {
     // Before its first impact nothing depends on r; with r = q_max / theta'^2 the impact leaves the
-    // block with the speed that just topples it. Both boundaries within the last bits.
+    // block with the velocity that just overturns it. Both boundaries coincide to the last bits.
     const Neighbours impact =
         neighbours_of_root({}, &HardCase::amplitude, 2.38, 2.39, &Truth::angle);
     for (HardCase point : {impact.below, impact.above}) {
@@ -121,7 +121,7 @@ TEST(VerdictBoundary, AnImpactAtTheVeryEndThatLeavesTheBlockOnTheSeparatrixIsRes
     }
 }
 
-TEST(VerdictBoundary, ABlockThatStandsStillAtTheEndKeepsItsVerdict)
+TEST(VerdictBoundary, ABlockWithoutVelocityAtTheEndKeepsItsVerdict)
 {
     const Neighbours unsafe =
         neighbours_of_root({}, &HardCase::amplitude, 4.09, 4.10, &Truth::velocity);
@@ -141,7 +141,7 @@ struct Balance {
     double amplitude;
 };
 
-TEST(VerdictBoundary, ABlockThatStandsStillOnTheTopIsResolved)
+TEST(VerdictBoundary, ABlockWithoutVelocityOnTheTopIsResolved)
 {
     // A root of two equations in two coordinates, found by Newton's method.
     for (const Balance& balance :
@@ -152,7 +152,7 @@ TEST(VerdictBoundary, ABlockThatStandsStillOnTheTopIsResolved)
         const HardCase point{
             .pulse = balance.pulse, .frequency = balance.frequency, .amplitude = balance.amplitude};
         const Truth truth = truth_of(point);
-        // Some last bits of the coordinates, which the motion amplifies a hundredfold at most.
+        // A few last bits of the coordinates, which the motion amplifies at most a hundredfold.
         EXPECT_LT(std::abs(truth.below_top), 1e-14);
         EXPECT_LT(std::abs(truth.velocity), 1e-14);
         expect_right_verdicts_around({point, point}, &HardCase::amplitude);

@@ -31,7 +31,7 @@ bool is_decided(const Outcome& outcome)
 
 void expect_well_formed(const Outcome& outcome, const Allowance& allowed)
 {
-    EXPECT_GE(outcome.error, 0); // and is a number
+    EXPECT_GE(outcome.error, 0); // false for NaN, too
     EXPECT_LE(outcome.steps, allowed.most_steps);
     if (is_decided(outcome)) {
         EXPECT_LE(outcome.region, Region::F_minus);
@@ -48,7 +48,7 @@ void expect_well_formed(const Outcome& outcome, const Allowance& allowed)
     }
 }
 
-/// Whether the run answers for its verdict.
+/// Whether the verdict of the run is certain.
 bool is_sure(const Outcome& outcome, const Numerics& numerics)
 {
     return is_decided(outcome) && (numerics.resolve || std::abs(outcome.margin) > outcome.error);
@@ -130,7 +130,7 @@ Truth expect_right_verdicts(const HardCase& point, const Allowance& allowed)
             const Outcome outcome = outcome_of(point, numerics);
             check(point, numerics, outcome, safe, allowed);
             if (!safe && is_sure(outcome, numerics)) {
-                safe = is_safe(outcome.region); // the others must say the same
+                safe = is_safe(outcome.region); // the others must agree
             }
         }
     }

@@ -1,4 +1,4 @@
-// What every hard case must show: see expect_right_verdicts().
+// Requirements on every hard case: see expect_right_verdicts().
 #pragma once
 
 #include "hard_case.hpp"
@@ -21,17 +21,17 @@ struct Outcome {
     std::uint8_t status = 0;
 };
 
-/// A plane of this point alone, swept.
+/// Sweeps a plane of this point alone.
 Outcome outcome_of(const HardCase& point, const Numerics& numerics);
 
-/// Without resolve, both methods at the loosest tolerance at which errors are known, at the default
+/// Without resolve: both methods at the loosest tolerance at which errors are known, at the default
 /// one, and near round-off.
 std::vector<Numerics> plain_numerics();
 
-/// With resolve, from the tolerance at which the program begins, and from the default one.
+/// With resolve: from the initial tolerance of the program, and from the default one.
 std::vector<Numerics> resolving_numerics();
 
-/// What a case is allowed, where it is hard by its very idea.
+/// Exceptions for cases that are inherently hard.
 struct Allowance {
     std::uint32_t most_steps = 5000; ///< of any one run
     bool undecided = false;          ///< runs without resolve may end without a verdict
@@ -40,18 +40,18 @@ struct Allowance {
 
 /// Expects of every method, tolerance and resolve:
 ///
-///  - a region, with finite angle, velocity and margin that say the same as it, or the code
-///    "undecided" together with a flag that says why;
-///  - an error that is a number, or infinite, and infinite where a run has no end;
-///  - no more than so many steps;
-///  - where |margin| > error, the same verdict as in 50 digits, or as each other if 50 digits leave
-///    it open;
+///  - a region with consistent, finite angle, velocity and margin, or the code "undecided" together
+///    with a flag that states the reason;
+///  - an error that is finite or infinite, not NaN, and infinite where a run has no end;
+///  - no more than most_steps steps;
+///  - where |margin| > error, the same verdict as in 50 digits, or as each other if it is not
+///    settled in 50 digits;
 ///  - with resolve always a verdict, and the right one.
 ///
-/// Returns what is true.
+/// Returns the reference.
 Truth expect_right_verdicts(const HardCase& point, const Allowance& allowed = {});
 
-/// The same of one run, which is returned. truth: not settled if nobody knows.
+/// The same for one run, which is returned. truth: not settled if it is unknown.
 Outcome expect_right_verdict(const HardCase& point, const Numerics& numerics, const Truth& truth,
                              const Allowance& allowed = {});
 

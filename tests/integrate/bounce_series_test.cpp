@@ -1,4 +1,4 @@
-// Bounce series: in closed form where they die out, impact by impact where they do not.
+// Bounce series: in closed form if they die out, impact by impact if they do not.
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -15,16 +15,16 @@ TEST(BounceSeries, OfABarelyLiftedBlockEndsInClosedForm)
         const auto end = forced_end<Theory::nonlinear>(
             PulseKind::one_sine, Point<double>{0.1745, 0.91, 2.0, 1 + excess}, 1e-9);
         EXPECT_TRUE(end.rested);
-        // Two lobes lift it. Impact by impact each series would go on until its speed is
+        // Two lobes lift it. Impact by impact, each series would continue until its speed is
         // round-off: 2 log(1e-16) / log(0.91) = 780 impacts.
         EXPECT_LE(end.impacts, 12) << "excess " << excess;
         EXPECT_LT(end.steps, 500) << "excess " << excess;
     }
 }
 
-TEST(BounceSeries, ABlockThatRestedBetweenTheLobesForgetsTheFirst)
+TEST(BounceSeries, ABlockAtRestBetweenTheLobesIsIndependentOfTheFirst)
 {
-    // The second half of a one-sine pulse is a half-sine pulse to the other side.
+    // The second half of a one-sine pulse is a half-sine pulse in the opposite direction.
     const Point<double> point{0.2, 0.5, 1.0, 1.02};
     const auto both = forced_end<Theory::nonlinear>(PulseKind::one_sine, point, 1e-11);
     const auto second = forced_end<Theory::nonlinear>(PulseKind::half_sine, point, 1e-11);
@@ -41,7 +41,7 @@ TEST(BounceSeries, NearlyPlasticImpactsBringTheBlockToRestAtOnce)
     EXPECT_LE(end.impacts, 4);
 }
 
-TEST(BounceSeries, WithoutLossNeverRests)
+TEST(BounceSeries, WithoutLossNeverComesToRest)
 {
     const auto end = forced_end<Theory::nonlinear>(PulseKind::one_sine,
                                                    Point<double>{0.2, 1.0, 2.0, 1.01}, 1e-9);
@@ -68,7 +68,7 @@ AfterImpact random_impact(PulseKind pulse, std::mt19937_64& generator)
     const GroundMotion<double> motion = ground_motion(pulse, 1.0);
     const double duration = motion.end - motion.begin;
     const double restitution = 0.05 + 0.85 * uniform(generator);
-    // Such that the series lasts between a hundredth of a pulse and a pulse, more or less.
+    // The series lasts between about a hundredth of a pulse and a pulse.
     const double lasts = std::pow(10, -2 + 2 * uniform(generator)) * duration / frequency;
     return {{slenderness, restitution},
             {motion, amplitude * std::tan(slenderness), frequency, {}},
@@ -77,8 +77,8 @@ AfterImpact random_impact(PulseKind pulse, std::mt19937_64& generator)
             uniform(generator) < 0.5 ? -1.0 : 1.0};
 }
 
-/// Bounces on, impact by impact, and tells whether the speed falls to a thousandth before the pulse
-/// ends, before the ground can lift the block and before the block has overturned.
+/// Integrates the bounces impact by impact, and returns whether the speed falls to a thousandth
+/// before the pulse ends, before the ground can lift the block and before the block has overturned.
 bool bounces_on_to_rest(const AfterImpact& start)
 {
     const double alpha = start.block.slenderness;
@@ -90,7 +90,7 @@ bool bounces_on_to_rest(const AfterImpact& start)
                                                        on * start.excitation.ground(at));
     };
     while (motion.rate > 1e-3 * start.rate) {
-        // A flight takes twenty such steps; but motion grows e-fold in 1/p.
+        // A flight takes twenty such steps, limited because motion grows e-fold in 1/p.
         const double h = 0.1 * std::min(motion.rate / alpha, 1.0);
         while (motion.position >= 0) {
             if (phase > start.excitation.motion.end || motion.position > pi<double>() / 2 ||
@@ -129,13 +129,13 @@ void expect_that_what_is_closed_dies_out(PulseKind pulse)
                                   << ", rate " << start.rate;
         }
     }
-    // It may say no where bouncing on would have come to rest, but not as a rule.
+    // It may return false where the block would come to rest, but not usually.
     EXPECT_GT(closed, 0.3 * die_out);
     EXPECT_GT(die_out, 300);
     EXPECT_LT(die_out, 3700);
 }
 
-TEST(BounceSeries, IsClosedOnlyIfBouncingOnWouldHaveDiedOut)
+TEST(BounceSeries, IsClosedOnlyIfItWouldDieOut)
 {
     expect_that_what_is_closed_dies_out(PulseKind::one_sine);
     expect_that_what_is_closed_dies_out(PulseKind::one_cosine);

@@ -1,4 +1,4 @@
-// The forced stage against closed forms and against numbers published by others.
+// The forced stage compared with closed forms and with published numbers.
 #include "support/every_method.hpp"
 #include "support/one_point.hpp"
 
@@ -12,7 +12,7 @@ template <class Method>
 class ClosedForm : public testing::Test {};
 TYPED_TEST_SUITE(ClosedForm, EveryMethod, MethodName);
 
-const double digits = 1e-12; // the tolerance of these runs
+const double digits = 1e-12; // tolerance of these runs
 
 /// The uplift phase psi that solves `equation`, as an amplitude 1 / sin(psi).
 template <class Equation>
@@ -24,8 +24,9 @@ double amplitude_of(const Equation& equation)
     return 1 / std::sin(bracket.first);
 }
 
-// The errors of these runs are some 1e-11 of the end state; the margin falls with the amplitude by
-// order 1. A formula with a wrong sign or a missing term is off in the first digits.
+// The errors of these runs are about 1e-11 of the end state; the margin decreases with the
+// amplitude with a slope of order 1. A formula with a wrong sign or a missing term is off in the
+// first digits.
 const double closed_form_error = 1e-10;
 
 TYPED_TEST(ClosedForm, HalfSineLinearOverturnsFromTheAmplitudeOfMakrisAndRoussos)
@@ -45,7 +46,7 @@ TYPED_TEST(ClosedForm, HalfSineLinearOverturnsFromTheAmplitudeOfMakrisAndRoussos
 TYPED_TEST(ClosedForm, OneSineLinearOverturnsWithoutImpactFromTheAmplitudeOfZhangAndMakris)
 {
     for (const double frequency : {3.0, 4.0, 5.0, 8.0}) {
-        // Zhang & Makris (2001), eq. 47, sign mended.
+        // Zhang & Makris (2001), eq. 47, sign corrected.
         const double exact = amplitude_of([&](double psi) {
             return frequency * std::sin(psi) - std::cos(psi) +
                    std::exp(-(2 * pi<double>() - psi) / frequency);
@@ -56,7 +57,7 @@ TYPED_TEST(ClosedForm, OneSineLinearOverturnsWithoutImpactFromTheAmplitudeOfZhan
     }
 }
 
-TYPED_TEST(ClosedForm, RectangularLinearOverturnsFromTheAmplitudeOfHousnersProblemSolvedRight)
+TYPED_TEST(ClosedForm, RectangularLinearOverturnsFromTheAmplitudeOfTheCorrectedHousnerProblem)
 {
     for (const double frequency : {0.7, 2.0, 5.0}) {
         // p t1 = ln(A / (A - 1)), and the pulse lasts t1 = pi / (Omega p).
@@ -71,9 +72,9 @@ TYPED_TEST(ClosedForm, TriangularLinearOverturnsFromTheAmplitudeOfItsIntegral)
 {
     for (const double frequency : {0.7, 2.0, 5.0}) {
         // Without impact a block overturns if the integral of A f exp(-(tau - tau0)) over tau >
-        // tau0 exceeds alpha, tau0 the uplift. Piece by piece, with q = exp(-pi / (2 Omega)), that
-        // is 1 - 2 q exp(tau0) + q^2 exp(tau0) > 0; the uplift is at the phase pi alpha / (2 A). A
-        // step across the kink would be off by the square of its length.
+        // tau0 exceeds alpha, where tau0 is the uplift. By pieces, with q = exp(-pi / (2 Omega)),
+        // this is 1 - 2 q exp(tau0) + q^2 exp(tau0) > 0; the uplift is at the phase pi alpha / (2
+        // A). A step across the kink would be off by the square of its length.
         const double q = std::exp(-pi<double>() / (2 * frequency));
         const double uplift = -frequency * std::log(q * (2 - q));
         const double exact = pi<double>() / (2 * uplift);

@@ -34,7 +34,7 @@ double first_fall(const Quintic<double>& c)
     return first_fall_below_zero(c, 1e-15, true);
 }
 
-const double third_of_digits = 1e-5; // what first_fall_below_zero promises, relative
+const double third_of_digits = 1e-5; // relative accuracy of first_fall_below_zero
 
 TEST(FirstFallBelowZero, FindsTheOnlyRoot)
 {
@@ -50,16 +50,16 @@ TEST(FirstFallBelowZero, FindsTheFirstOfSeveralRoots)
     EXPECT_NEAR(first_fall(with_roots({0.2, 0.4, 0.6, 0.8, 0.99})), 0.2, third_of_digits);
 }
 
-TEST(FirstFallBelowZero, FindsADipThatComesBackWithinTheStep)
+TEST(FirstFallBelowZero, FindsADipWithinTheStep)
 {
-    // Both ends are above zero: whoever looks at the ends alone sees nothing.
+    // Both ends are above zero: a check of the ends alone would miss it.
     for (const double width : {0.3, 1e-2, 1e-4, 1e-6}) {
         const double found = first_fall(with_roots({0.61 - width / 2, 0.61 + width / 2}));
         EXPECT_NEAR(found, 0.61 - width / 2, third_of_digits) << "width " << width;
     }
 }
 
-TEST(FirstFallBelowZero, SeesNoneWhereThePolynomialOnlyComesClose)
+TEST(FirstFallBelowZero, FindsNoneIfThePolynomialOnlyComesClose)
 {
     Quintic<double> close = with_roots({0.4, 0.4}); // touches zero at 0.4
     for (double& c : close) {
@@ -77,7 +77,7 @@ TEST(FirstFallBelowZero, LeavingTheGroundIsNotAFall)
     EXPECT_NEAR(first_fall(with_roots({0, 0.7}, -1)), 0.7, third_of_digits); // a hop
 }
 
-TEST(FirstFallBelowZero, NeverMissesARootThatSamplingSees)
+TEST(FirstFallBelowZero, NeverMissesARootFoundBySampling)
 {
     std::mt19937_64 generator(3);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -98,7 +98,7 @@ TEST(FirstFallBelowZero, NeverMissesARootThatSamplingSees)
         falls += seen <= 1;
         ASSERT_LE(found, seen + 1e-12);
         if (found <= 1) {
-            // And what it finds is a root.
+            // The result must be a root.
             EXPECT_NEAR(restricted(c, 0.0, found).back(), 0, 2e-4);
         }
     }

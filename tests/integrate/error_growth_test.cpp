@@ -1,4 +1,4 @@
-// GCC 12 sees an overlap in std::string that is not there (its bug 105329).
+// GCC 12 reports a non-existing overlap in std::string (its bug 105329).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wrestrict"
 #endif
@@ -16,7 +16,7 @@
 namespace overturn {
 namespace {
 
-TEST(ErrorGrowth, HoldsTheWorstThatErrorsMayAddUpTo)
+TEST(ErrorGrowth, BoundsTheWorstSumOfErrors)
 {
     struct StepOfErrors {
         Variation<double> by;
@@ -33,7 +33,7 @@ TEST(ErrorGrowth, HoldsTheWorstThatErrorsMayAddUpTo)
             growth.pass(step.by, true);
             growth.add(step.tilt, step.rate, true);
         }
-        // Carried back to a step, the wanted combination tells which signs of its errors are worst.
+        // Propagated back to a step, the combination determines the worst signs of its errors.
         for (const auto& [a, b] : {std::pair(1.0, 0.0), {0.0, 1.0}, {1.0, -1.0}, {0.3, 2.0}}) {
             double worst = 0;
             double by_tilt = a;
@@ -58,14 +58,14 @@ TEST(ErrorGrowth, OfErrorsOfOneKindIsTheirSum)
         growth.pass(still, true);
         growth.add(0, 0.5, true);
     }
-    // Ten errors of 0.5 in the rate; a 2^-13 more for what variations are not sure of.
+    // Ten errors of 0.5 in the rate; 2^-13 more for the uncertainty of variations.
     EXPECT_NEAR(growth.bound(0, 1), 5, 5 * 0x1p-12);
     EXPECT_EQ(growth.bound(1, 0), 0);
 }
 
 TEST(ErrorGrowth, KeepsALongThinEllipseThin)
 {
-    // A thousand low bounces: with more rate, a block is ahead by more and more tilt.
+    // A thousand low bounces: with a larger rate, a block gains more and more tilt.
     ErrorGrowth<double> growth;
     const double shear = 100;
     const int steps = 1000;
@@ -75,9 +75,9 @@ TEST(ErrorGrowth, KeepsALongThinEllipseThin)
         growth.add(own, own, true);
     }
     // At worst the rate is off by the sum of all, the tilt by that times the steps since. A bound
-    // by the root of steps * sum of squares, as here, is at most twice that; what begins as the
-    // 65th step is weighed so that another factor of sqrt(1 + 64 / steps) comes on top. The
-    // rectangle's ellipse is sqrt(2) larger than it is.
+    // by the root of steps * sum of squares, as here, is at most twice that; the 65th step begins a
+    // new weight, which adds another factor of sqrt(1 + 64 / steps). The ellipse of the rectangle
+    // is sqrt(2) larger than the rectangle.
     const double rate = steps * own;
     const double tilt = shear * own * steps * (steps - 1) / 2 + steps * own;
     EXPECT_GE(growth.bound(0, 1), rate);
@@ -86,9 +86,9 @@ TEST(ErrorGrowth, KeepsALongThinEllipseThin)
     EXPECT_LE(growth.bound(1, 0), 3 * tilt);
 }
 
-TEST(ErrorGrowth, LeavesWhatIsLeftWhereErrorsShrinkAgain)
+TEST(ErrorGrowth, ShrinksAgainWithTheErrors)
 {
-    // Up to the top and down again: what was stretched by e^20 is as small as it was.
+    // Up to the top and down again: errors stretched by e^20 are as small as before.
     ErrorGrowth<double> growth;
     growth.add(1e-10, 1e-10, true);
     const double before = growth.bound(1, 1);
@@ -102,7 +102,7 @@ TEST(ErrorGrowth, LeavesWhatIsLeftWhereErrorsShrinkAgain)
         growth.pass({up.tilt_by_tilt, -up.tilt_by_rate, -up.rate_by_tilt, up.rate_by_rate}, true);
     }
     EXPECT_GE(growth.bound(1, 1), before);
-    // The round-off of squares at the top, stretched the other way.
+    // The round-off of squares at the top, stretched in the other direction.
     EXPECT_LE(growth.bound(1, 1), std::sqrt(8 * 0x1p-52) * at_the_top * std::exp(20.0));
 }
 
@@ -115,12 +115,12 @@ TEST(ErrorGrowth, OfTheTimeIsAlongTheMotion)
     growth.add_round_off(0, 0, time, speed, acceleration, true);
     EXPECT_NEAR(growth.bound(1, 0), time * speed, time * speed * 0x1p-12);
     EXPECT_NEAR(growth.bound(0, 1), time * 2, time * 2 * 0x1p-12);
-    // The energy stays, but for the 2^-12 of the squares that variations are not sure of.
+    // The energy is constant, except for 2^-12 of the squares, the uncertainty of variations.
     const double energy = growth.bound(acceleration, -speed);
     EXPECT_LE(energy, 1.01 * 0x1p-6 * std::sqrt(2.0) * time * std::abs(speed * acceleration));
 }
 
-TEST(ErrorGrowth, EndsWhereTheBlockRests)
+TEST(ErrorGrowth, EndsWhenTheBlockComesToRest)
 {
     ErrorGrowth<double> growth;
     growth.add(0.1, 0.2, true);
@@ -128,7 +128,7 @@ TEST(ErrorGrowth, EndsWhereTheBlockRests)
     EXPECT_EQ(growth.bound(1, 1), 0);
 }
 
-TEST(ErrorGrowth, SaysNothingGoodOfWhatIsNotANumber)
+TEST(ErrorGrowth, IsInfiniteForNaN)
 {
     const UntrappedFloatingPoint untrapped;
     ErrorGrowth<double> growth;
@@ -138,7 +138,7 @@ TEST(ErrorGrowth, SaysNothingGoodOfWhatIsNotANumber)
 
 TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
 {
-    // A bound of first order may be missed once in 10^5 points; here are 300, four times each.
+    // A bound of first order may be exceeded once in 10^5 points; here are 300, four times each.
     std::mt19937_64 generator(9);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 25; ++i) {
@@ -160,7 +160,7 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
     });
 }
 
-TEST(ForcedStage, EndsAlikeWhetherItsErrorIsWatchedOrNot)
+TEST(ForcedStage, HasTheSameEndWithAndWithoutItsError)
 {
     std::mt19937_64 generator(10);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {

@@ -10,14 +10,14 @@
 namespace overturn {
 namespace {
 
-/// What holds whatever the method.
+/// Properties of all methods.
 template <class Method>
 class ForcedStageByMethod : public testing::Test {};
 TYPED_TEST_SUITE(ForcedStageByMethod, EveryMethod, MethodName);
 
-TEST(ForcedStage, ErrorFallsWithTheTolerance)
+TEST(ForcedStage, ErrorDecreasesWithTheTolerance)
 {
-    // Per decade of tolerance the error of a controlled method of order 5 falls by about a decade.
+    // The error of a controlled method of order 5 falls by about a decade per decade of tolerance.
     std::mt19937_64 generator(6);
     double log_ratio = 0;
     const int points = 200;
@@ -32,7 +32,7 @@ TEST(ForcedStage, ErrorFallsWithTheTolerance)
         };
         log_ratio += std::log10(error(1e-5) / error(1e-8)) / points;
     }
-    // On average 3 decades; a method of order 3 would gain 2.2, one without control next to none.
+    // On average 3 decades; a method of order 3 would gain 2.2, one without control almost none.
     EXPECT_GT(log_ratio, 2.6);
     EXPECT_LT(log_ratio, 3.6);
 }
@@ -88,7 +88,7 @@ State<double> dimensional_end(const Point<double>& point, double p)
     return {-theta, -velocity / p, -1};
 }
 
-TYPED_TEST(ForcedStageByMethod, FrequencyParameterDropsOut)
+TYPED_TEST(ForcedStageByMethod, ResultDoesNotDependOnTheFrequencyParameter)
 {
     for (const Point<double>& point :
          {Point<double>{0.17, 0.9, 5, 1.6}, Point<double>{0.3, 0.8, 6, 2.5}}) {
@@ -120,7 +120,7 @@ TYPED_TEST(ForcedStageByMethod, ABlockThatIsNotLiftedStaysAtRest)
     });
 }
 
-TYPED_TEST(ForcedStageByMethod, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
+TYPED_TEST(ForcedStageByMethod, OverturningEndsWithTheVelocityOfEnergyAndWork)
 {
     // A constant push B: u^2/2 = (work of Eq. 47 over the tilt) = cos y - cos alpha - B (sin y -
     // sin alpha) from y = alpha to y = alpha - pi/2, up to sign.
@@ -139,7 +139,7 @@ TYPED_TEST(ForcedStageByMethod, AFallEndsFlatWithTheVelocityOfEnergyAndWork)
 }
 
 /// A block that comes down while the ground is about to push it up again: below some amplitude it
-/// touches the ground on the way, above it does not.
+/// touches the ground, above it does not.
 template <class Method>
 ForcedEnd<double> near_graze(double amplitude, double tolerance)
 {
@@ -147,7 +147,7 @@ ForcedEnd<double> near_graze(double amplitude, double tolerance)
         PulseKind::antisymmetric_ricker, Point<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
 }
 
-/// The amplitude at which it just touches.
+/// The amplitude at which it just touches the ground.
 template <class Method>
 double grazing_amplitude()
 {
@@ -160,10 +160,10 @@ double grazing_amplitude()
     return low;
 }
 
-TYPED_TEST(ForcedStageByMethod, AGrazeMuchShorterThanAStepIsSeen)
+TYPED_TEST(ForcedStageByMethod, AGrazeMuchShorterThanAStepIsDetected)
 {
     const double amplitude = grazing_amplitude<TypeParam>();
-    // A dip of some 1e-6 of alpha lasts 1e-3, a fiftieth of a step at the first tolerance.
+    // A dip of about 1e-6 of alpha lasts 1e-3, a fiftieth of a step at the first tolerance.
     for (const double tolerance : {1e-8, 1e-9, 1e-11}) {
         EXPECT_EQ(near_graze<TypeParam>(amplitude * (1 - 1e-6), tolerance).impacts, 2);
         EXPECT_EQ(near_graze<TypeParam>(amplitude * (1 + 1e-6), tolerance).impacts, 0);

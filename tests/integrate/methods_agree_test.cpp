@@ -1,4 +1,4 @@
-// The two methods against each other and against 50 digits, where they are hardest to keep right.
+// The two methods compared with each other and with 50 digits, at the most difficult points.
 #include "support/one_point.hpp"
 #include "support/random_point.hpp"
 
@@ -20,7 +20,7 @@ Digits50 difference(const ForcedEnd<Digits50>& exact, const ForcedEnd<S>& end)
     return std::max(Digits50(abs(angle)), Digits50(abs(rate)));
 }
 
-/// How much of a small relative change in the ground motion arrives at the end, over alpha.
+/// The effect of a small relative change in the ground motion on the end state, over alpha.
 template <Theory theory>
 double sensitivity(PulseKind pulse, const Point<double>& point, const ForcedEnd<Digits50>& exact)
 {
@@ -44,8 +44,8 @@ void expect_what_the_tolerance_promises(PulseKind pulse, const Point<double>& po
     EXPECT_EQ(end.fell, exact.fell);
     EXPECT_EQ(end.impacts, double(exact.impacts));
     EXPECT_EQ(end.state.side, double(exact.state.side));
-    // Each step may be off by the tolerance times alpha, and passes it on like any other small
-    // change. A few rounding errors per step come on top. A missed impact is off by alpha.
+    // Each step may be off by the tolerance times alpha, and propagates it like any other small
+    // change, plus a few rounding errors per step. A missed impact is off by alpha.
     const double per_step = tolerance + 4 * std::numeric_limits<double>::epsilon();
     EXPECT_LE(double(difference(exact, end)),
               per_step * end.steps * amplification * point.slenderness)
@@ -53,7 +53,7 @@ void expect_what_the_tolerance_promises(PulseKind pulse, const Point<double>& po
         << point.restitution << ", Omega " << point.frequency << ", a " << point.amplitude;
 }
 
-TEST(Methods, AgreeWithFiftyDigitsToWhatTheirTolerancesPromise)
+TEST(Methods, AgreeWithFiftyDigitsWithinTheirTolerances)
 {
     std::mt19937_64 generator(5);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
@@ -76,7 +76,7 @@ TEST(Methods, AgreeWithFiftyDigitsToWhatTheirTolerancesPromise)
 
 TEST(Methods, AgreeWithEachOtherInFiftyDigits)
 {
-    // So the reference above is not one method's own mistake.
+    // Ensures that the reference above is not an error of one method.
     std::mt19937_64 generator(6);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         const Point<double> point = random_point(generator);
@@ -90,7 +90,7 @@ TEST(Methods, AgreeWithEachOtherInFiftyDigits)
     });
 }
 
-TEST(TaylorMethod, ErrorFallsWithTheTolerance)
+TEST(TaylorMethod, ErrorDecreasesWithTheTolerance)
 {
     std::mt19937_64 generator(7);
     double log_ratio = 0;
@@ -106,20 +106,20 @@ TEST(TaylorMethod, ErrorFallsWithTheTolerance)
         };
         log_ratio += std::log10(error(1e-7) / error(1e-11)) / points;
     }
-    // What is left out begins with the term of order 21 and falls with its power of the step, while
-    // the tolerance holds down the k-th, 17 <= k <= 20: four decades become 4 * 21 / k, 4.2 to 4.9.
-    // Where more than one of these terms is small by chance, more. Without step control: none.
+    // The truncation error begins with the term of order 21 and falls with this power of the step,
+    // while the tolerance limits the k-th term, 17 <= k <= 20: four decades become 4 * 21 / k, 4.2
+    // to 4.9, or more where several of these terms are small by chance. Without step control: none.
     EXPECT_NEAR(log_ratio, 4.6, 0.6);
 }
 
 /// A line of amplitudes along which the number of impacts changes between two neighbours.
 struct Graze {
     Point<double> point;
-    double low, high; ///< amplitudes beside the change, a relative 1e-13 apart
+    double low, high; ///< amplitudes on both sides of the change, a relative 1e-13 apart
 };
 
-/// Along random lines, changes of the number of impacts: a block that just touches the ground on
-/// its way, or strikes it just before the pulse ends.
+/// Finds changes of the number of impacts along random lines: a block that just touches the ground
+/// during its motion, or strikes it just before the pulse ends.
 template <Theory theory>
 std::vector<Graze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size_t wanted)
 {
@@ -159,12 +159,12 @@ void expect_impacts_of_fifty_digits(PulseKind pulse, const Point<double>& point,
         << point.slenderness << ", tolerance " << tolerance;
 }
 
-TEST(Methods, MissNoImpactBesideAGraze)
+TEST(Methods, MissNoImpactNextToAGraze)
 {
     std::mt19937_64 generator(11);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         if (traits_of(pulse).half_turns == 1) {
-            return; // a push to one side alone: no block comes down before it ends
+            return; // a push to one side only: no block comes down before it ends
         }
         for (const Graze& graze : grazes<theory>(pulse, generator, 6)) {
             for (const double offset : {1e-3, 1e-5, 1e-7}) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// sum of c[k] t^k in 50 digits, to the letter.
+/// sum of c[k] t^k in 50 digits, term by term.
 template <std::size_t count>
 Digits50 value_by_hand(const std::array<double, count>& c, const Digits50& t)
 {
@@ -63,14 +63,14 @@ Digits50 bernstein(const Quintic<Digits50>& c, const Digits50& s)
     return sum;
 }
 
-/// Of lengths even and odd, from the shortest that all functions take to those of the steppers.
+/// Even and odd lengths, from the shortest accepted by all functions to those of the steppers.
 template <class Length>
 class SeriesOfEveryLength : public testing::Test {
 protected:
     static constexpr std::size_t count = Length::value;
     using Series = std::array<double, count>;
 
-    /// Coefficients of either sign that fall as those of a motion do.
+    /// Coefficients of both signs that decrease like those of a motion.
     static std::vector<Series> random_series()
     {
         std::mt19937_64 generator(11);
@@ -100,8 +100,8 @@ TYPED_TEST(SeriesOfEveryLength, ValueIsTheSumOfItsTerms)
         for (const double t : times) {
             for (const double time : {t, -t}) {
                 // Half a unit for each of the half as many steps of a chain, each of the size of
-                // the terms that are left: together less than two units. A term too few or twice
-                // is off by the whole term, 3e-4 at the least.
+                // the remaining terms: together less than two units. A missing or repeated term is
+                // off by the whole term, at least 3e-4.
                 const double size = double(value_by_hand(absolute(c), t));
                 EXPECT_NEAR(double(value_of_series(c, time) - value_by_hand(c, time)), 0,
                             2 * epsilon * size)
@@ -119,7 +119,7 @@ TYPED_TEST(SeriesOfEveryLength, SlopeIsTheSumOfItsDerivatives)
             for (const double time : {t, -t}) {
                 const double size = double(slope_by_hand(absolute(c), t));
                 EXPECT_NEAR(double(slope_of_series(c, time) - slope_by_hand(c, time)), 0,
-                            3 * epsilon * size) // k c[k] rounds as well
+                            3 * epsilon * size) // k c[k] is also rounded
                     << time;
             }
         }
@@ -136,7 +136,7 @@ TYPED_TEST(SeriesOfEveryLength, ValueAndSlopeInFiftyDigitsHaveFiftyDigits)
     }
 }
 
-TYPED_TEST(SeriesOfEveryLength, NowhereIsItSteeperThanSteepest)
+TYPED_TEST(SeriesOfEveryLength, SlopeNeverExceedsSteepest)
 {
     constexpr int samples = 50;
     for (const auto& c : this->random_series()) {
@@ -150,7 +150,7 @@ TYPED_TEST(SeriesOfEveryLength, NowhereIsItSteeperThanSteepest)
     }
 }
 
-TYPED_TEST(SeriesOfEveryLength, SteepestIsTheSlopeAtTheEndWhereAllTermsPullTheSameWay)
+TYPED_TEST(SeriesOfEveryLength, SteepestIsTheSlopeAtTheEndIfAllTermsHaveTheSameSign)
 {
     for (const auto& c : this->random_series()) {
         for (const double t : times) {
@@ -160,7 +160,7 @@ TYPED_TEST(SeriesOfEveryLength, SteepestIsTheSlopeAtTheEndWhereAllTermsPullTheSa
     }
 }
 
-TYPED_TEST(SeriesOfEveryLength, LiesWithinItsEnclosure)
+TYPED_TEST(SeriesOfEveryLength, IsWithinItsEnclosure)
 {
     constexpr int samples = 50;
     for (const auto& c : this->random_series()) {
@@ -192,7 +192,7 @@ TYPED_TEST(SeriesOfEveryLength, CenterOfTheEnclosureIsTheSumOfTheTermsBelowTheFi
     }
 }
 
-TYPED_TEST(SeriesOfEveryLength, EnclosureIsReachedAtItsEndWhereAllHighTermsPullTheSameWay)
+TYPED_TEST(SeriesOfEveryLength, EnclosureIsReachedAtItsEndIfAllHighTermsHaveTheSameSign)
 {
     for (const auto& series : this->random_series()) {
         for (const double sign : {-1.0, 1.0}) {
@@ -232,7 +232,7 @@ TYPED_TEST(SeriesOfEveryLength, EnclosureInDoubleAgreesWithFiftyDigits)
                 // Five levels of sums, each of half a unit, and two roundings before them.
                 EXPECT_NEAR(double(ours.center[i] - exact.center[i]), 0, 4 * epsilon * size) << t;
             }
-            // Relative: the slack is a sum of positive terms. A sloppy one would open a gap in the
+            // Relative: the slack is a sum of positive terms. An inaccurate one would weaken the
             // bound that decides whether a block may touch the ground.
             EXPECT_NEAR(ours.slack, double(exact.slack), 6 * epsilon * double(exact.slack)) << t;
         }

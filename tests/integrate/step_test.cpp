@@ -12,7 +12,7 @@ namespace {
 using Motion50 = Motion<Digits50>;
 
 /// x'' = sin x + cos(2 t) cos x from x = 0.2 at rest, over 2 units of time: an inverted pendulum
-/// under a smooth push. In double it sinks into round-off at 64 steps; 50 digits keep it clean.
+/// under a smooth push. In double it reaches round-off at 64 steps; 50 digits avoid this.
 Digits50 acceleration(const Digits50& t, const Digits50& x)
 {
     return sin(x) + cos(2 * t) * cos(x);
@@ -43,14 +43,14 @@ std::vector<Motion50> run(int n)
 
 constexpr int finest = 8192;
 
-/// The same at 8192 steps: its error is 2^-20 of that at 512, the finest below.
+/// The motion with 8192 steps: its error is 2^-20 of that with 512, the most used below.
 const std::vector<Motion50>& reference()
 {
     static const std::vector<Motion50> motions = run(finest);
     return motions;
 }
 
-// With fewer steps the order seen is still falling towards its limit: 5.4 between 16 and 128.
+// With fewer steps the observed order still decreases to its limit: 5.4 between 16 and 128.
 const std::vector<int> step_counts{64, 128, 256, 512};
 
 TEST(RungeKuttaStep, ConvergesWithOrderFive)
@@ -68,7 +68,7 @@ TEST(RungeKuttaStep, ConvergesWithOrderFive)
 
 TEST(RungeKuttaStep, EstimatesItsLocalErrorWithTheOrderOfTheEmbeddedMethod)
 {
-    // Of the first step; the local error of a method of order 4 is h^5.
+    // Error of the first step; the local error of a method of order 4 is h^5.
     EXPECT_NEAR(observed_order(step_counts,
                                [](int n) -> Digits50 {
                                    return abs(step_from(start(), 0, Digits50(2) / n).rate_error);
@@ -96,11 +96,11 @@ TEST(DenseOutput, ConvergesAsFastAsTheStep)
         }
         return error;
     };
-    // Dormand and Prince's own dense output would show 4 here.
+    // Dormand and Prince's own dense output would give 4 here.
     EXPECT_NEAR(observed_order(step_counts, worst), 5, 0.2);
 }
 
-TEST(DenseOutput, BetweenExactEndsIsOfOrderSix)
+TEST(DenseOutput, BetweenExactEndsHasOrderSix)
 {
     const auto error = [](int n) {
         const int step = n / 4;
@@ -110,7 +110,7 @@ TEST(DenseOutput, BetweenExactEndsIsOfOrderSix)
     EXPECT_NEAR(observed_order(step_counts, error), 6, 0.2);
 }
 
-TEST(DenseOutput, MeetsPositionRateAndAccelerationAtBothEnds)
+TEST(DenseOutput, MatchesPositionRateAndAccelerationAtBothEnds)
 {
     const Motion<double> start{0.3, -0.7, 1.1};
     const Motion<double> end{0.1, 0.2, -0.4};
@@ -128,8 +128,8 @@ TEST(DenseOutput, MeetsPositionRateAndAccelerationAtBothEnds)
 TEST(StepSizeFactor, ShrinksAboveAndGrowsBelowTheTolerance)
 {
     EXPECT_DOUBLE_EQ(step_size_factor(1.0), 0.9);
-    EXPECT_DOUBLE_EQ(step_size_factor(0x1p-16), 4);   // 0.9 * 8, held back
-    EXPECT_DOUBLE_EQ(step_size_factor(0x1p+16), 0.2); // 0.9 / 8, held up
+    EXPECT_DOUBLE_EQ(step_size_factor(0x1p-16), 4);   // 0.9 * 8, limited
+    EXPECT_DOUBLE_EQ(step_size_factor(0x1p+16), 0.2); // 0.9 / 8, limited
     EXPECT_DOUBLE_EQ(step_size_factor(0x1p-8), 0.9 * std::pow(2, 1.5));
     EXPECT_EQ(step_size_factor(0.0), 4);
     const UntrappedFloatingPoint comparison_with_nan;

@@ -34,7 +34,7 @@ Digits50 dot(const Vector& a, const Vector& b)
     return sum;
 }
 
-/// Entry by entry a * b.
+/// The elementwise product a * b.
 Vector times(const Vector& a, const Vector& b)
 {
     Vector result;
@@ -55,7 +55,7 @@ Vector stages_of(const Vector& x)
     return result;
 }
 
-/// Weights, condition by condition, of Butcher's 17 trees up to order 5 and what they must be.
+/// Order conditions of Butcher's 17 trees up to order 5: elementary weights and required values.
 void expect_order(const Vector& b, int order)
 {
     Vector one;
@@ -113,12 +113,12 @@ TEST(DormandPrince, EveryRowSumsToItsNode)
     }
 }
 
-TEST(DormandPrince, WeightsMeetAllConditionsOfOrderFive)
+TEST(DormandPrince, WeightsSatisfyAllConditionsOfOrderFive)
 {
     expect_order(exact(Table::stage[6]), 5);
 }
 
-TEST(DormandPrince, EmbeddedWeightsMeetThoseOfOrderFourAndNoMore)
+TEST(DormandPrince, EmbeddedWeightsSatisfyThoseOfOrderFourOnly)
 {
     Vector embedded = exact(Table::stage[6]);
     const Vector error = exact(Table::error);

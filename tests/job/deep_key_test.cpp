@@ -8,7 +8,7 @@ namespace overturn {
 
 namespace {
 
-/// a.a.a: a key of so many parts.
+/// a.a.a: a key with the given number of parts.
 std::string key_of(std::size_t parts)
 {
     std::string key = "a";
@@ -23,7 +23,7 @@ bool has_deep_key(const std::string& text)
     return find_deep_key(text) != text.npos;
 }
 
-TEST(ADeepKey, BeginsBeyondTheMostParts)
+TEST(ADeepKey, HasMoreThanTheAllowedParts)
 {
     EXPECT_FALSE(has_deep_key(key_of(most_key_parts) + " = 1"));
     EXPECT_TRUE(has_deep_key(key_of(most_key_parts + 1) + " = 1"));
@@ -40,7 +40,7 @@ TEST(ADeepKey, IsFoundInHeadersAndTablesAndBetweenOthers)
     EXPECT_TRUE(has_deep_key("# \"\n" + deep + " = 1"));
 }
 
-TEST(ADeepKey, CannotHideBehindAString)
+TEST(ADeepKey, IsFoundAfterAString)
 {
     const std::string deep = key_of(most_key_parts + 1);
     for (const char* const string : {R"("")", R"("\"")", R"('\')", R"("""""")", R"("""a""""")",
@@ -49,7 +49,7 @@ TEST(ADeepKey, CannotHideBehindAString)
     }
 }
 
-TEST(ADeepKey, IsNoListNoTextAndNoComment)
+TEST(ADeepKey, IsNotAListATextOrAComment)
 {
     const std::string dots(100, '.');
     std::string list = "values = [0.5";
@@ -62,7 +62,7 @@ TEST(ADeepKey, IsNoListNoTextAndNoComment)
     EXPECT_FALSE(has_deep_key("# " + dots));
 }
 
-// Each part makes a table within a table, and a stack ends.
+// Each part creates a nested table, which could exhaust the stack.
 TEST(ReadingAJob, RefusesKeysOfAMillionParts)
 {
     const std::string deep = key_of(1000000);

@@ -1,4 +1,4 @@
-// The regions of the paper's spectra against the analytical free stage of each of their points.
+// The regions of the paper's spectra compared with the analytical free stage of each point.
 #include "overturn/job/job.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
@@ -11,7 +11,7 @@
 namespace overturn {
 namespace {
 
-/// Followed impact after impact until it lies or cannot fall any more.
+/// Integrates a block impact by impact until it overturns or can no longer overturn.
 Region region_of_free_stage(const State<double>& state, const Block<double>& block)
 {
     FreeRocking<Theory::nonlinear, double> rocking(state, block.slenderness, {block.restitution});
@@ -23,12 +23,12 @@ Region region_of_free_stage(const State<double>& state, const Block<double>& blo
         return rocking.impacts() == 0 ? (to_plus ? Region::U0_plus : Region::U0_minus)
                                       : (to_plus ? Region::U1_plus : Region::U1_minus);
     }
-    // A safe block is in a blade if without the loss at its first impact it would fall.
+    // A safe block is in a blade if it would overturn without the loss at its first impact.
     const bool in_blade = conserved_q<Theory::nonlinear>(state, block.slenderness) < 0;
     return !in_blade ? Region::S : state.side * state.rate > 0 ? Region::S_plus : Region::S_minus;
 }
 
-TEST(FreeStageOfThePapersFigures, EndsAsTheRegionSaysAtEveryPoint)
+TEST(FreeStageOfThePapersFigures, HasTheOutcomeOfTheRegionAtEveryPoint)
 {
     int spectra = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OVERTURN_JOBS_DIRECTORY)) {

@@ -1,4 +1,4 @@
-// Job files that live as long as a test needs them.
+// Temporary job files for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,14 +11,14 @@
 
 namespace overturn {
 
-/// A job in a directory of its own.
+/// A job file in a temporary directory.
 class JobFile {
 public:
     explicit JobFile(const std::string& text)
     {
         std::string directory = testing::TempDir() + "overturn_job_XXXXXX";
         if (mkdtemp(directory.data()) == nullptr) {
-            throw std::runtime_error("cannot make the directory " + directory);
+            throw std::runtime_error("cannot create the directory " + directory);
         }
         directory_ = directory;
         std::ofstream(path(), std::ios::binary) << text;
@@ -34,7 +34,7 @@ private:
     std::filesystem::path directory_;
 };
 
-/// A sound job; the tests of refusals count on its lines.
+/// A valid job; the tests of refusals depend on its line numbers.
 inline constexpr const char* sound_job = R"(title = "A sound job"
 [scene]
 pulse = "one_sine"
@@ -49,7 +49,7 @@ tolerance = 1e-9
 fields = ["region", "angle"]
 )";
 
-/// The sound job with one line, counted from 1, replaced by other text.
+/// The valid job with one line, counted from 1, replaced by other text.
 inline std::string sound_job_with(int line, const std::string& text)
 {
     const std::string job = sound_job;

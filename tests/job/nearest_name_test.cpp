@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> names{"one_sine", "one_cosine", "half_sine", "count"};
 
-TEST(NearestName, ForgivesOneSlip)
+TEST(NearestName, IsFoundDespiteOneTypingError)
 {
     EXPECT_EQ(nearest_name("one_sne", names), "one_sine");
     EXPECT_EQ(nearest_name("one_sinee", names), "one_sine");
@@ -18,12 +18,12 @@ TEST(NearestName, ForgivesOneSlip)
     EXPECT_EQ(nearest_name("cuont", names), "count");
 }
 
-TEST(NearestName, DoesNotForgiveManySlips)
+TEST(NearestName, IsNotFoundWithManyTypingErrors)
 {
     EXPECT_EQ(nearest_name("cuomt", names), "");
 }
 
-TEST(NearestName, TakesNoHeedOfCapitals)
+TEST(NearestName, IgnoresCase)
 {
     EXPECT_EQ(nearest_name("Count", names), "count");
 }
@@ -34,7 +34,7 @@ TEST(NearestName, IsTheNearestOfSeveral)
     EXPECT_EQ(nearest_name("half_sin", names), "half_sine");
 }
 
-TEST(NearestName, IsNothingForAWordFarFromAll)
+TEST(NearestName, IsEmptyForAWordUnlikeAll)
 {
     EXPECT_EQ(nearest_name("earthquake", names), "");
     EXPECT_EQ(nearest_name("", names), "");

@@ -15,28 +15,28 @@ Job job_with(const std::vector<std::string>& overrides)
     return read_job(JobFile(sound_job).path(), overrides);
 }
 
-TEST(AnOverride, LiesOverTheFile)
+TEST(AnOverride, ReplacesAValueOfTheFile)
 {
     const Job job = job_with({"numerics.tolerance=1e-6", "title=\"Another\""});
     EXPECT_EQ(job.numerics.tolerance, 1e-6);
     EXPECT_EQ(job.title, "Another");
-    EXPECT_EQ(job.fields.size(), 2u) << "what is not overridden stays";
+    EXPECT_EQ(job.fields.size(), 2u) << "other values are unchanged";
 }
 
-TEST(AnOverride, IsKeptAsItWasGiven)
+TEST(AnOverride, IsStoredAsGiven)
 {
     const std::vector<std::string> overrides{" scene.theory = linear", "title=x"};
     EXPECT_EQ(job_with(overrides).overrides, overrides);
     EXPECT_EQ(job_with(overrides).given, sound_job);
 }
 
-TEST(AnOverride, YieldsToALaterOne)
+TEST(AnOverride, IsReplacedByALaterOne)
 {
     EXPECT_EQ(job_with({"numerics.tolerance=1e-6", "numerics.tolerance=1e-7"}).numerics.tolerance,
               1e-7);
 }
 
-TEST(AnOverride, MakesTablesThatTheFileDoesNotHave)
+TEST(AnOverride, CreatesTablesMissingInTheFile)
 {
     const JobFile file("[scene]\npulse = 'one_sine'\n");
     const Job job =
@@ -50,11 +50,11 @@ TEST(AnOverride, MakesTablesThatTheFileDoesNotHave)
 TEST(AnOverride, MayBeANumberForAWholeAxis)
 {
     const Job job = job_with({"plane.restitution=0.9", "plane.frequency=3"});
-    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9) << "r itself: of = \"maximum\" is gone";
+    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9) << "r itself: of = \"maximum\" is removed";
     EXPECT_EQ(job.plane.frequency.values(), std::vector<double>{3});
 }
 
-TEST(AnOverride, LiesOverAnAxisThatIsANumber)
+TEST(AnOverride, ExtendsAnAxisThatIsANumber)
 {
     const JobFile file(sound_job_with(7, "restitution = 0.9"));
     const auto plane = [&](const std::string& setting) {
@@ -70,7 +70,7 @@ TEST(AnOverride, LiesOverAnAxisThatIsANumber)
               3);
 }
 
-TEST(AnOverride, OfAnAxisThatIsANumberLeadsToTheNumberIfThatIsWrong)
+TEST(AnOverride, OfAnAxisThatIsANumberIsRefusedAtTheNumberIfItIsWrong)
 {
     const JobFile file(sound_job_with(7, "restitution = -0.9"));
     try {
@@ -115,7 +115,7 @@ TEST(AnOverride, OfARangeReplacesTheValues)
     EXPECT_EQ(job.plane.amplitude.values(), (AxisList{1, 2, 3, 4}));
 }
 
-TEST(AnOverride, OfTheRestitutionValuesKeepsWhatTheyAreSharesOf)
+TEST(AnOverride, OfTheRestitutionValuesKeepsTheKeyOf)
 {
     const Job job = job_with({"plane.restitution.values=[1.0]"});
     EXPECT_EQ(job.plane.restitution_of, RestitutionOf::maximum);
@@ -144,14 +144,14 @@ TEST(AnOverride, OfTheSlendernessReplacesTheBlock)
     EXPECT_EQ(job.plane.slenderness[0], 0.3);
 }
 
-TEST(AnOverride, OfThePulseDropsAWindowThatItHasNoUseFor)
+TEST(AnOverride, OfThePulseRemovesAWindowThatDoesNotApply)
 {
     const JobFile file(sound_job_with(3, "pulse = \"symmetric_ricker\"\nwindow = 2"));
     EXPECT_EQ(read_job(file.path(), {"scene.pulse=half_sine"}).scene.pulse, PulseKind::half_sine);
     EXPECT_EQ(read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).scene.window, 2);
 }
 
-/// An override that must be refused, and words of the message.
+/// An override that must be refused, and parts of the message.
 struct Unusable {
     std::string name;
     std::string argument;
@@ -165,7 +165,7 @@ struct Unusable {
 
 class AnOverrideIsRefused : public testing::TestWithParam<Unusable> {};
 
-TEST_P(AnOverrideIsRefused, AndItsPlaceIsTheArgument)
+TEST_P(AnOverrideIsRefused, WithTheArgumentAsLocation)
 {
     try {
         job_with({GetParam().argument});
@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::
     {"WithAnUnusableKey", "plane.frequency.values[0]=3", {"\"values[0]\" is not usable"}},
     {"WithoutValue", "title=", {"value is missing"}},
     {"WithABrokenValue", "plane.frequency.values=[1,", {"not valid TOML"}},
-    {"WithANumberGoneWrong", "numerics.tolerance=1e-6x", {"not valid TOML"}},
-    {"WithAWordCutShort", "title=i\n", {"not valid TOML"}},
+    {"WithAMalformedNumber", "numerics.tolerance=1e-6x", {"not valid TOML"}},
+    {"WithATruncatedWord", "title=i\n", {"not valid TOML"}},
     {"WithInvalidUtf8", "title=a\xff", {"not valid TOML", "utf-8"}},
     {"WithTwoValues", "numerics.tolerance=1e-6\nmethod='rk45'", {"more than one value"}},
     {"WithASecondTable", "title='x'\n[scene]\npulse='one_sine'", {"more than one value"}},

@@ -10,7 +10,7 @@ namespace overturn {
 
 namespace {
 
-/// What read_job says about a path that it cannot read.
+/// Returns the message of read_job for a path that it cannot read.
 std::string refusal_of(const std::string& path)
 {
     try {
@@ -21,7 +21,7 @@ std::string refusal_of(const std::string& path)
     return "accepted";
 }
 
-TEST(ReadingAJob, TakesANumberForAnAxisOfOneValue)
+TEST(ReadingAJob, AcceptsANumberForAnAxisOfOneValue)
 {
     const JobFile file(R"([scene]
 pulse = "one_sine"
@@ -40,7 +40,7 @@ slenderness = 0.2
     EXPECT_NE(job.resolved.find("frequency = { values = [3.0] }"), std::string::npos);
 }
 
-TEST(ReadingAJob, GivesWhatTheFileSays)
+TEST(ReadingAJob, ReturnsTheValuesOfTheFile)
 {
     const JobFile file(R"(title = "Antisymmetric"
 [scene]
@@ -118,7 +118,7 @@ TEST(ReadingAJob, DerivesTheSlendernessFromTheBlock)
     EXPECT_EQ(plane.block->half_width, 1);
     EXPECT_EQ(plane.block->half_height, 5.67);
     ASSERT_EQ(plane.slenderness.size(), 1);
-    // The paper's block, to the seven digits known of it; degrees or h/b would be far off.
+    // The paper's block, to its seven known digits; degrees or h/b would be far off.
     EXPECT_NEAR(plane.slenderness[0], 0.1745716, 5e-8);
     EXPECT_NEAR(plane.restitution_ratio(0, 0), 0.7 * 0.911547, 5e-7);
 }
@@ -140,7 +140,7 @@ tolerance = 1e-14
     EXPECT_EQ(read_job(file.path(), {"numerics.tolerance=1e-2"}).numerics.tolerance, 1e-2);
 }
 
-TEST(ReadingAJob, AcceptsTheFinestRangesThatStillAscend)
+TEST(ReadingAJob, AcceptsTheFinestAscendingRanges)
 {
     const JobFile file(sound_job);
     // 4 eps last = 2^-49 apart for last = 2; half of that is refused.
@@ -154,14 +154,14 @@ TEST(ReadingAJob, AcceptsTheFinestRangesThatStillAscend)
     EXPECT_THROW(read_job(file.path(), finer), JobError);
 }
 
-TEST(ReadingAJob, HoldsNoNegativeZero)
+TEST(ReadingAJob, ContainsNoNegativeZero)
 {
     const JobFile file(sound_job_with(6, "amplitude = { values = [-0.0, 1] }"));
     const Job job = read_job(file.path());
     EXPECT_FALSE(std::signbit(job.plane.amplitude[0]));
 }
 
-TEST(ReadingAJob, KeepsTheFileByteForByte)
+TEST(ReadingAJob, StoresTheFileByteForByte)
 {
     const std::string text = std::string("# a comment\r\n") + sound_job + "\n\n# the end";
     const JobFile file(text);
@@ -185,7 +185,7 @@ TEST(ReadingAJob, RefusesADirectory)
 
 TEST(ReadingAJob, RefusesAFileThatCannotBeOpened)
 {
-    // A link to itself keeps even the superuser out.
+    // A link to itself cannot be opened even by the superuser.
     const JobFile file(sound_job);
     const std::string path = file.directory() + "/loop.toml";
     std::filesystem::create_symlink(path, path);
@@ -213,7 +213,7 @@ TEST(ReadingAJob, RefusesAJobWithoutAPlane)
     EXPECT_NE(refusal_of(file.path()).find(":1:1: plane is missing."), std::string::npos);
 }
 
-TEST(CutByWindow, IsWhatThePulseStillHasAtTheEndsOfItsWindow)
+TEST(CutByWindow, IsTheValueOfThePulseAtTheEndsOfItsWindow)
 {
     // x = pi: (1 - 2 pi^2) exp(-pi^2) = -9.7e-4; z = 2 pi / sqrt 3: 3.7e-2.
     EXPECT_NEAR(cut_by_window({.pulse = PulseKind::symmetric_ricker}), 9.69e-4, 1e-6);

@@ -1,4 +1,4 @@
-// Every mistake in a job file is refused, and the message leads to it.
+// Every mistake in a job file is refused with a message that locates it.
 #include "job_file.hpp"
 
 #include "overturn/job/job.hpp"
@@ -12,12 +12,12 @@ namespace overturn {
 
 namespace {
 
-/// A job that is sound but for one line.
+/// A job that is valid except for one line.
 struct Mistake {
     std::string name;
     int line;
     const char* text;
-    const char* place; ///< line:column that the message must name
+    const char* place; ///< line:column in the message
     std::vector<std::string> words;
 
     friend std::ostream& operator<<(std::ostream& stream, const Mistake& mistake)
@@ -28,9 +28,9 @@ struct Mistake {
 
 class ReadingAJobRefuses : public testing::TestWithParam<Mistake> {};
 
-TEST_P(ReadingAJobRefuses, AndLeadsTo)
+TEST_P(ReadingAJobRefuses, AndLocates)
 {
-    // Some jobs ask for what overflows, and are refused because it did.
+    // Some jobs cause overflow and are refused because of it.
     const UntrappedFloatingPoint overflows;
     const JobFile file(sound_job_with(GetParam().line, GetParam().text));
     try {
@@ -57,7 +57,7 @@ TEST_P(ReadingAJobRefuses, AndLeadsTo)
 // clang-format off
 MISTAKES(Form,
     {"BrokenToml", 3, "pulse = \"one_sine", "3:18", {"not TOML", "Mend"}},
-    {"AWordCutShort", 1, "title = i", "1:10", {"not TOML", "'inf'"}},
+    {"ATruncatedWord", 1, "title = i", "1:10", {"not TOML", "'inf'"}},
     {"AnUnfinishedTable", 5, "frequency = { first = 0.1,", "5:27", {"not TOML"}},
     {"AKeyGivenTwice", 10, "tolerance = 1e-9\ntolerance = 1e-8", "11:13", {"not TOML", "tolerance"}},
     {"InvalidUtf8", 1, "title = \"\xff\"", "1:9", {"not TOML", "utf-8"}},
@@ -81,13 +81,13 @@ MISTAKES(UnknownKeys,
 
 MISTAKES(WrongTypes,
     {"ANumberAsTitle", 1, "title = 3", "1:9", {"title is the integer 3", "must be a string"}},
-    {"ATruthValueAsPulse", 3, "pulse = true", "3:9", {"scene.pulse is the truth value true", "string"}},
+    {"ABooleanAsPulse", 3, "pulse = true", "3:9", {"scene.pulse is the truth value true", "string"}},
     {"AStringAsNumber", 5, "frequency = { first = \"0.1\", last = 1, count = 2 }", "5:23",
      {"plane.frequency.first is the string \"0.1\"", "must be a number"}},
     {"AStringAmongNumbers", 6, "amplitude = { values = [1, \"2\"] }", "6:28", {"plane.amplitude.values[1]", "number"}},
     {"AListAsAxis", 6, "amplitude = [1, 2]", "6:13", {"plane.amplitude is an array", "a number, or a table with the keys values"}},
     {"ANumberAsList", 6, "amplitude = { values = 1 }", "6:24", {"plane.amplitude.values", "an array of numbers"}},
-    {"ATruthValueAsAxis", 6, "amplitude = true", "6:13", {"plane.amplitude is the truth value true", "a table with the keys values"}},
+    {"ABooleanAsAxis", 6, "amplitude = true", "6:13", {"plane.amplitude is the truth value true", "a table with the keys values"}},
     {"AStringAsAxis", 6, "amplitude = \"1\"", "6:13", {"plane.amplitude is the string \"1\"", "a table with the keys values"}},
     {"AFloatAsCount", 5, "frequency = { first = 1, last = 2, count = 10.0 }", "5:44",
      {"plane.frequency.count is the number 10.0", "must be an integer"}},
@@ -157,7 +157,7 @@ MISTAKES(Physics,
     {"AShareOfNoLargestRestitution", 8, "slenderness = { values = [0.2, 0.96] }", "8:15",
      {"plane.slenderness reaches 0.96 rad", "0.9553", "absolute"}},
     {"AShareForAStoutBlock", 8, "[block]\nhalf_width = 2\nhalf_height = 1", "8:1", {"block reaches 1.107", "0.9553", "absolute"}},
-    {"SlendernessBesideBlock", 9, "[block]\nhalf_width = 1\nhalf_height = 2\n[numerics]", "8:15",
+    {"SlendernessAndBlock", 9, "[block]\nhalf_width = 1\nhalf_height = 2\n[numerics]", "8:15",
      {"plane.slenderness cannot stand beside [block]"}},
     {"AZeroHalfWidth", 8, "[block]\nhalf_width = 0\nhalf_height = 2", "9:14", {"block.half_width = 0 is outside (0, inf)"}},
     {"ANegativeHalfHeight", 8, "[block]\nhalf_width = 1\nhalf_height = -2", "10:15", {"block.half_height = -2 is outside (0, inf)"}},

@@ -20,7 +20,7 @@ void expect_equal(const Axis& axis, const Axis& other)
     EXPECT_EQ(axis.values(), other.values());
 }
 
-TEST(TheResolvedJob, SpellsOutEveryDefault)
+TEST(TheResolvedJob, ContainsEveryDefault)
 {
     const Job job =
         read_text("[scene]\npulse = 'symmetric_ricker'\n"
@@ -51,7 +51,7 @@ fields = ["region"]
 )");
 }
 
-TEST(TheResolvedJob, HasAWindowOnlyWhereThePulseHasOne)
+TEST(TheResolvedJob, HasAWindowOnlyIfThePulseHasOne)
 {
     EXPECT_EQ(read_text(sound_job).resolved.find("window"), std::string::npos);
 }

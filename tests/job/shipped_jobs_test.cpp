@@ -1,4 +1,4 @@
-// Every job that comes with the program is sound.
+// Every job shipped with the program is valid.
 #include "overturn/job/job.hpp"
 
 #include <gtest/gtest.h>
@@ -28,12 +28,12 @@ std::vector<std::string> names_of_shipped_jobs()
 
 class AShippedJob : public testing::TestWithParam<std::string> {};
 
-TEST_P(AShippedJob, IsSound)
+TEST_P(AShippedJob, IsValid)
 {
     const std::string path = jobs_directory / (GetParam() + ".toml");
     const Job job = read_job(path);
     EXPECT_FALSE(job.title.empty());
-    EXPECT_TRUE(job.given.starts_with("# ")) << "it opens with what to look for";
+    EXPECT_TRUE(job.given.starts_with("# ")) << "it begins with a comment";
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, AShippedJob, testing::ValuesIn(names_of_shipped_jobs()),

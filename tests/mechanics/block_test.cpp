@@ -5,7 +5,7 @@
 namespace overturn {
 namespace {
 
-TEST(LargestRestitution, OfThePapersBlockIsThePapersNumber)
+TEST(LargestRestitution, OfThePapersBlockIsThatOfThePaper)
 {
     EXPECT_NEAR(largest_restitution(std::atan2(1.0, 5.67)), 0.911547, 0.5e-6); // printed digits
 }

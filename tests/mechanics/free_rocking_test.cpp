@@ -17,7 +17,7 @@ struct Start {
     Block<double> block;
 };
 
-/// Blocks of every kind in states that reach every region.
+/// Blocks of every kind in states of every region.
 std::vector<Start> random_starts(int count)
 {
     std::mt19937_64 generator(21);
@@ -33,8 +33,8 @@ std::vector<Start> random_starts(int count)
     return starts;
 }
 
-/// States whose rate is within 1e-12 of one that is on the separatrix, or that just does not fall
-/// after its impact.
+/// States whose rate is within 1e-12 of the separatrix, or of the limit at which the block just
+/// does not overturn after its impact.
 std::vector<Start> starts_next_to_a_boundary(int count)
 {
     std::mt19937_64 generator(22);
@@ -54,7 +54,7 @@ State<Digits50> in_digits(const State<double>& state)
     return {state.tilt, state.rate, state.side};
 }
 
-/// How far the closed form in doubles is from the integrated motion, over the size of the motion.
+/// Difference of the closed form in doubles and the integrated motion, over the size of the motion.
 template <Theory theory>
 class AgainstIntegration {
 public:
@@ -64,7 +64,7 @@ public:
           motion_(in_digits(start.state), start.block.slenderness)
     {}
 
-    /// Three instants of each arc, and its end, until the block lies, or these arcs are over.
+    /// Three instants of each arc, and its end, until the block overturns or the arcs end.
     void compare(int arcs)
     {
         for (; arcs > 0; --arcs) {
@@ -122,7 +122,7 @@ double largest_error(const std::vector<Start>& starts)
     return largest;
 }
 
-TEST(FreeRocking, IsTheIntegratedMotionFromEveryRegion)
+TEST(FreeRocking, EqualsTheIntegratedMotionFromEveryRegion)
 {
     const std::vector<Start> starts = random_starts(150);
     std::set<Region> seen;
@@ -134,16 +134,16 @@ TEST(FreeRocking, IsTheIntegratedMotionFromEveryRegion)
     EXPECT_LT(largest_error<Theory::linear>(starts), 1e-13);
 }
 
-TEST(FreeRocking, IsTheIntegratedMotionNextToTheSeparatrix)
+TEST(FreeRocking, EqualsTheIntegratedMotionNextToTheSeparatrix)
 {
-    // The block stands on its edge for some 28/p. With q from the digits of a double, right to
-    // 1e-4 of itself there, the time of its fall would be wrong by as much.
+    // The block stays on its edge for about 28/p. With q computed from doubles, which has a
+    // relative accuracy of 1e-4 there, the time of overturning would have the same error.
     EXPECT_LT(largest_error<Theory::nonlinear>(starts_next_to_a_boundary(45)), 1e-13);
 }
 
 TEST(FreeRocking, ObeysItsEquationAndConservesQ)
 {
-    // By differences in 50 digits, which leave h^2 / 12 times a derivative below 10.
+    // By differences in 50 digits, with an error of h^2 / 12 times a derivative below 10.
     const Digits50 h = 1e-12;
     for (const Start& start : random_starts(50)) {
         const Digits50 alpha = start.block.slenderness;
@@ -162,7 +162,7 @@ TEST(FreeRocking, ObeysItsEquationAndConservesQ)
     }
 }
 
-TEST(RockingArc, IsThePapersInJacobisFunctionsOfARealModulus)
+TEST(RockingArc, EqualsThePapersInJacobiFunctionsOfARealModulus)
 {
     // y = sin((alpha - theta) / 2) obeys y'^2 = (1 - y^2) (y^2 - q/4) (Eq. 27): from a turn on it
     // is kappa nd(tau), kappa^2 = q/4, of modulus sqrt(1 - kappa^2).
@@ -172,7 +172,7 @@ TEST(RockingArc, IsThePapersInJacobisFunctionsOfARealModulus)
     for (const char* tilt : {"0.01", "0.2", "0.29", "0.2999999"}) {
         const State<Digits50> turned{Digits50(tilt), 0, 1};
         const Digits50 kappa = sin((alpha - turned.tilt) / 2);
-        // In the digits of the modulus, its distance from 1 is right to this share of itself.
+        // Relative accuracy of the distance of the modulus from 1 in the digits of the modulus.
         const Digits50 modulus = sqrt(1 - kappa * kappa);
         const Digits50 tolerance = 1e-48 / (kappa * kappa);
         const RockingArc<Theory::nonlinear, Digits50> arc(turned, alpha, 4 * kappa * kappa);
@@ -200,9 +200,9 @@ TEST(RockingArc, OfTheLinearTheoryHasTheHalfPeriodOfAHyperbolicTangent)
     }
 }
 
-TEST(RockingArc, IsAParabolaWhereTheBlockHardlyRises)
+TEST(RockingArc, IsAParabolaIfTheBlockHardlyRises)
 {
-    // The pull changes by less than v / sin(alpha) of itself.
+    // The relative change of the restoring acceleration is less than v / sin(alpha).
     const double v = 1e-12;
     const State<double> upright{0, v, 1};
     const RockingArc<Theory::nonlinear, double> arc(
@@ -216,7 +216,7 @@ TEST(RockingArc, IsAParabolaWhereTheBlockHardlyRises)
     }
 }
 
-TEST(RockingArc, StandsOnItsEdgeForEverOnTheSeparatrix)
+TEST(RockingArc, StaysOnTheEdgeForeverOnTheSeparatrix)
 {
     const Digits50 alpha("0.3");
     const Digits50 tilt("0.1");
@@ -225,20 +225,20 @@ TEST(RockingArc, StandsOnItsEdgeForEverOnTheSeparatrix)
     EXPECT_TRUE(isinf(arc.time_to_impact()));
     EXPECT_TRUE(isinf(arc.time_to_fall()));
     EXPECT_LT(abs(arc.at(Digits50(80)).tilt - alpha), 1e-34); // exp(-80)
-    // It is the limit from both sides. After 3/p, q has moved it by q e^3 / 4 or so.
+    // It is the limit from both sides. After 3/p, the effect of q is about q e^3 / 4.
     for (const double q : {1e-30, -1e-30}) {
         const RockingArc<Theory::nonlinear, Digits50> beside(rising, alpha, q);
         EXPECT_LT(abs(beside.at(Digits50(3)).tilt - arc.at(Digits50(3)).tilt), 1e-28);
         EXPECT_NE(isinf(beside.time_to_impact()), isinf(beside.time_to_fall()));
     }
-    // And away from the edge, on either side, it strikes or falls in a finite time.
+    // Away from the edge, on either side, it strikes the ground or overturns in a finite time.
     const State<Digits50> sinking{tilt, -rising.rate, 1};
     EXPECT_LT((RockingArc<Theory::nonlinear, Digits50>(sinking, alpha, 0).time_to_impact()), 2);
     const State<Digits50> beyond{Digits50("0.5"), 2 * sin((Digits50("0.5") - alpha) / 2), 1};
     EXPECT_LT((RockingArc<Theory::nonlinear, Digits50>(beyond, alpha, 0).time_to_fall()), 4);
 }
 
-TEST(FreeRocking, EndsAsTheRegionSays)
+TEST(FreeRocking, HasTheOutcomeOfTheRegion)
 {
     for (const Start& start : random_starts(20000)) {
         const Region region = region_after_pulse<Theory::nonlinear>(start.state, start.block);
@@ -257,7 +257,7 @@ TEST(FreeRocking, EndsAsTheRegionSays)
     }
 }
 
-TEST(FreeRocking, TakesARestitutionThatDiffersFromSideToSide)
+TEST(FreeRocking, AcceptsADifferentRestitutionOnEachSide)
 {
     struct BySide {
         double operator()(int, double side) const { return side > 0 ? 0.9 : 0.5; }
@@ -281,7 +281,7 @@ void expect_the_sum_of_all_half_periods(double restitution)
     while (rocking.arc().impact_speed() > 1e-16) {
         rocking.strike();
     }
-    // Each of the n terms summed is rounded to half an epsilon of the sum.
+    // Each of the n summed terms is rounded to half an epsilon of the sum.
     EXPECT_NEAR(time_of_rest<theory>(begin, block), rocking.begin(),
                 rocking.impacts() * rocking.begin() * 0x1p-53);
 }
@@ -294,11 +294,11 @@ TEST(TimeOfRest, IsTheLimitOfTheImpacts)
     }
 }
 
-TEST(TimeOfRest, OfABlockThatLosesHardlyAnythingIsFoundWithoutAllItsImpacts)
+TEST(TimeOfRest, OfABlockWithHardlyAnyLossIsFoundWithoutAllItsImpacts)
 {
     // With 1 - r = d, the half period T(v) at v^2 = z q_max is followed by z (1 - d): the sum tends
-    // to the integral of T dz / (z d), here with T = 2 artanh(sqrt z), up to half a T: the linear
-    // theory's is 2/d (Li2(x) - Li2(-x)), x = v / alpha.
+    // to the integral of T dz / (z d), here with T = 2 artanh(sqrt z), up to half a T: in the
+    // linear theory 2/d (Li2(x) - Li2(-x)), x = v / alpha.
     const auto dilogarithm = [](double x) {
         double sum = 0;
         for (int k = 400; k > 0; --k) {
@@ -314,7 +314,7 @@ TEST(TimeOfRest, OfABlockThatLosesHardlyAnythingIsFoundWithoutAllItsImpacts)
                 1e-7 * integral);
 }
 
-TEST(TimeOfRest, OfABlockNextToTheSeparatrixThatLosesHardlyAnythingIsAnIntegral)
+TEST(TimeOfRest, OfABlockNextToTheSeparatrixWithHardlyAnyLossIsAnIntegral)
 {
     // As above, with x next to 1: Li2(x) = pi^2 / 6 - log x log(1 - x) - Li2(1 - x), and
     // Li2(-1 + y) = -pi^2 / 12 + y log 2 to first order.
@@ -332,7 +332,7 @@ TEST(TimeOfRest, OfABlockNextToTheSeparatrixThatLosesHardlyAnythingIsAnIntegral)
     EXPECT_TRUE(std::isfinite(time_of_rest<Theory::nonlinear, double>(begin, block)));
 }
 
-TEST(TimeOfRest, IsInfiniteForABlockThatFallsOrLosesNothing)
+TEST(TimeOfRest, IsInfiniteForABlockThatOverturnsOrHasNoLoss)
 {
     EXPECT_TRUE(std::isinf(time_of_rest<Theory::nonlinear, double>({0.1, 1, 1}, {0.3, 0.8})));
     EXPECT_TRUE(std::isinf(time_of_rest<Theory::nonlinear, double>({0.1, -1, 1}, {0.3, 0.8})));

@@ -12,7 +12,7 @@ INSTANTIATE_TEST_SUITE_P(Pulse, EveryPulse, every_pulse(), pulse_test_name);
 
 constexpr int samples = 20000;
 
-/// Phases spread evenly over the pulse.
+/// Evenly spaced phases of the pulse.
 double phase_number(int i, const GroundMotion<double>& motion)
 {
     return motion.begin + (motion.end - motion.begin) * i / samples;
@@ -30,7 +30,7 @@ TEST_P(EveryPulse, HasPeakOne)
     EXPECT_NEAR(peak, GetParam() == PulseKind::antisymmetric_ricker ? 1.000086 : 1.0, 1e-6);
 }
 
-TEST_P(EveryPulse, HasNoExtremumButAtItsPeaks)
+TEST_P(EveryPulse, HasNoExtremumExceptItsPeaks)
 {
     const GroundMotion<double> pulse = motion(1.0);
     const double step = phase_number(1, pulse) - pulse.begin;
@@ -48,7 +48,7 @@ TEST_P(EveryPulse, HasNoExtremumButAtItsPeaks)
     }
 }
 
-/// The first phase of each spell in which amplitude |f| > 1, by looking everywhere.
+/// The first phase of each interval with amplitude |f| > 1, by sampling the whole pulse.
 std::vector<double> spells(const GroundMotion<double>& pulse, double amplitude)
 {
     std::vector<double> result;
@@ -79,7 +79,7 @@ TEST_P(EveryPulse, UpliftsAreWhereTheGroundFirstExceedsTheThreshold)
             ASSERT_EQ(ours.size(), seen.size())
                 << "amplitude " << amplitude << ", window " << window;
             for (std::size_t i = 0; i < seen.size(); ++i) {
-                // The grid sees an uplift at most one step late.
+                // The grid detects an uplift at most one step late.
                 EXPECT_LE(ours[i], seen[i]);
                 const double step = phase_number(1, pulse) - pulse.begin;
                 EXPECT_GE(ours[i], seen[i] - 1.001 * step);
@@ -107,7 +107,7 @@ double first_uplift(PulseKind pulse, double amplitude)
     return uplift_phases(ground_motion(pulse, 1.0), amplitude)[0];
 }
 
-TEST(UpliftPhases, OfASineIsItsClosedForm)
+TEST(UpliftPhases, OfASineEqualsItsClosedForm)
 {
     EXPECT_DOUBLE_EQ(first_uplift(PulseKind::one_sine, 4.0), std::asin(0.25));
     EXPECT_DOUBLE_EQ(first_uplift(PulseKind::half_sine, 1.25), std::asin(0.8));
@@ -139,7 +139,7 @@ TEST(Wavelets, HaveTailsThatEndBelowAnyLevel)
             for (const double beyond : {1.0, 1.1, 2.0, 3.0}) {
                 EXPECT_LE(std::abs(value_of_pulse(pulse, end * beyond)), level * 1.01) << level;
             }
-            EXPECT_GT(std::abs(value_of_pulse(pulse, end * 0.95)), level); // nor much earlier
+            EXPECT_GT(std::abs(value_of_pulse(pulse, end * 0.95)), level); // and not much earlier
         }
         EXPECT_GT(end_of_tail(kind, 0.0), 8); // beyond every lobe: the last ends at 4
     }

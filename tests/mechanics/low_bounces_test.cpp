@@ -15,7 +15,7 @@ std::optional<LowBounces> bounds_of(PulseKind pulse, const Point<double>& point)
     return bound_of_low_bounces<theory>(point.slenderness, excitation_of<theory>(pulse, point));
 }
 
-TEST(LowBounces, HoldTheMotionAtAnyMoment)
+TEST(LowBounces, BoundTheMotionAtAnyMoment)
 {
     std::mt19937_64 generator(21);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -36,8 +36,7 @@ TEST(LowBounces, HoldTheMotionAtAnyMoment)
                 continue;
             }
             ++bounded;
-            // What bounces for long keeps 1e-12 of its energy for 1e3 impacts, and of its phase
-            // less.
+            // A long series keeps 1e-12 of its energy for 1e3 impacts, and less of its phase.
             const auto end =
                 run_in_doubles<Taylor<20>, theory>({slenderness, restitution}, excitation, 1e-12);
             EXPECT_LE(end.state.tilt, bounds->tilt * (1 + 1e-9)) << i;
@@ -47,7 +46,7 @@ TEST(LowBounces, HoldTheMotionAtAnyMoment)
     EXPECT_GT(bounded, 350); // of 840
 }
 
-TEST(LowBounces, UnderAConstantPushAreTheClosedFormAndLittleMore)
+TEST(LowBounces, UnderAConstantPushAreCloseToTheClosedForm)
 {
     // Linear theory: |theta| = (a - 1) alpha (cosh tau - 1) from rest.
     const Point<double> point{0.2, 1, 3, 1.02};
@@ -58,13 +57,13 @@ TEST(LowBounces, UnderAConstantPushAreTheClosedFormAndLittleMore)
     const double rate = 0.02 * 0.2 * std::sinh(duration);
     EXPECT_GE(bounds->tilt, tilt);
     EXPECT_GE(bounds->rate, rate);
-    // What a pulse may do between the ends of a step, A (pi / 4096)^2 / 2 each, does work of 2 % of
-    // the energy: sum of tilt A (pi / 4096)^2 / 2 = 2.4e-7 against 1.3e-5.
+    // The change of the pulse between the ends of a step, A (pi / 4096)^2 / 2 each, does work of 2
+    // % of the energy: sum of tilt A (pi / 4096)^2 / 2 = 2.4e-7 against 1.3e-5.
     EXPECT_LE(bounds->tilt, tilt * 1.02);
     EXPECT_LE(bounds->rate, rate * 1.02);
 }
 
-TEST(LowBounces, AreNoneOfABlockThatIsNotLifted)
+TEST(LowBounces, AreNoneForABlockThatIsNotLifted)
 {
     const auto bounds = bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 3, 1});
     ASSERT_TRUE(bounds);
@@ -72,7 +71,7 @@ TEST(LowBounces, AreNoneOfABlockThatIsNotLifted)
     EXPECT_EQ(bounds->rate, 0);
 }
 
-TEST(LowBounces, AreNotClaimedOfABlockThatRisesOrOverturns)
+TEST(LowBounces, AreNotReportedForABlockThatRisesOrOverturns)
 {
     EXPECT_FALSE((bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 3, 1.5})));
     EXPECT_FALSE((bounds_of<Theory::linear>(PulseKind::rectangular, {0.2, 1, 0.1, 1.02})));

@@ -21,10 +21,10 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(Pulse, SeriesOfEveryPulse, every_pulse(), pulse_test_name);
 
-/// Phases spread over the pulse, its two ends included [rad].
+/// Evenly spaced phases of the pulse, including both ends [rad].
 std::vector<double> phases(PulseKind pulse, double window = 1)
 {
-    constexpr int count = 61; // none is in the middle, where doubles may miss a kink
+    constexpr int count = 61; // none in the middle, where doubles may miss a kink
     const GroundMotion<double> motion = ground_motion(pulse, window);
     std::vector<double> result;
     for (int i = 0; i <= count; ++i) {
@@ -33,7 +33,7 @@ std::vector<double> phases(PulseKind pulse, double window = 1)
     return result;
 }
 
-/// sum of c[k] t^k, to the letter.
+/// sum of c[k] t^k, term by term.
 template <std::size_t count>
 Digits50 sum(const std::array<Digits50, count>& c, const Digits50& t)
 {
@@ -60,8 +60,9 @@ TEST_P(SeriesOfEveryPulse, SumsToThePulseItselfOnItsSmoothPiece)
                     continue;
                 }
                 const Digits50 exact = scale * value_of_pulse(pulse, there);
-                // The steps advance the phase by 0.225. What a sine leaves out is 0.225^40 / 40!,
-                // 1e-74; a Gaussian of width 1.4 leaves 1e-53 at most. A wrong term shows in full.
+                // The steps advance the phase by 0.225. The truncation error of a sine is 0.225^40
+                // / 40!, 1e-74; that of a Gaussian of width 1.4 is at most 1e-53. A wrong term is
+                // visible.
                 EXPECT_LT(abs(sum(terms, Digits50(t)) - exact), 1e-46)
                     << "phase " << phase << ", t " << t;
             }
@@ -85,9 +86,9 @@ TEST_P(SeriesOfEveryPulse, InDoubleAgreesWithFiftyDigits)
         }
     }
     for (std::size_t k = 0; k < count; ++k) {
-        // Each step of a recurrence adds one unit in the last place at most, and half of that in
-        // the long run: 5 units at k = 20 for the sines, 12 for the wavelets. A sine in single
-        // precision would leave a hundred million.
+        // Each step of a recurrence adds at most one unit in the last place, and half of that on
+        // average: 5 units at k = 20 for the sines, 12 for the wavelets. A sine in single precision
+        // would be off by a hundred million.
         const double unit = std::numeric_limits<double>::epsilon() * largest[k];
         EXPECT_LE(error[k], double(k + 2) * unit) << "coefficient " << k;
     }
@@ -156,13 +157,13 @@ void expect_terms_to_follow_as_told(PulseKind pulse)
     }
 }
 
-TEST(PulseSeries, OfTheWaveletsGoOnNoFasterThanTold)
+TEST(PulseSeries, OfTheWaveletsGrowsNoFasterThanItsBound)
 {
     expect_terms_to_follow_as_told(PulseKind::symmetric_ricker);
     expect_terms_to_follow_as_told(PulseKind::antisymmetric_ricker);
 }
 
-TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
+TEST(PulseSeries, HasTheSymmetryOfThePulseAboutPhaseZero)
 {
     expect_parity(PulseKind::one_sine, -1);
     expect_parity(PulseKind::antisymmetric_ricker, -1);
@@ -170,13 +171,13 @@ TEST(PulseSeries, MirrorsAsThePulsesDoAboutPhaseZero)
     expect_parity(PulseKind::symmetric_ricker, 1);
 }
 
-TEST(PulseSeries, OfTheConstantPushIsItsScaleAlone)
+TEST(PulseSeries, OfTheConstantPushIsItsScaleOnly)
 {
     EXPECT_EQ((ground_motion(PulseKind::rectangular, 1.0).series<4>(1.4, 0.3, 0.8)),
               (Coefficients<4, double>{1.4}));
 }
 
-TEST(PulseSeries, OfATriangleAtItsKinkIsThatOfThePieceThatItIsAskedFor)
+TEST(PulseSeries, OfATriangleAtItsKinkIsThatOfTheRequestedPiece)
 {
     const GroundMotion<double> triangle = ground_motion(PulseKind::triangular, 1.0);
     const double kink = pi<double>() / 2;
@@ -196,7 +197,7 @@ TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
     for (int k = 0; k < 8; ++k) {
         factorial *= k == 0 ? 1 : k;
         const int sign = k % 4 < 2 ? 1 : -1;
-        // Some roundings of 1e-50.
+        // A few roundings of 1e-50.
         EXPECT_LT(abs(sine[k] - (k % 2 == 1 ? sign / factorial : Digits50(0))), 1e-48) << k;
         EXPECT_LT(abs(cosine[k] - (k % 2 == 0 ? sign / factorial : Digits50(0))), 1e-48) << k;
     }
@@ -215,7 +216,7 @@ TEST(PulseSeries, OfTheWaveletsAtTheirCentreAreTheirTaylorSeries)
     const Coefficients<8, Digits50> odd_by_hand{
         0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 8, 0, Digits50(3) / 16};
     for (std::size_t k = 0; k < 8; ++k) {
-        EXPECT_LT(abs(even[k] - even_by_hand[k]), 1e-48) << k; // some roundings of 1e-50
+        EXPECT_LT(abs(even[k] - even_by_hand[k]), 1e-48) << k; // a few roundings of 1e-50
         EXPECT_LT(abs(odd[k] - odd_by_hand[k]), 1e-48) << k;
     }
 }

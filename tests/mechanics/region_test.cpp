@@ -14,7 +14,7 @@ struct FreeStart {
     State<double> state;
 };
 
-/// Random blocks in random states, so spread that every region gets its share.
+/// Random blocks in random states, distributed over all regions.
 std::vector<FreeStart> random_starts(int count)
 {
     std::mt19937_64 generator(7);
@@ -31,7 +31,7 @@ std::vector<FreeStart> random_starts(int count)
     return starts;
 }
 
-/// Eq. 20 to the letter, p = 1; theta0, theta0' signed.
+/// Eq. 20 as printed, p = 1; theta0, theta0' signed.
 bool stable_by_equation_20(const FreeStart& start)
 {
     const double alpha = start.block.slenderness;
@@ -63,7 +63,7 @@ TEST(Separatrix, HasTheSlopeOfItsRate)
     }
 }
 
-TEST(RegionAfterPulse, IsSafeExactlyWhereEquation20SaysSo)
+TEST(RegionAfterPulse, IsSafeExactlyWhereEquation20Holds)
 {
     int safe = 0;
     for (const FreeStart& start : random_starts(200000)) {
@@ -75,7 +75,7 @@ TEST(RegionAfterPulse, IsSafeExactlyWhereEquation20SaysSo)
     EXPECT_LT(safe, 180000);
 }
 
-TEST(RegionAfterPulse, HoldsWhatItPromisesWhenTheFreeStageIsIntegrated)
+TEST(RegionAfterPulse, AgreesWithTheIntegratedFreeStage)
 {
     std::map<Region, int> seen;
     for (const FreeStart& start : random_starts(4000)) {
@@ -93,7 +93,7 @@ TEST(RegionAfterPulse, HoldsWhatItPromisesWhenTheFreeStageIsIntegrated)
         case Region::S_minus:
             EXPECT_FALSE(outcome.falls);
             EXPECT_EQ(side * start.state.rate > 0, region == Region::S_plus);
-            // Only the loss at the first impact saves it.
+            // It is safe only because of the loss at the first impact.
             EXPECT_TRUE(watch_free_stage(start.state, {start.block.slenderness, 1.0}).falls);
             break;
         default:
@@ -110,7 +110,7 @@ TEST(RegionAfterPulse, HoldsWhatItPromisesWhenTheFreeStageIsIntegrated)
     }
 }
 
-TEST(RegionAfterPulse, MirrorsWithTheSide)
+TEST(RegionAfterPulse, IsMirroredWithTheSide)
 {
     const std::map<Region, Region> mirror{{Region::S, Region::S},
                                           {Region::S_plus, Region::S_minus},

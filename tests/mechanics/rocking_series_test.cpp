@@ -15,7 +15,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// A block in motion under a pulse, at the time to develop about.
+/// A block in motion under a pulse, at the centre of the expansion.
 template <class T>
 struct Start {
     T tilt;         // [rad]
@@ -35,8 +35,8 @@ const Start<Digits50> inward{.tilt = 0.15,
                              .frequency = 3,
                              .unit = 1};
 
-/// Blocks from upright to flat on the ground, slow and fast, under pushes from either side; units
-/// as a stepper chooses them.
+/// Blocks from upright to overturned, slow and fast, under pushes from both sides; units as chosen
+/// by a stepper.
 std::vector<Start<double>> random_starts(int count)
 {
     std::mt19937_64 generator(5);
@@ -73,7 +73,7 @@ RockingSeries<order, T> series_of(PulseKind pulse, const Start<T>& start)
                                          push, start.unit);
 }
 
-/// sum of c[k] t^k, to the letter.
+/// sum of c[k] t^k, term by term.
 template <class T, std::size_t count>
 T sum(const std::array<T, count>& c, const T& t)
 {
@@ -98,7 +98,7 @@ T slope(const std::array<T, count>& c, const T& t)
     return result;
 }
 
-/// What the series leaves of the equation of motion as block.hpp and pulse.hpp have it, at t.
+/// The residual of the series in the equation of motion of block.hpp and pulse.hpp, at t.
 template <Theory theory, int order>
 Digits50 residual(PulseKind pulse, const Start<Digits50>& start, const Digits50& t)
 {
@@ -124,9 +124,9 @@ double order_of_residual(PulseKind pulse)
 
 TEST_P(SeriesUnderEveryPulse, SolvesEquation47ToItsOrder)
 {
-    // The rate ends at t^order, its slope one earlier: the first term that the equation misses has
-    // t^order. A wrong coefficient k would leave a residual of order k - 1. The next term bends the
-    // slope by 0.25 where the leading one happens to be small.
+    // The rate ends at t^order, its slope one earlier: the residual begins with t^order. A wrong
+    // coefficient k would leave a residual of order k - 1. The next term changes the observed slope
+    // by 0.25 where the leading one happens to be small.
     EXPECT_NEAR((order_of_residual<Theory::nonlinear, 8>(GetParam())), 8, 0.3);
     EXPECT_NEAR((order_of_residual<Theory::nonlinear, 12>(GetParam())), 12, 0.3);
     EXPECT_NEAR((order_of_residual<Theory::linear, 8>(GetParam())), 8, 0.3);
@@ -138,8 +138,8 @@ TEST_P(SeriesUnderEveryPulse, ALongSeriesSolvesEquation47ToManyDigits)
     for (const Start<double>& start : random_starts(20)) {
         const Start<Digits50> digits = in_digits(start);
         for (const double t : {-0x1p-8, 0x1p-9, 0x1p-8}) {
-            // What order 20 misses is below 2^-160, 7e-49. A product that is missing from one of
-            // the first 16 coefficients shows.
+            // The residual of order 20 is below 2^-160, 7e-49. A product missing from one of the
+            // first 16 coefficients is visible.
             EXPECT_LT(abs(residual<Theory::nonlinear, 20>(GetParam(), digits, t)), 1e-46);
             EXPECT_LT(abs(residual<Theory::linear, 20>(GetParam(), digits, t)), 1e-46);
         }
@@ -179,11 +179,11 @@ TEST(RockingSeries, OfTheLinearTheoryUnderAConstantPushIsHyperbolic)
     for (int k = 1; k < 22; ++k) {
         power *= start.unit / k;
         const Digits50 exact = power * (k % 2 == 0 ? start.tilt - rest : start.rate);
-        EXPECT_LT(abs(series.tilt[std::size_t(k)] / exact - 1), 1e-48) << k; // some roundings
+        EXPECT_LT(abs(series.tilt[std::size_t(k)] / exact - 1), 1e-48) << k; // a few roundings
     }
 }
 
-TYPED_TEST(SeriesOfEveryTheory, RunsBackwardUnderAPushThatRunsBackward)
+TYPED_TEST(SeriesOfEveryTheory, IsReversedInTimeWithThePush)
 {
     for (const Start<double>& start : random_starts(200)) {
         const double w = start.frequency * start.unit;
@@ -197,15 +197,16 @@ TYPED_TEST(SeriesOfEveryTheory, RunsBackwardUnderAPushThatRunsBackward)
         const auto earlier = rocking_series<TypeParam::value, 20>(
             start.tilt, -rate, start.slenderness, back, start.unit);
         for (std::size_t k = 0; k < later.tilt.size(); ++k) {
-            // Signs alone: no bit may change.
+            // Only signs change: no other bit may change.
             ASSERT_EQ(earlier.tilt[k], k % 2 == 0 ? later.tilt[k] : -later.tilt[k]) << k;
         }
     }
 }
 
-TYPED_TEST(SeriesOfEveryTheory, MirrorsAboutTheUnstableBalance)
+TYPED_TEST(SeriesOfEveryTheory, IsMirroredAboutTheUnstableBalance)
 {
-    // At tilt = alpha the mass stands above the corner: alpha - tilt and tilt - alpha move alike.
+    // At tilt = alpha the mass is above the corner: alpha - tilt and tilt - alpha obey one
+    // equation.
     constexpr Theory theory = TypeParam::value;
     for (Start<double> start : random_starts(200)) {
         start.slenderness = 0.25; // so that the tilt's distance from it has an exact opposite
@@ -240,7 +241,7 @@ TYPED_TEST(SeriesOfEveryTheory, CoefficientKGrowsWithTheUnitOfTimeToThePowerK)
     const auto ours = series_of<theory, 20>(PulseKind::symmetric_ricker, inward);
     const auto theirs = series_of<theory, 20>(PulseKind::symmetric_ricker, odd);
     for (std::size_t k = 0; k < ours.tilt.size(); ++k) {
-        // Round-off of 50 digits, some 1e-50 per term. A unit forgotten once is a factor of 7.
+        // Round-off of 50 digits, about 1e-50 per term. A unit omitted once is a factor of 7.
         EXPECT_LT(abs(theirs.tilt[k] * pow(Digits50(7), int(k)) / ours.tilt[k] - 1), 1e-46) << k;
     }
 }
@@ -276,7 +277,7 @@ TYPED_TEST(SeriesOfEveryTheory, InDoubleAgreesWithFiftyDigits)
     }
     for (std::size_t k = 0; k <= order; ++k) {
         // The recurrences amplify nothing: 4 units in the last place at most. Sines in float would
-        // leave a hundred million.
+        // be off by a hundred million.
         EXPECT_LE(error[k], double(k + 2) * epsilon * largest[k]) << "coefficient " << k;
     }
 }

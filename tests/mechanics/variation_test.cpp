@@ -25,7 +25,7 @@ T distance(const Variation<T>& a, const Variation<T>& b)
     return std::max(first, second);
 }
 
-/// Of an inverted pendulum, delta'' = k delta.
+/// The variation of an inverted pendulum, delta'' = k delta.
 Variation<double> exact_variation(double h, double k)
 {
     const double w = std::sqrt(k);
@@ -50,9 +50,9 @@ TEST(RockingStiffness, IsTheSlopeOfTheAcceleration)
     }
 }
 
-TEST(VariationOverAStep, IsThatOfAnInvertedPendulumHoweverLong)
+TEST(VariationOverAStep, IsThatOfAnInvertedPendulumForAnyLength)
 {
-    // The series of cosh and sinh go on to x^20 / 20!, x^21 / 21!; what follows is a geometric
+    // The series of cosh and sinh extend to x^20 / 20!, x^21 / 21!; the remainder is a geometric
     // series of at most 12^2 / (22 * 23), and at 12 less than 2 % of cosh(12).
     for (const double h : {0.01, 0.5, 1.0, 3.0, 6.0, 9.0, longest_variation}) {
         for (const double stiffness : {1.0, 0.6}) {
@@ -62,11 +62,11 @@ TEST(VariationOverAStep, IsThatOfAnInvertedPendulumHoweverLong)
                 << h;
         }
     }
-    // Up to 3 the rest is 3^21 / 21! = 2.1e-10 and a little.
+    // Up to 3 the remainder is slightly more than 3^21 / 21! = 2.1e-10.
     EXPECT_LT(distance(variation_over<double>(3, 1, 1, 1), exact_variation(3, 1)), 3e-10);
 }
 
-/// From a step's beginning to its end, in parts whose errors are 1e10 times smaller in all.
+/// From the beginning of a step to its end, in parts with a total error 1e10 times smaller.
 template <class Stiffness>
 Variation<double> composed_variation(double h, const Stiffness& stiffness)
 {
@@ -95,9 +95,9 @@ TEST(VariationOverAStep, HasOrderFourWhereTheStiffnessVaries)
     EXPECT_NEAR(observed_order({4, 6, 8, 12, 16}, error), 5, 0.1); // of one step
 }
 
-TEST(VariationOverAStep, SaysHowUnsureItIs)
+TEST(VariationOverAStep, BoundsItsUncertainty)
 {
-    // Steps of up to 2, over up to 2 rad of a push that is up to ten times as strong as gravity.
+    // Steps of up to 2, over up to 2 rad of a push up to ten times as strong as gravity.
     std::mt19937_64 generator(4);
     std::uniform_real_distribution<double> uniform(0, 1);
     constexpr int draws = 2000;
@@ -126,10 +126,10 @@ TEST(VariationOverAStep, SaysHowUnsureItIs)
     EXPECT_LT(too_little, draws / 50);
     std::sort(shares.begin(), shares.end());
     EXPECT_LT(shares.back(), 5);
-    EXPECT_GT(shares[draws / 2], 1.0 / 30) << "what is unsure is told too large";
+    EXPECT_GT(shares[draws / 2], 1.0 / 30) << "the uncertainty is overestimated";
 }
 
-TEST(VariationOverAStep, KeepsAreas)
+TEST(VariationOverAStep, PreservesAreas)
 {
     // The motion has no friction: the determinant is 1, to the order of the step.
     const Variation<double> v = variation_over<double>(0.1, 1.3, 0.9, 0.4);
@@ -138,8 +138,9 @@ TEST(VariationOverAStep, KeepsAreas)
 
 TEST(VariationOverAnImpact, IsThatOfTwoParabolas)
 {
-    // Before the impact the block falls as tilt + rate t + a t^2 / 2, after it it rises on the
-    // other side under b. Compared at a fixed time after the impact, and carried back to it.
+    // Before the impact the block falls as tilt + rate t + a t^2 / 2; after it, it rises on the
+    // other side under b. The motions are compared at a fixed time after the impact and propagated
+    // back to it.
     const double sqrt_restitution = 0.9;
     const double speed = 0.4;
     const double before = -0.3;
@@ -156,8 +157,8 @@ TEST(VariationOverAnImpact, IsThatOfTwoParabolas)
     const auto [x_tilt, v_tilt] = state_later(small, -speed);
     const auto [x_rate, v_rate] = state_later(0, -speed + small);
     const Variation<double> found = variation_over_impact(sqrt_restitution, speed, before, after);
-    // A parabola carries a change of (tilt, rate) to (tilt + rate, rate) in a unit of time. The
-    // differences are off by small times second derivatives, of order 1 / speed^3.
+    // A parabola maps a change of (tilt, rate) to (tilt + rate, rate) in a unit of time. The
+    // differences have errors of small times second derivatives, of order 1 / speed^3.
     EXPECT_NEAR((x_tilt - x) / small - (v_tilt - v) / small, found.tilt_by_tilt, 1e-4);
     EXPECT_NEAR((v_tilt - v) / small, found.rate_by_tilt, 1e-4);
     EXPECT_NEAR((x_rate - x) / small - (v_rate - v) / small, found.tilt_by_rate, 1e-4);

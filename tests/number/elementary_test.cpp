@@ -34,8 +34,8 @@ const double quarter_turn = pi<double>() / 2;
 
 TEST(SineAndCosine, SineIsWithinOneUnitInTheLastPlaceOverAQuarterTurn)
 {
-    // Half a unit for the last rounding and what Horner's rule adds; a polynomial one term too
-    // short would be off by 1.4 units at the ends.
+    // Half a unit for the last rounding plus the error of Horner's rule; a polynomial one term
+    // shorter would be off by 1.4 units at the ends.
     EXPECT_LT(worst(-quarter_turn, quarter_turn,
                     [](double x) {
                         return (sine_and_cosine(x).sine - sin(Digits50(x))) / sin(Digits50(x));
@@ -70,7 +70,7 @@ TEST(SineAndCosineOfPeriod, AgreeWithTheReferenceOverAWholePeriod)
     EXPECT_LT(worst(0, 2 * pi<double>(), cosine_error), epsilon);
 }
 
-TEST(SineAndCosineOfPeriod, KeepsItsDigitsBesideTheZeroAtPi)
+TEST(SineAndCosineOfPeriod, KeepsItsDigitsNextToTheZeroAtPi)
 {
     // Reduction by a rounded pi alone would leave an absolute error of 1.2e-16, here 1.2e-4.
     const double x = pi<double>() + 1e-12;
@@ -111,7 +111,7 @@ std::vector<double> positive_numbers()
     return numbers;
 }
 
-TEST(Split, GivesBackEveryNormalNumberExactly)
+TEST(Split, ReproducesEveryNormalNumberExactly)
 {
     for (const double x : positive_numbers()) {
         const auto [mantissa, exponent] = number_traits<double>::split(x);
@@ -121,7 +121,7 @@ TEST(Split, GivesBackEveryNormalNumberExactly)
     }
 }
 
-TEST(Split, OfAPowerOfTwoUndoesPowerOfTwo)
+TEST(Split, OfAPowerOfTwoInvertsPowerOfTwo)
 {
     for (int k = -1022; k <= 1023; ++k) {
         const double power = number_traits<double>::power_of_two(k);
@@ -141,10 +141,10 @@ TEST(RoughLog2, IsWithinAThousandthOverAllNormalNumbers)
     EXPECT_LT(worst(1, 2, error), 1e-3);
 }
 
-TEST(RoughLog2, OfZeroAndOfWhatIsNotFiniteIsBeyondTheRangeOfLogarithms)
+TEST(RoughLog2, OfZeroAndOfNonFiniteValuesIsOutsideTheRangeOfLogarithms)
 {
-    // Also where a result of minus zero or a negative one slips in: never a number that would pass
-    // for the logarithm of a positive one.
+    // Also for minus zero and negative results: never a number that could be the logarithm of a
+    // positive number.
     EXPECT_LT(rough_log2(0.0), -1022);
     for (const double x : {-0.0, -1.0, infinity, -infinity, not_a_number, -not_a_number}) {
         EXPECT_GT(rough_log2(x), 1023) << x;
@@ -153,7 +153,7 @@ TEST(RoughLog2, OfZeroAndOfWhatIsNotFiniteIsBeyondTheRangeOfLogarithms)
 
 TEST(RoughLog2, InFiftyDigitsIsTheLogarithm)
 {
-    // In double the cubic would leave 8e-4.
+    // In double the cubic would be off by 8e-4.
     EXPECT_LT(abs(rough_log2(Digits50(12)) - log(Digits50(12)) / log(Digits50(2))), 1e-48);
 }
 
@@ -162,12 +162,12 @@ TEST(RoughPowerOfTwo, IsWithinOnePartInTenThousandOverItsRange)
     const auto error = [](double x) { return rough_power_of_two(x) / std::exp2(x) - 1; };
     // 9.97e-5, at the half integers. A parabola would leave 2e-3, a wrong integer part 0.5 or 1.
     EXPECT_LT(worst(-1000, 1000, error), 1e-4);
-    for (int k = -1999; k < 2000; ++k) { // whole and half ones
+    for (int k = -1999; k < 2000; ++k) { // integers and half integers
         EXPECT_LT(std::abs(error(0.5 * k)), 1e-4) << 0.5 * k;
     }
 }
 
-TEST(RoughPowerOfTwo, UndoesRoughLog2)
+TEST(RoughPowerOfTwo, InvertsRoughLog2)
 {
     const auto error = [](double x) { return rough_power_of_two(rough_log2(x)) / x - 1; };
     // 1e-3 ln 2 and 1e-4.
@@ -181,7 +181,7 @@ TEST(RoughPowerOfTwo, InFiftyDigitsIsThePower)
 }
 
 #ifdef __AVX2__
-/// The packs that the instructions compiled in allow; see CMakeLists.txt.
+/// The packs available with the compiled instructions; see CMakeLists.txt.
 template <class T>
 class EveryPack : public testing::Test {};
 using Packs = testing::Types<Pack<xsimd::fma3<xsimd::avx2>>
@@ -192,7 +192,7 @@ using Packs = testing::Types<Pack<xsimd::fma3<xsimd::avx2>>
                              >;
 TYPED_TEST_SUITE(EveryPack, Packs);
 
-/// Expects every lane of f(pack) to have the bits of f(double), also of what is not a number.
+/// Expects every lane of f(pack) to have the bits of f(double), also for NaN.
 template <class T, class F>
 void expect_equal_bits(const std::vector<double>& arguments, const F& f)
 {
@@ -218,7 +218,7 @@ std::vector<double> random_numbers(double low, double high)
     return numbers;
 }
 
-TYPED_TEST(EveryPack, SplitsAndTakesRoughLogarithmsAsADoubleDoes)
+TYPED_TEST(EveryPack, SplitsAndComputesRoughLogarithmsLikeADouble)
 {
     std::vector<double> numbers = positive_numbers();
     numbers.insert(numbers.end(),
@@ -231,7 +231,7 @@ TYPED_TEST(EveryPack, SplitsAndTakesRoughLogarithmsAsADoubleDoes)
     expect_equal_bits<TypeParam>(numbers, []<class T>(const T& x) -> T { return rough_log2(x); });
 }
 
-TYPED_TEST(EveryPack, TakesRoughPowersOfTwoAsADoubleDoes)
+TYPED_TEST(EveryPack, ComputesRoughPowersOfTwoLikeADouble)
 {
     const auto power = []<class T>(const T& x) -> T { return rough_power_of_two(x); };
     expect_equal_bits<TypeParam>(random_numbers(-1000, 1000), power);
@@ -243,7 +243,7 @@ TYPED_TEST(EveryPack, TakesRoughPowersOfTwoAsADoubleDoes)
     expect_equal_bits<TypeParam>(halves, power);
 }
 
-TYPED_TEST(EveryPack, TakesSinesCosinesAndExponentialsAsADoubleDoes)
+TYPED_TEST(EveryPack, ComputesSinesCosinesAndExponentialsLikeADouble)
 {
     const auto sine = []<class T>(const T& x) -> T { return sine_and_cosine_of_period(x).sine; };
     const auto cosine = []<class T>(const T& x) -> T {

@@ -1,8 +1,8 @@
-"""What section 4 of the paper says of its block, its pulses and all of its spectra.
+"""Statements of section 4 of the paper about its block, its pulses and all of its spectra.
 
-Regions I to VII are the paper's numbers. Its signs are ours: Eqs. 47, 48, 51, 53 and 54 push as our
-pulses do, so theta0 > 0 there is theta0 > 0 here. A name with "but" tells where the sentence does
-not hold as it stands. Counts in comments are of 150 x 150 points."""
+Regions I to VII are numbered as in the paper. Signs are equal: Eqs. 47, 48, 51, 53 and 54 push like
+our pulses, so theta0 > 0 in the paper is theta0 > 0 here. Names with "but" describe where a
+statement does not hold as printed. Counts in comments are for 150 x 150 points."""
 
 import unittest
 
@@ -15,7 +15,7 @@ PULSES = ("07a", "11a", "14a", "16a")  # one of each, at r = r_max
 
 
 class TheBlock(unittest.TestCase):
-    """Printed numbers hold to half their last digit."""
+    """Printed numbers are correct to half a unit of their last digit."""
 
     def setUp(self):
         self.block = spectrum("07a")
@@ -43,8 +43,8 @@ class ThePulses(unittest.TestCase):
         return history(figure, 3.0, 8.0, samples=2000)
 
     def assert_ground(self, block, shape):
-        """The ground's acceleration over g, against 8 tan(alpha) shape; the last sample before the
-        end of the pulse and those after it are left out."""
+        """Compares the ground acceleration over g with 8 tan(alpha) shape; the last sample before
+        the end of the pulse and those after it are excluded."""
         shaking = block.time < 0.999 * block.end_of_pulse
         expected = 8 * np.tan(block.slenderness) * shape
         np.testing.assert_allclose(block.ground[shaking], expected[shaking], rtol=0, atol=1e-12)
@@ -97,22 +97,23 @@ class TheForcedStage(unittest.TestCase):
                 self.assertFalse(block.angle[before].any() or block.velocity[before].any())
                 tilt = np.sign(block.angle) * block.slenderness - block.angle
                 acceleration = -(np.sin(tilt) + block.ground * np.cos(tilt))
-                # From sample to sample; upright, at events, the acceleration jumps.
+                # From sample to sample; at events, where theta = 0, the acceleration is
+                # discontinuous.
                 step = np.diff(block.time)
                 gained = np.diff(block.velocity)
                 expected = step * (acceleration[1:] + acceleration[:-1]) / 2
                 rocking = (block.angle[1:] != 0) & (block.angle[:-1] != 0)
                 compared = rocking & (step > 0) & (block.time[1:] < block.end_of_pulse)
                 self.assertGreater(np.count_nonzero(compared), 100)
-                # The rule of trapezoids is off by step^2 / 12 of the acceleration's curvature:
-                # by 3e-6 at steps of 2e-3. A wrong sign of any term makes a difference of 0.1.
+                # The error of the trapezoidal rule is step^2 / 12 times the curvature of the
+                # acceleration: 3e-6 at steps of 2e-3. A wrong sign of any term changes 0.1.
                 wrong = abs(gained - expected)[compared] / step[compared]
                 self.assertLess(wrong.max(), 1e-5)
 
-    def test_lasts_at_most_a_period_but_a_wavelet_is_followed_for_two(self):
-        # T_f <= T_p is said of all pulses, and the wavelets are given no end. Within one period (a
+    def test_lasts_at_most_a_period_but_two_for_wavelets(self):
+        # The paper states T_f <= T_p for all pulses, and no end of wavelets. Within one period (a
         # window of 0.5) the symmetric one would be cut off at a third of its peak, and the
-        # antisymmetric one would lose its first and last swing.
+        # antisymmetric one would lose its first and last push.
         for figure, periods in zip(PULSES, (1, 1, 2, 2)):
             with self.subTest(figure):
                 block = history(figure, 3.0, 8.0)
@@ -120,7 +121,7 @@ class TheForcedStage(unittest.TestCase):
                 self.assertLessEqual(length, periods * 2 * np.pi / 3)
                 self.assertGreater(length, (periods - 1) * 2 * np.pi / 3)
 
-    def test_is_the_same_for_another_solver(self):
+    def test_agrees_with_another_solver(self):
         for figure in PULSES:
             with self.subTest(figure):
                 one, other = spectrum(figure), spectrum(figure, "numerics.method=taylor")
@@ -130,8 +131,8 @@ class TheForcedStage(unittest.TestCase):
 
 
 class AllSpectra(unittest.TestCase):
-    def test_are_of_the_same_block_but_for_its_restitution(self):
-        # The caption of figure 10 has 1 degree, against the text and figure 9: a misprint.
+    def test_have_the_same_block_except_for_restitution(self):
+        # The caption of figure 10 has 1 degree, unlike the text and figure 9: a misprint.
         for figure, part in zip(FIGURES, (1, 0.85, 0.7, 1, 0.7, 1, 0.7, 1, 0.7)):
             with self.subTest(figure):
                 found, block = spectrum(figure), spectrum("07a")
@@ -149,14 +150,14 @@ class AllSpectra(unittest.TestCase):
                     self.assertFalse(still[weak].any())
                 self.assertTrue(found.rocked[found.amplitude > 1].all())
 
-    def test_have_fallen_while_forced_exactly_where_the_angle_is_a_quarter_turn(self):
+    def test_overturn_during_the_pulse_exactly_where_the_angle_is_a_quarter_turn(self):
         for figure in FIGURES:
             with self.subTest(figure):
                 found = spectrum(figure)
                 lying = abs(found.angle) >= np.pi / 2
                 np.testing.assert_array_equal(lying, found.of("F+", "F-"))
 
-    def test_tell_safe_from_unsafe_by_equation_20_at_the_end_of_the_pulse(self):
+    def test_are_safe_where_equation_20_holds_at_the_end_of_the_pulse(self):
         for figure in FIGURES:
             with self.subTest(figure):
                 found = spectrum(figure)
@@ -171,14 +172,14 @@ class AllSpectra(unittest.TestCase):
                                               found.of("S+", "S-")[ended])
 
     def fate(self, figure, place):
-        """What follows the end of the pulse, and whether the block falls during it."""
+        """Returns the events after the pulse, and whether the block overturns during it."""
         block = history(figure, *place)
         after = [kind for kind, time in block.events if time > block.end_of_pulse]
         during = [kind for kind, time in block.events if time <= block.end_of_pulse]
         return after, "fall" in during
 
     def assert_fate(self, names, fits):
-        """On five points of each region, in the spectrum that has the most of it."""
+        """Checks five points of each region, in the spectrum with the most of it."""
         for name in names:
             figure = max(FIGURES, key=lambda one: np.count_nonzero(spectrum(one).of(name)))
             found = spectrum(figure)

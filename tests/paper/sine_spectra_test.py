@@ -1,8 +1,9 @@
-"""What sections 4.1 and 4.2 of the paper say of the spectra of one-sine and one-cosine pulses.
+"""Statements of sections 4.1 and 4.2 of the paper about the spectra of one-sine and one-cosine
+pulses.
 
-Regions I to VII are the paper's numbers. Its signs are ours: Eqs. 47, 48, 51, 53 and 54 push as our
-pulses do, so theta0 > 0 there is theta0 > 0 here. A name with "but" tells where the sentence does
-not hold as it stands. Counts in comments are of 150 x 150 points."""
+Regions I to VII are numbered as in the paper. Signs are equal: Eqs. 47, 48, 51, 53 and 54 push like
+our pulses, so theta0 > 0 in the paper is theta0 > 0 here. Names with "but" describe where a
+statement does not hold as printed. Counts in comments are for 150 x 150 points."""
 
 import unittest
 
@@ -19,13 +20,13 @@ class OneSine(unittest.TestCase):
         self.all = spectrum("07a")
         self.i, self.ii, self.iv, self.vi, self.vii = map(self.all.of,
                                                           ("U0+", "S", "U1+", "U0-", "F-"))
-        # V goes on towards longer periods as a strip thinner than the points are apart: 8 of its
-        # points are not connected with the others.
+        # V continues towards longer periods as a strip thinner than the spacing of the points: 8 of
+        # its points are not connected with the others.
         strips = parts(self.all.of("S+"))[:2]
         self.iii, self.v = sorted(strips, key=lambda part: self.all.amplitude[part].min())
 
     def quadrants(self, region):
-        """The signs of angle and velocity of its points."""
+        """Returns the signs of angle and velocity of its points."""
         return set(zip(np.sign(self.all.angle[region]), np.sign(self.all.velocity[region])))
 
     def test_has_seven_regions_and_nothing_else_but_for_the_very_weakest_pulses(self):
@@ -33,11 +34,11 @@ class OneSine(unittest.TestCase):
         self.assertGreater(share(self.iii | self.v, self.all.of("S+")), 0.98)  # 0.995
         for region in (self.i, self.ii, self.iii, self.iv, self.v, self.vi, self.vii):
             self.assertGreater(np.count_nonzero(region), 0.01 * region.size)
-        # F+ is not among the seven: three points of long pulses, just above the threshold.
+        # F+ is not one of the seven: three points of long pulses, just above the threshold.
         self.assertLess(self.all.amplitude[self.all.of("F+")].max(), 1.2)
         self.assertLess(self.all.frequency[self.all.of("F+")].max(), 1)
 
-    def test_region_I_is_of_weak_pulses_of_medium_period(self):
+    def test_region_I_consists_of_weak_pulses_of_medium_period(self):
         self.assertLess(self.all.amplitude[self.i].max(), 16 / 5)  # 2.7
         middle = np.median(self.all.frequency[self.i])  # 3.1, between 1.5 and 9.9
         self.assertGreater(middle, 1.5 * np.median(self.all.frequency[self.vii]))
@@ -47,21 +48,21 @@ class OneSine(unittest.TestCase):
         self.assertEqual(self.quadrants(self.i), {(1, 1)})
         self.assertLess(self.all.q0[self.i].max(), 0)
 
-    def test_region_II_is_mainly_of_medium_to_short_periods(self):
+    def test_region_II_consists_mainly_of_medium_to_short_periods(self):
         rocked = self.ii & self.all.rocked
         self.assertGreater(share(self.all.frequency > 4, rocked), 0.9)  # the upper two thirds
 
-    def test_region_II_holds_all_pulses_that_never_start_rocking(self):
+    def test_region_II_contains_all_pulses_that_never_start_rocking(self):
         self.assertTrue(self.ii[~self.all.rocked].all())
         self.assertTrue(self.ii[self.all.amplitude < 1].all())
 
-    def test_region_II_lands_inside_the_rhomboid(self):
+    def test_region_II_ends_inside_the_rhomboid(self):
         self.assertGreaterEqual(self.all.q0[self.ii].min(), 0)
         self.assertLessEqual(abs(self.all.angle[self.ii]).max(), self.all.slenderness)
 
-    def test_regions_III_IV_and_V_are_all_of_strong_short_pulses(self):
-        # Short against those that overturn otherwise, strong against those that are safe or I.
-        # Large blocks are the same: the frequency is omega_p / p, and p falls with the size.
+    def test_regions_III_IV_and_V_consist_of_strong_short_pulses(self):
+        # Short compared with other overturning pulses, strong compared with those of I and II. The
+        # same holds for large blocks: the frequency is omega_p / p, and p decreases with the size.
         def median(axis, region):
             return np.median(axis[region & self.all.rocked])
 
@@ -85,7 +86,7 @@ class OneSine(unittest.TestCase):
             self.assertGreater(touching(region, self.iv), COUNT / 3)
         self.assertEqual(touching(self.iii, self.v), 0)
 
-    def test_regions_follow_each_other_from_II_through_III_IV_V_to_VI(self):
+    def test_regions_are_ordered_from_II_through_III_IV_V_to_VI(self):
         for frequency in (6, 7, 8):
             with self.subTest(frequency):
                 self.assertEqual(self.all.upwards(frequency), ["S", "S+", "U1+", "S+", "U0-"])
@@ -93,8 +94,8 @@ class OneSine(unittest.TestCase):
         self.assertGreater(touching(self.v, self.vi), COUNT / 3)
 
     def test_the_narrow_safe_strip_between_unsafe_regions_is_a_blade(self):
-        # Region V has IV on one side and VI on the other. Nothing else is safe between them, and
-        # to a block that loses no energy, and so has no blade, the two regions are one.
+        # Region V is between IV and VI. Nothing else is safe between them, and for a block without
+        # loss, which has no blade, the two regions are one.
         self.assertEqual(touching(self.v, self.ii), 0)
         lossless = spectrum("07a", 'plane.restitution={ values=[1.0], of="absolute" }')
         self.assertFalse(lossless.of("S+", "S-").any())
@@ -106,7 +107,7 @@ class OneSine(unittest.TestCase):
             with self.subTest(frequency):
                 self.assertEqual(linear.upwards(frequency), ["S", "S+", "U1+", "S+", "U0-"])
 
-    def test_region_VI_fails_without_impact_in_the_free_stage(self):
+    def test_region_VI_overturns_without_impact_in_the_free_stage(self):
         self.assertTrue((self.all.angle[self.vi] < 0).all())
         for place in self.all.sample(self.vi, 20):
             with self.subTest(place):
@@ -115,18 +116,19 @@ class OneSine(unittest.TestCase):
                                  ["uplift", "end_of_pulse", "fall"])
 
 
-    def test_region_VI_lies_in_the_third_quadrant_but_for_the_blocks_that_still_swing_back(self):
-        # 70 % in the third quadrant. The others are beyond alpha, too slow to come back over it.
+    def test_region_VI_is_in_the_third_quadrant_but_for_blocks_that_still_move_back(self):
+        # 70 % in the third quadrant. The others are beyond alpha, too slow to return over it.
         back = self.vi & (self.all.velocity >= 0)
         self.assertGreater(share(self.all.velocity < 0, self.vi), MOST)
         self.assertLess(self.all.angle[back].max(), -self.all.slenderness)
         self.assertGreater(self.all.q0[back].max(), 0)
 
-    def test_region_VII_falls_before_the_free_stage_in_the_extension_of_region_VI(self):
+    def test_region_VII_overturns_before_the_free_stage_and_extends_region_VI(self):
         self.assertEqual(self.quadrants(self.vii), {(-1, -1)})
         self.assertEqual(self.all.impacts[self.vii].max(), 0)
-        # Where VI turns into VII as the amplitude grows, the second half of VI has led there: angle
-        # and velocity went down, and the step to the quarter turn is about as long as that before.
+        # Where VI changes to VII with increasing amplitude, the second half of VI shows the trend:
+        # angle and velocity decrease, and the step to the quarter turn is about as long as the
+        # last.
         columns = 0
         for j in range(COUNT):
             path = np.flatnonzero(self.vi[:, j])
@@ -140,7 +142,7 @@ class OneSine(unittest.TestCase):
                     self.assertLess(abs(steps[-1]), 1.5 * abs(steps[-2]))
         self.assertGreater(columns, COUNT / 10)
 
-    def test_most_landing_points_had_no_impact_and_practically_all_with_negative_angle(self):
+    def test_most_points_have_no_impact_and_practically_all_with_negative_angle(self):
         untouched = self.all.impacts == 0
         self.assertGreater(share(untouched, self.all.landed), MOST)  # 0.870
         left = self.all.landed & (self.all.angle < 0)
@@ -149,22 +151,22 @@ class OneSine(unittest.TestCase):
 
 
 class ASmallerRestitution(unittest.TestCase):
-    """Figures 9 and 10: one-sine pulse at 0.85 and 0.7 of r_max, against figures 7 and 8."""
+    """Figures 9 and 10: one-sine pulse at 0.85 and 0.7 of r_max, compared with figures 7 and 8."""
 
     def setUp(self):
         self.largest = spectrum("07a")
         self.smaller = {0.85: spectrum("09a"), 0.7: spectrum("09b")}
         self.each = [self.largest, *self.smaller.values()]
 
-    def test_hardly_alters_the_output_of_the_forced_stage(self):
+    def test_hardly_changes_the_output_of_the_forced_stage(self):
         for other in self.smaller.values():
             by = moved(self.largest, other)
             landed = self.largest.landed & other.landed
-            self.assertGreater(share(by == 0, landed), 0.8)  # 0.870: unaltered to the last bit
+            self.assertGreater(share(by == 0, landed), 0.8)  # 0.870: unchanged to the last bit
             # The others move by 0.037 and 0.077 alpha in the median.
             self.assertLess(np.median(by[by > 0]), 0.1 * other.slenderness)
 
-    def test_alters_no_output_without_an_impact_in_the_forced_stage(self):
+    def test_changes_no_output_without_an_impact_in_the_forced_stage(self):
         for other in self.smaller.values():
             altered = (output(self.largest) != output(other)).any(axis=0)
             np.testing.assert_array_equal(altered[self.largest.impacts == 0], False)
@@ -178,7 +180,7 @@ class ASmallerRestitution(unittest.TestCase):
         points = [np.count_nonzero(one.of("S+")) for one in self.each]  # 1541, 4346, 4989
         self.assertGreater(points[1], 2 * points[0])
         self.assertGreater(points[2], points[1])
-        for one in self.each:  # the points fill it
+        for one in self.each:  # the points cover it
             self.assertLess(one.q0[one.of("S+")].min(), 0.98 * one.q_min)
 
     def test_connects_regions_III_and_V_at_the_expense_of_IV(self):
@@ -190,7 +192,7 @@ class ASmallerRestitution(unittest.TestCase):
             gained = other.of("S+") & ~self.largest.of("S+")
             self.assertTrue(self.largest.of("U1+")[gained].all())
             self.assertFalse((self.largest.of("S+") & ~other.of("S+")).any())
-            # Of region IV 25 % and 8 % are left.
+            # 25 % and 8 % of region IV remain.
             self.assertLess(share(other.of("U1+"), self.largest.of("U1+")), at_most)
 
     def test_diminishes_region_I_by_redirecting_it_into_the_rhomboid(self):
@@ -201,7 +203,7 @@ class ASmallerRestitution(unittest.TestCase):
             left = self.largest.of("U0+") & ~other.of("U0+")
             self.assertTrue(other.of("S")[left].all())
 
-    def test_leaves_regions_VI_and_VII_as_they_are(self):
+    def test_does_not_change_regions_VI_and_VII(self):
         for other in self.smaller.values():
             for name in ("U0-", "F-"):
                 np.testing.assert_array_equal(other.of(name), self.largest.of(name))
@@ -222,11 +224,11 @@ class OneCosine(unittest.TestCase):
     def region_ii(one):
         return largest_part(one.of("U0+"))
 
-    def test_has_two_distinct_unsafe_regions_beside_falling_while_forced(self):
+    def test_has_two_distinct_unsafe_regions_in_addition_to_overturning_during_the_pulse(self):
         for one in self.both:
             i, ii = self.region_i(one), self.region_ii(one)
             unsafe = one.of("U0+", "U0-", "U1+", "U1-")
-            # 0.987 and 0.988; what is left are slivers.
+            # 0.987 and 0.988; the rest are slivers.
             self.assertGreater(share(i | ii, unsafe), 0.98)
             for region in (i, ii):
                 self.assertGreater(np.count_nonzero(region), 0.05 * region.size)
@@ -239,14 +241,14 @@ class OneCosine(unittest.TestCase):
                         self.assertEqual(history(figure, *place).events[-1][0], "fall")
                         self.assertEqual(history(figure, *place).events[-2][0], "end_of_pulse")
 
-    def test_region_II_had_an_impact_in_the_forced_stage_and_ends_it_with_positive_angle(self):
+    def test_region_II_has_an_impact_in_the_forced_stage_and_ends_with_positive_angle(self):
         for one in self.both:
             self.assertGreater(share(one.impacts == 1, self.region_ii(one)), PRACTICALLY_ALL)
             self.assertGreater(one.impacts[self.region_ii(one)].min(), 0)
             self.assertGreater(one.angle[self.region_ii(one)].min(), 0)
 
-    def test_region_I_had_none_and_ends_in_the_third_quadrant(self):
-        # The sentence on region II implies it. At 0.7 r_max one point in 1515 had two.
+    def test_region_I_has_no_impact_and_ends_in_the_third_quadrant(self):
+        # Implied by the statement on region II. At 0.7 r_max one point in 1515 has two impacts.
         for one in self.both:
             i = self.region_i(one)
             self.assertGreater(share(one.impacts == 0, i), PRACTICALLY_ALL)
@@ -254,8 +256,8 @@ class OneCosine(unittest.TestCase):
             self.assertLess(one.velocity[i].max(), 0)
 
     def test_region_II_enters_the_free_stage_outwards_but_the_text_has_inwards(self):
-        # "theta0 theta0' < 0" would put it where blades are; then few landing in them would need
-        # a reason. It is the other sign that gives one: there is no blade where it is positive.
+        # "theta0 theta0' < 0" would be where the blades are; then a reason for few points in the
+        # blades would be missing. With the other sign there are no blades, which is the reason.
         for one in self.both:
             product = one.angle * one.velocity
             self.assertGreater(share(product > 0, self.region_ii(one)), 0.95)  # 0.999, 0.981
@@ -269,7 +271,7 @@ class OneCosine(unittest.TestCase):
             self.assertTrue(blades.any())
             self.assertLess(share(blades, one.landed), VERY_FEW)
 
-    def test_the_rest_outside_the_rhomboid_falls_in_regions_I_and_II(self):
+    def test_the_rest_outside_the_rhomboid_is_in_regions_I_and_II(self):
         for one in self.both:  # 0.982 and 0.925
             outside = one.landed & ~one.of("S")
             self.assertGreater(share(self.region_i(one) | self.region_ii(one), outside), 0.9)
@@ -290,7 +292,7 @@ class OneCosine(unittest.TestCase):
         self.assertGreater(left, 0.3)
 
     def test_a_smaller_restitution_makes_S_minus_thicker(self):
-        # Said in 4.1, where nothing lands in S-.
+        # Stated in 4.1, where no point is in S-.
         points = [np.count_nonzero(one.of("S-")) for one in self.both]
         self.assertGreater(points[1], 5 * points[0])  # 29 and 222
 
@@ -298,10 +300,10 @@ class OneCosine(unittest.TestCase):
         by = moved(*self.both)
         angle, impacts = self.largest.angle, self.largest.impacts
         self.assertGreater(share(angle > 0, by > 0), 0.95)  # 0.963
-        others = (by > 0) & (angle <= 0)  # that came back by a second impact
+        others = (by > 0) & (angle <= 0)  # that returned by a second impact
         self.assertGreater(impacts[others].min(), 1)
         self.assertLess(self.largest.amplitude[others].max(), 12 / 4)  # 2.02
-        # Of those with a positive angle all are modified.
+        # All points with a positive angle are modified.
         self.assertTrue((by > 0)[self.largest.landed & self.smaller.landed & (angle > 0)].all())
 
 

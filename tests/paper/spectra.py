@@ -1,5 +1,5 @@
-"""Spectra and histories of the jobs in jobs/, computed once per process, and what their maps show:
-connected parts, which of them touch, and how far another restitution moves what lands. Wants
+"""Spectra and histories of the jobs in jobs/, computed once per process, and properties of their
+maps: connected parts, parts that touch, and the change of end states with restitution. Requires
 OVERTURN (the binary) in the environment."""
 
 import contextlib
@@ -26,7 +26,7 @@ REGIONS = ("S", "S+", "S-", "U0+", "U0-", "U1+", "U1-", "F+", "F-")
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Spectrum:
-    """Arrays over (amplitude, frequency), both axes spread out to the same shape."""
+    """Arrays over (amplitude, frequency), both axes broadcast to the same shape."""
 
     frequency: np.ndarray
     amplitude: np.ndarray
@@ -41,7 +41,7 @@ class Spectrum:
     half_height: float
 
     def of(self, *names):
-        """The points of these regions."""
+        """Returns the points of these regions."""
         return np.isin(self.region, [REGIONS.index(name) for name in names])
 
     @property
@@ -54,7 +54,7 @@ class Spectrum:
 
     @property
     def landed(self):
-        """Rocked, and reached the free stage: what the paper shows in phase space."""
+        """Points that rocked and reached the free stage, shown by the paper in phase space."""
         return self.rocked & ~self.of("F+", "F-")
 
     @property
@@ -74,13 +74,13 @@ class Spectrum:
         return self.q_max * (1 - 1 / self.restitution)
 
     def upwards(self, frequency):
-        """The regions that follow each other as the amplitude grows."""
+        """Returns the sequence of regions with increasing amplitude."""
         column = self.region[:, abs(self.frequency[0] - frequency).argmin()]
         changes = np.flatnonzero(np.diff(column, prepend=-1))
         return [REGIONS[code] for code in column[changes]]
 
     def sample(self, mask, count):
-        """Up to count points of the mask, spread evenly over it, as (frequency, amplitude)."""
+        """Returns up to count points, evenly spaced in the mask, as (frequency, amplitude)."""
         rows, columns = np.nonzero(mask)
         picked = np.unique(np.linspace(0, len(rows) - 1, count).astype(int))
         return [(float(self.frequency[i, j]), float(self.amplitude[i, j]))
@@ -89,7 +89,7 @@ class Spectrum:
 
 @contextlib.contextmanager
 def output_of(command, figure, *arguments):
-    """The file that the program writes, open."""
+    """Returns the open output file of a command."""
     with tempfile.TemporaryDirectory(prefix="overturn-test-") as folder:
         output = pathlib.Path(folder) / "output.h5"
         job = JOBS / f"figure_{figure}.toml"
@@ -105,7 +105,7 @@ def overrides(settings):
 
 @functools.cache
 def spectrum(figure, *settings):
-    """The job of a figure, on fewer points; settings are laid over it."""
+    """Returns the spectrum of the job of a figure, with fewer points and overridden settings."""
     fields = ("region", "angle", "velocity", "impacts", "peak")
     listed = ", ".join(f'"{name}"' for name in fields)
     settings = (f"plane.frequency.count={COUNT}", f"plane.amplitude.count={COUNT}",
@@ -138,12 +138,12 @@ class History:
 
     @property
     def phase(self):
-        """omega_p t of the samples: from the beginning of the pulse."""
+        """omega_p t of the samples, from the beginning of the pulse."""
         return self.frequency * self.time
 
     @property
     def phase_from_the_middle(self):
-        """omega_p t of the samples, as a wavelet counts it: from its middle."""
+        """omega_p t of the samples, from the middle of the wavelet."""
         return self.frequency * (self.time - self.end_of_pulse / 2)
 
 
@@ -161,7 +161,7 @@ def history(figure, frequency, amplitude, *settings, samples=2):
 
 
 def parts(mask):
-    """The connected parts of a mask, diagonals included, the largest first."""
+    """Returns the connected parts of a mask, including diagonals, largest first."""
     left = set(map(tuple, np.argwhere(mask).tolist()))
     found = []
     while left:
@@ -181,7 +181,7 @@ def largest_part(mask):
 
 
 def touching(one, other):
-    """How many points of one have a point of the other beside them, diagonals included."""
+    """Returns the number of points of one next to a point of the other, including diagonals."""
     padded = np.pad(other, 1)
     rows, columns = other.shape
     beside = np.any([padded[i:i + rows, j:j + columns] for i in range(3) for j in range(3)], axis=0)
@@ -189,16 +189,16 @@ def touching(one, other):
 
 
 def share(part, whole):
-    """The share of the points of whole that are in part as well."""
+    """Returns the share of the points of whole that are also in part."""
     return np.count_nonzero(part & whole) / np.count_nonzero(whole)
 
 
 def output(spectrum):
-    """Where the forced stage ends, in phase space."""
+    """Returns the end state of the forced stage in phase space."""
     return np.stack([spectrum.angle, spectrum.velocity])
 
 
 def moved(one, other):
-    """How far r moves the output, where both blocks rocked and reached the free stage; else 0."""
+    """Returns the change of the output with r; 0 unless both blocks reached the free stage."""
     distance = np.hypot(*(output(one) - output(other)))
     return np.where(one.landed & other.landed, distance, 0)

@@ -1,4 +1,4 @@
-"""A plane to compute, the program at work on it, and what must hold. For scale.py."""
+"""A plane, the program that computes it, and its checks. For scale.py."""
 
 import contextlib
 import hashlib
@@ -21,14 +21,14 @@ BEGAN = time.monotonic()
 CORES = len(os.sched_getaffinity(0))
 SIDE = 64  # of a tile
 BETWEEN_LOOKS = 0.05  # [s]
-SILENCE = 1800  # [s] without a word after which a command is taken to hang; a run tells its progress
+SILENCE = 1800  # [s] without output after which a command hangs; a run prints its progress
 STOPPED = 85
 MIB = 2**20
 
-# What grows with the points is what is kept of each tile. Rank 0 keeps two lists of the missing ones,
-# one of them with up to twice the room, and for a while the checksums: 32 bytes. With a million tiles
-# 35 were measured, and twice as many are allowed. The rest is libraries, most of it MPI's: 33 MiB
-# with 64 ranks, and three times as many are allowed, for other MPIs.
+# Memory grows with the number of tiles. Rank 0 keeps two lists of missing tiles, one of them with
+# up to twice the capacity, and temporarily the checksums: 32 bytes. With a million tiles 35 were
+# measured; twice as many are allowed. The rest is libraries, mostly MPI: 33 MiB with 64 ranks;
+# three times as many are allowed, for other MPIs.
 MOST_MEMORY_PER_TILE = 64  # [bytes]
 MOST_MEMORY = 96 * MIB
 
@@ -47,16 +47,16 @@ tolerance = {tolerance}
 [output]
 fields = [{fields}]
 """
-# The least work that is sensible: at 1e-4 taylor takes a tenth less time than rk45 for these points,
-# and one verdict in ten thousand is wrong. Which does not matter here, as long as it is the same one.
+# The least work: at 1e-4 taylor takes a tenth less time than rk45 for these points. One verdict in
+# ten thousand is wrong, which does not matter here because all runs give the same.
 CHEAP = {"method": "taylor", "tolerance": "1e-4", "fields": '"region"'}
-# Tiles that take long enough for a signal to come in their midst.
+# Tiles that take long enough for a signal to arrive during them.
 COSTLY = {"method": "rk45", "tolerance": "1e-12",
           "fields": '"region", "angle", "velocity", "margin", "impacts", "status"'}
 
 
 class Failure(Exception):
-    """What must not happen."""
+    """A failed check."""
 
 
 def demand(condition, what_is_wrong):
@@ -87,7 +87,7 @@ class Plane:
         return f"{self.rows} x {self.columns} points"
 
     def slices(self, tile):
-        """The rows and columns of a tile, which is smaller at the far edges."""
+        """Returns the rows and columns of a tile; tiles at the upper edges may be smaller."""
         row, column = (SIDE * index for index in divmod(int(tile), self.tile_columns))
         return (slice(row, min(row + SIDE, self.rows)),
                 slice(column, min(column + SIDE, self.columns)))
@@ -97,7 +97,8 @@ class Plane:
         return row // SIDE * self.tile_columns + column // SIDE
 
     def marks(self):
-        """The checksums, 0 for tiles that are not done; also while ranks write them, past HDF5."""
+        """Returns the checksums, 0 for missing tiles; bypasses HDF5, so that ranks may be
+        writing."""
         if not self.file.exists():
             return np.zeros(self.tiles, np.uint64)
         if self.place_of_marks is None:
@@ -109,7 +110,7 @@ class Plane:
         return np.count_nonzero(self.marks())
 
     def run(self, ranks, output=None):
-        """Starts to compute it, without mpirun if ranks is None."""
+        """Starts to compute the plane, without mpirun if ranks is None."""
         return Command(self.folder, ["run", self.job, "-o", output or self.file], ranks)
 
     def values(self, name, rows, columns):
@@ -117,7 +118,7 @@ class Plane:
             return file[name][0, 0, rows, columns]
 
     def computed_apart(self, rows, columns):
-        """The regions at some rows and columns (indices), by a job that lists the axes' values."""
+        """Computes the regions at some rows and columns (indices) with a separate job."""
         with h5py.File(self.file) as file:
             axes = {name: "{ values = %s }" % file[name][:][indices].tolist()
                     for name, indices in (("amplitude", rows), ("frequency", columns))}
@@ -133,27 +134,27 @@ class Plane:
         for tile in tiles:
             rows, columns = self.slices(tile)
             demand(np.array_equal(self.values("region", rows, columns), self.computed_apart(rows, columns)),
-                   f"{self}: tile {tile} is not what a small job computes")
+                   f"{self}: tile {tile} differs from the result of a small job")
 
     def demand_right_lines(self, chance, count):
-        """Whole rows and columns, picked at random, and the last ones."""
+        """Checks whole rows and columns: random ones and the last ones."""
         rows = sorted({*chance.sample(range(self.rows), count), self.rows - 1})
         columns = sorted({*chance.sample(range(self.columns), count), self.columns - 1})
         everything = slice(None)
         stored = np.array([self.values("region", row, everything) for row in rows])
         demand(np.array_equal(stored, self.computed_apart(rows, everything)),
-               f"{self}: rows are not what a small job computes")
+               f"{self}: rows differ from the result of a small job")
         stored = np.array([self.values("region", everything, column) for column in columns]).T
         demand(np.array_equal(stored, self.computed_apart(everything, columns)),
-               f"{self}: columns are not what a small job computes")
+               f"{self}: columns differ from the result of a small job")
         return len(rows) * self.columns + len(columns) * self.rows
 
 
 class Command:
-    """The program at work, with or without mpirun; its words, and the most memory of its ranks.
+    """The running program, with or without mpirun; its output, and the largest memory of its ranks.
 
-    That is VmHWM of each, looked at again and again. (What wait4 tells of a child is at least what
-    this script took when it started it.)"""
+    This is VmHWM of each rank, read repeatedly. (The value that wait4 reports for a child is at
+    least the memory of this script when it started the child.)"""
 
     running = []
 
@@ -180,8 +181,8 @@ class Command:
         return self.process.poll() is None
 
     def look_at_memory(self):
-        with contextlib.suppress(OSError):  # it has just ended
-            if not self.under_mpi:  # a process that has another one read
+        with contextlib.suppress(OSError):  # already ended
+            if not self.under_mpi:  # a process that reads files in a child process
                 self.pids = [self.process.pid, *children_of(self.process.pid)]
             elif len(self.pids) < self.ranks:
                 self.pids = ranks_of(self.process.pid)
@@ -193,18 +194,18 @@ class Command:
 
     def most_memory(self):
         demand(len(self.memory) >= self.ranks and all(self.memory.values()),
-               f"only {len(self.memory)} of {self.ranks} ranks were seen")
+               f"only {len(self.memory)} of {self.ranks} ranks were found")
         return max(self.memory.values())
 
     def wait_for_tiles(self, plane, share):
-        """Until it has done so many tiles of the plane, a share of all of them."""
+        """Waits until a share of all tiles of the plane is done."""
         while plane.done() < share * plane.tiles:
-            demand(self.is_running(), f"it ended before it could be disturbed:\n{self.words()}")
+            demand(self.is_running(), f"the run ended too early:\n{self.words()}")
             time.sleep(BETWEEN_LOOKS)
 
     def wait_for_words(self, phrase):
         while phrase not in self.words():
-            demand(self.is_running(), f"it ended early:\n{self.words()}")
+            demand(self.is_running(), f"the run ended early:\n{self.words()}")
             time.sleep(BETWEEN_LOOKS)
 
     def wait_for_end(self):
@@ -225,18 +226,18 @@ class Command:
         return self
 
     def stop(self):
-        """As docs/robustness.md says: SIGUSR1 to mpirun."""
+        """Sends SIGUSR1 to mpirun, as described in docs/robustness.md."""
         self.process.send_signal(signal.SIGUSR1)
         return self.must_end_with(STOPPED).must_say("stopped by a signal")
 
     def kill_a_rank(self, chance):
         os.kill(chance.choice(self.pids), signal.SIGKILL)
-        demand(self.wait_for_end() != 0, "a killed rank went unnoticed")
+        demand(self.wait_for_end() != 0, "a killed rank was not detected")
         return self
 
     @classmethod
     def end_all(cls):
-        """What a failure has left running. mpirun ends its ranks if it gets the time for it."""
+        """Ends processes left by a failure. mpirun ends its ranks if given the time."""
         for command in cls.running:
             command.process.terminate()
             try:
@@ -253,7 +254,7 @@ def verify(plane):
 
 
 def resume(plane, ranks):
-    """Goes on with what is there, which the run must find, all of it and undamaged."""
+    """Resumes the run, which must find all existing tiles undamaged."""
     there = plane.done()
     command = plane.run(ranks)
     command.wait_for_words("kernel")
@@ -263,12 +264,12 @@ def resume(plane, ranks):
 def demand_little_memory(plane, *commands):
     most = max(command.most_memory() for command in commands)
     demand(most <= plane.most_memory, f"{plane}: a process took {most / MIB:.0f} MiB; at most "
-           f"{plane.most_memory / MIB:.0f} MiB are right")
+           f"{plane.most_memory / MIB:.0f} MiB are allowed")
     return f"{most / MIB:.0f} MiB (bound {plane.most_memory / MIB:.0f})"
 
 
 def human(count):
-    """A number as the program writes it, from 1000 on."""
+    """Formats a number from 1000 on like the program."""
     for prefix in "kMGT":
         count /= 1000
         if count < 999.5:
@@ -277,7 +278,7 @@ def human(count):
 
 
 def digest(path, left_out=()):
-    """sha256 of a file but for some (offset, size)."""
+    """Returns the sha256 of a file without some (offset, size)."""
     result = hashlib.sha256()
     with open(path, "rb") as file:
         for offset, size in [*sorted(left_out), (path.stat().st_size, 0)]:

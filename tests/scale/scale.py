@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Many ranks, many points, and more points than 32 bits can count.
+"""Tests with many ranks, many points, and more points than 32 bits can count.
 
     scale.py [FOLDER] [--part PART] [--points-per-side N] [--more-points-per-side N] [--ranks N] [--seed N]
 
-    ranks    64 ranks on this machine's cores: the same bytes as one rank, stopped and resumed or not
-    points   10^9 points, stopped once and a rank killed once: little memory, and the right values
-    beyond   the last tiles of a plane of more than 2^32 points
+    ranks    64 ranks on this machine's cores: the same bytes as one rank, also when stopped and
+    resumed points   10^9 points, stopped once and a rank killed once: bounded memory and correct
+    values beyond   the last tiles of a plane of more than 2^32 points
 
-Files lie in a folder of their own in FOLDER (or $TMPDIR, or here), which is removed in the end; the
-largest takes 4.4 GB. Wants OVERTURN and MPIEXEC in the environment."""
+Files are created in a subfolder of FOLDER (or $TMPDIR, or the current folder), which is removed at
+the end; the largest takes 4.4 GB. Requires OVERTURN and MPIEXEC in the environment."""
 
 import argparse
 import ctypes
@@ -31,8 +31,8 @@ from plane import (CHEAP, CORES, COSTLY, MIB, SIDE, Command, Failure, Plane, dem
 # Part 1
 
 def many_ranks(folder, options, chance):
-    """The bytes must be those of one rank: with 64 ranks, and with 64 that are stopped and resumed."""
-    # The more cores, the more to do: a signal has to come in its midst.
+    """64 ranks, uninterrupted or stopped and resumed, must give the same bytes as one rank."""
+    # The work grows with the cores: a signal has to arrive during the run.
     plane = Plane(folder, "ranks", 1250 * max(1, CORES // 4), 1270, COSTLY)
     alone = folder / "alone.h5"
     say(f"{plane} in {plane.tiles} tiles on one rank")
@@ -44,7 +44,7 @@ def many_ranks(folder, options, chance):
     demand(digest(plane.file) == digest(alone), "bytes differ")
     plane.file.unlink()
 
-    say("again, and stopped")
+    say("again, with a stop")
     stopped = plane.run(options.ranks)
     stopped.wait_for_tiles(plane, 0.1)
     stopped.stop()
@@ -61,7 +61,7 @@ def many_ranks(folder, options, chance):
 # Part 2
 
 def many_points(folder, options, chance):
-    """A plane that is stopped once and killed once: little memory at any time, and right values."""
+    """A plane that is stopped once and killed once: bounded memory and correct values."""
     side = options.points_per_side
     plane = Plane(folder, "points", side, side, CHEAP)
     say(f"{plane} in {plane.tiles} tiles on {CORES} ranks")
@@ -81,23 +81,24 @@ def many_points(folder, options, chance):
     say(f"complete: {ending}")
 
     checked = verify(plane)
-    say("verified; computing some of it apart")
+    say("verified; computing parts of it separately")
     compared = plane.demand_right_lines(chance, 20)
     runs = (stopped, killed, last)
     memory, of_verify = demand_little_memory(plane, *runs), demand_little_memory(plane, checked)
     speed = plane.points / sum(run.seconds for run in runs)
     return (f"{plane} in {plane.tiles} tiles, stopped once, a rank killed once | {human(speed)} points/s on "
             f"{CORES} cores with both, at most {memory} per rank, {of_verify} to verify; {human(compared)} "
-            f"points the same when computed apart")
+            f"points equal when computed separately")
 
 
 # Part 3
 
 def beyond_32_bits(folder, options, chance):
-    """Stops a run at its beginning, marks all that it left as done, and has the last tiles computed."""
+    """Stops a run at its beginning, marks most missing tiles as done, and computes the last
+    ones."""
     side = options.more_points_per_side
     plane = Plane(folder, "beyond", side, side, CHEAP)
-    say(f"{plane} in {plane.tiles} tiles, the beginning of it on {CORES} ranks")
+    say(f"{plane} in {plane.tiles} tiles, its beginning on {CORES} ranks")
     Command(folder, ["check", plane.job]).must_end_with(0).must_say(
         f"{human(plane.points)} in {plane.tiles} tiles", f"frequency    {side} values",
         f"amplitude    {side} values")
@@ -105,7 +106,7 @@ def beyond_32_bits(folder, options, chance):
     first.wait_for_tiles(plane, 1 / plane.tiles)
     first.stop()
     beginning = np.flatnonzero(plane.marks())
-    say(f"stopped at {len(beginning)} tiles; marking the others as done, but for some at the end")
+    say(f"stopped at {len(beginning)} tiles; marking the others as done, except some at the end")
     Command(folder, ["info", plane.file]).must_end_with(0).must_say(
         f"{len(beginning)} of {plane.tiles} done", f"frequency    {side} values",
         f"amplitude    {side} values")
@@ -118,30 +119,31 @@ def beyond_32_bits(folder, options, chance):
     say(f"computing tiles {', '.join(map(str, pending))}")
     last = resume(plane, CORES).must_end_with(0)
     checked = verify(plane)
-    say("verified; computing some of it apart")
-    demand(digest(plane.file, left_out=places) == before, "more has changed than the last tiles")
+    say("verified; computing parts of it separately")
+    demand(digest(plane.file, left_out=places) == before, "more than the last tiles has changed")
     plane.demand_right_tiles([*pending, *chance.sample(beginning.tolist(), min(10, len(beginning)))])
     memory, of_verify = demand_little_memory(plane, first, last), demand_little_memory(plane, checked)
     return (f"{plane} ({human(plane.points)}) in {plane.tiles} tiles, the first {len(beginning)} and the "
-            f"last | the same when computed apart, nothing else touched; at most {memory} per rank, "
+            f"last | equal when computed separately, nothing else changed; {memory} per rank, "
             f"{of_verify} to verify")
 
 
 def tiles_at_the_end(plane):
-    """The tile of point 2^32, of point 2^31 in a smaller plane..., and the last three."""
+    """Returns the tile of point 2^32 (2^31 in a smaller plane, ...) and the last three."""
     point = 2 ** ((plane.points - 1).bit_length() - 1)
     return sorted({plane.tile_of(point), *range(plane.tiles - 3, plane.tiles)})
 
 
 def mark_as_done(plane, but):
-    """All tiles but some, with the checksum of what is in those that are not computed: fill values.
+    """Marks all tiles but some as done, with the checksum of tiles not computed, i.e. of fill
+    values.
 
-    If that is not what is in them, the run that goes on computes them again, and says so."""
+    If they contain other values, the run that resumes recomputes them and reports it."""
     with h5py.File(plane.file, "r+") as file:
         marks, region = file["checksum"][:], file["region"]
         some = int(np.flatnonzero(marks)[0])
         demand(checksum_of(region[(0, 0, *plane.slices(some))]) == marks[some],
-               "the checksum is not the one that its attribute tells of")
+               "the checksum does not match its attribute `algorithm`")
         checksums = {}  # by shape
         for tile in set(np.flatnonzero(marks == 0).tolist()) - set(but):
             shape = tuple(part.stop - part.start for part in plane.slices(tile))
@@ -152,8 +154,8 @@ def mark_as_done(plane, but):
 
 
 def checksum_of(values):
-    """As attribute `algorithm` of the checksums says; of a tile with one field."""
-    library = ctypes.CDLL("libxxhash.so.0")  # the program needs it, too
+    """Returns the checksum of a tile with one field, by attribute `algorithm`."""
+    library = ctypes.CDLL("libxxhash.so.0")  # also used by the program
     library.XXH64.restype = ctypes.c_uint64
     library.XXH64.argtypes = (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint64)
     data = values.tobytes()
@@ -161,7 +163,7 @@ def checksum_of(values):
 
 
 def places_in_file(plane, tiles):
-    """(offset, size) of the values and the checksums of some tiles."""
+    """Returns (offset, size) of the values and the checksums of some tiles."""
     with h5py.File(plane.file) as file:
         checksums = file["checksum"].id.get_offset()
         corners = [(0, 0, *(part.start for part in plane.slices(tile))) for tile in tiles]
@@ -174,7 +176,7 @@ PARTS = {"ranks": many_ranks, "points": many_points, "beyond": beyond_32_bits}
 
 
 def demand_room(folder, options):
-    """On the disk, for the largest file: a byte and a little more for each point."""
+    """Checks the disk space for the largest file: slightly more than a byte per point."""
     sides = {"points": options.points_per_side, "beyond": options.more_points_per_side}
     largest = max(sides.get(part, 0) for part in options.part)
     needed = 1.1 * (largest + SIDE) ** 2 + 200 * MIB
@@ -188,12 +190,12 @@ def demand_room(folder, options):
 def read_options():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", nargs="?", default=os.environ.get("TMPDIR", "."), type=pathlib.Path,
-                        help="where there is room for the files (default: $TMPDIR, or here)")
-    parser.add_argument("--part", action="append", choices=PARTS, help="all unless told")
-    parser.add_argument("--ranks", type=int, default=64, help="in part ranks")
-    parser.add_argument("--points-per-side", type=int, default=31623, help="in part points: 10^9 in all")
+                        help="folder with space for the files (default: $TMPDIR, or this folder)")
+    parser.add_argument("--part", action="append", choices=PARTS, help="repeatable; default: all")
+    parser.add_argument("--ranks", type=int, default=64, help="ranks in part ranks")
+    parser.add_argument("--points-per-side", type=int, default=31623, help="part points: 10^9 in all")
     parser.add_argument("--more-points-per-side", type=int, default=65610,
-                        help="in part beyond: more than 2^32 in all, and smaller tiles at the edges")
+                        help="part beyond: more than 2^32 in all, smaller tiles at the edges")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     options.part = options.part or list(PARTS)
@@ -205,7 +207,7 @@ def main():
     if not options.folder.is_dir():
         sys.exit(f"scale.py: there is no folder {options.folder}")
     demand_room(options.folder, options)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit("scale.py: terminated"))  # tidily
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("scale.py: terminated"))  # clean up
     chance = random.Random(options.seed)
     results = []
     with tempfile.TemporaryDirectory(prefix="overturn-scale-", dir=options.folder) as scratch:
@@ -219,7 +221,7 @@ def main():
             sys.exit(f"FAILED (seed {options.seed}): {failure}")
         finally:
             Command.end_all()
-    say("everything held:")
+    say("everything passed:")
     for result in results:
         print(f"| {result} |")
 

@@ -1,4 +1,4 @@
-// Every pulse under either theory, and a plane of a single point.
+// Every pulse with both theories, and a plane of a single point.
 #pragma once
 
 #include "overturn/sweep/plane.hpp"

@@ -1,4 +1,4 @@
-// A test that fails on rank 1 alone. ctest knows that it must; see CMakeLists.txt.
+// A test that fails only on rank 1, as expected by ctest; see CMakeLists.txt.
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -7,5 +7,5 @@ TEST(MpiTestMain, FailsIfAnyRankFails)
 {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    EXPECT_NE(rank, 1) << "this failure is wanted";
+    EXPECT_NE(rank, 1) << "this failure is expected";
 }

@@ -1,4 +1,4 @@
-// A disk that takes no more, without filling one.
+// Simulates a full disk.
 #pragma once
 
 #include <csignal>
@@ -6,8 +6,8 @@
 
 namespace overturn {
 
-/// While it lives, files of this process grow no longer than that: writes fail with "file too
-/// large".
+/// During its lifetime, files of this process cannot grow beyond the limit: writes fail with "file
+/// too large".
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes)

@@ -1,5 +1,5 @@
-// Free rocking by numerical integration in 50 digits, arc by arc: what its closed form is held
-// against. Plain loops over Taylor coefficients, which share nothing with the program.
+// Free rocking by numerical integration in 50 digits, arc by arc: the reference for its closed
+// form. Plain loops over Taylor coefficients, independent of the program.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -22,7 +22,7 @@ public:
     const State<Digits50>& state() const { return state_; }
     const Digits50& time() const { return time_; }
 
-    /// Goes on to this time; there is no impact before.
+    /// Integrates to this time; there must be no impact before.
     void go_on_until(const Digits50& time)
     {
         while (time_ < time) {
@@ -31,7 +31,7 @@ public:
         }
     }
 
-    /// Goes on to where the tilt is next to pass this one: 0, an impact, or pi/2.
+    /// Integrates to the next time at which the tilt passes this one: 0, an impact, or pi/2.
     void go_on_to_tilt(const Digits50& tilt)
     {
         const bool above = state_.tilt > tilt || (state_.tilt == tilt && state_.rate > 0);
@@ -94,8 +94,8 @@ private:
         time_ += h;
     }
 
-    /// The terms fall like powers of its ratio to the distance of the nearest pole in complex time,
-    /// more than 1/2 for |y'| up to 3: what is left out is below 4^-41 = 2e-25.
+    /// The terms decrease like powers of its ratio to the distance of the nearest pole in complex
+    /// time, more than 1/2 for |y'| up to 3: the truncation error is below 4^-41 = 2e-25.
     const Digits50 longest = Digits50(1) / 8;
 
     State<Digits50> state_;

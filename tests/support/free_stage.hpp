@@ -1,4 +1,4 @@
-// The free stage by plain numerical integration: what the regions are held against.
+// The free stage by plain numerical integration: the reference for the regions.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -9,12 +9,13 @@ namespace overturn {
 
 struct FreeOutcome {
     bool falls = false;
-    int impacts = 0; ///< before the fall
-    double side = 0; ///< to which it falls: +1 or -1
+    int impacts = 0; ///< before overturning
+    double side = 0; ///< to which it overturns: +1 or -1
 };
 
-/// Classical Runge-Kutta on |theta|'' = -sin(alpha - |theta|), a hundredth of 1/p a step, until
-/// the block is flat, or has lost so much energy at impacts that it cannot reach the top.
+/// Classical Runge-Kutta on |theta|'' = -sin(alpha - |theta|) with steps of a hundredth of 1/p,
+/// until the block is overturned, or has lost so much energy at impacts that it cannot reach the
+/// top.
 inline FreeOutcome watch_free_stage(State<double> state, const Block<double>& block)
 {
     const double alpha = block.slenderness;
@@ -32,7 +33,7 @@ inline FreeOutcome watch_free_stage(State<double> state, const Block<double>& bl
             state = next;
             continue;
         }
-        // The speed at the impact from the energy, which is conserved since the last one (Eq. 5).
+        // The velocity at the impact from the energy, conserved since the last impact (Eq. 5).
         const double below = std::cos(alpha - state.tilt) - std::cos(alpha);
         const double speed = std::sqrt(state.rate * state.rate + 2 * below);
         state = {0, std::sqrt(block.restitution) * speed, -state.side};

@@ -1,5 +1,5 @@
 // main() of the tests that run on several ranks: every rank runs every test, a failure is printed
-// with the rank that it happened on, and one failing rank fails the program.
+// with its rank, and one failing rank fails the program.
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -16,7 +16,7 @@ public:
     void OnTestPartResult(const testing::TestPartResult& result) override
     {
         if (result.failed()) {
-            // In one piece, so that the ranks do not write into each other's lines.
+            // In one write, so that the lines of the ranks are not mixed.
             std::ostringstream text;
             text << "rank " << rank_ << ": " << (result.file_name() ? result.file_name() : "?")
                  << ':' << result.line_number() << ": " << result.message() << '\n';
@@ -50,8 +50,8 @@ int main(int argc, char** argv)
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
 
-    // A communicator of its own: a rank that left a test early must not be mistaken for one that
-    // takes part in its messages.
+    // A separate communicator: the messages of a rank that left a test early must not be mixed with
+    // these.
     MPI_Comm verdicts = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &verdicts);
     const int failed = run_on_this_rank(rank);

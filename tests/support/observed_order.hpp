@@ -1,4 +1,4 @@
-// The order of convergence that errors show.
+// The observed order of convergence.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Points spread over what blocks and pulses are like.
+// Random points in the range of realistic blocks and pulses.
 #pragma once
 
 #include "support/one_point.hpp"
@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// Slenderness 0.08 to 0.45, more than half of the largest restitution, lifted for sure.
+/// Slenderness 0.08 to 0.45, more than half of the largest restitution, always lifted.
 inline Point<double> random_point(std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);

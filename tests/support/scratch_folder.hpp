@@ -1,4 +1,4 @@
-// A new empty folder that a test may fill; it disappears with the object.
+// A new empty folder for a test, removed by the destructor.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A scratch folder that all ranks of MPI_COMM_WORLD share. Making and leaving it is collective.
+// A scratch folder shared by all ranks of MPI_COMM_WORLD. Creation and removal are collective.
 #pragma once
 
 #include "support/scratch_folder.hpp"

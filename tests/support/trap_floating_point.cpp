@@ -1,7 +1,6 @@
-// Linked into a program, stops it where a floating-point operation is invalid, divides by zero or
-// overflows: with select() instead of if, such an operation may stand on the side that is not
-// taken and leave no trace in any result. See OVERTURN_TRAP; UntrappedFloatingPoint makes
-// exceptions.
+// Linked into a program, stops it at a floating-point operation that is invalid, divides by zero or
+// overflows: with select() instead of if, such an operation may be on the side not taken and leave
+// no trace in any result. See OVERTURN_TRAP; UntrappedFloatingPoint makes exceptions.
 #include <array>
 #include <csignal>
 #include <cstring>
@@ -12,7 +11,7 @@
 
 namespace {
 
-/// Nothing here may allocate: the signal may have come from anywhere.
+/// This must not allocate: the signal may interrupt any code.
 void say(const char* text)
 {
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
@@ -36,7 +35,7 @@ void report(int, siginfo_t* signal, void*)
     std::array<void*, 32> frames;
     backtrace_symbols_fd(frames.data(), backtrace(frames.data(), int(frames.size())),
                          STDERR_FILENO);
-    // The operation is tried again, and ends the program by the signal.
+    // The operation is repeated and ends the program with the signal.
 }
 
 [[maybe_unused]] const bool trapped = [] {

@@ -1,5 +1,5 @@
-// For a test that provokes overflow or what is not a number: while the object lives, floating-point
-// exceptions stop nothing, also with OVERTURN_TRAP.
+// For tests that cause overflow or NaN: during the lifetime of the object, floating-point
+// exceptions are not trapped, also with OVERTURN_TRAP.
 #pragma once
 
 #include <cfenv>

@@ -24,7 +24,7 @@ const AccuracyStudy& study()
     return made;
 }
 
-TEST(AccuracyStudy, SpreadsItsSampleOverThePlane)
+TEST(AccuracyStudy, DistributesItsSampleOverThePlane)
 {
     const Plane& sample = study().sample().plane;
     EXPECT_EQ(sample.frequency.first(), 0.5);
@@ -36,7 +36,7 @@ TEST(AccuracyStudy, SpreadsItsSampleOverThePlane)
     EXPECT_EQ(study().sample().in_digits, 64);
 }
 
-TEST(AccuracyStudy, TakesASmallPlaneAsItIs)
+TEST(AccuracyStudy, UsesAllPointsOfASmallPlane)
 {
     Plane plane = papers_plane();
     plane.frequency = Axis(AxisList{1, 2, 5});
@@ -57,12 +57,12 @@ TEST(AccuracyStudy, CountsEveryPointByRegionAndByDistance)
     EXPECT_EQ(sum(sample.by_distance), sample.settled);
 }
 
-TEST(AccuracyStudy, SeesErrorsFallWithTheTolerance)
+TEST(AccuracyStudy, HasErrorsThatDecreaseWithTheTolerance)
 {
     for (const Method method : {Method::rk45, Method::taylor}) {
         const AccuracyRow loose = study().measure({method, 1e-5});
         const AccuracyRow tight = study().measure({method, 1e-10});
-        // Five decades of tolerance; the median error of either follows by four at least.
+        // Five decades of tolerance; the median error of each method decreases by at least four.
         EXPECT_LT(tight.margin[0], 1e-4 * loose.margin[0]);
         EXPECT_GT(tight.steps, loose.steps);
         EXPECT_GT(tight.margin[0], 0);
@@ -76,11 +76,11 @@ TEST(AccuracyStudy, CurveOfRungeKuttaHasTheSlopeOfItsOrder)
     const AccuracyRow fine = study().measure({Method::rk45, 1e-11});
     const double slope =
         std::log(coarse.margin[0] / fine.margin[0]) / std::log(fine.steps / coarse.steps);
-    // Order 5; what steps cost at events does not fall with the tolerance, so a little more.
+    // Order 5; slightly more because the cost of events does not depend on the tolerance.
     EXPECT_NEAR(slope, 5, 0.5);
 }
 
-TEST(AccuracyStudy, SeesWrongVerdictsAtLooseTolerancesAndNoneIfResolved)
+TEST(AccuracyStudy, FindsWrongVerdictsAtLooseTolerancesAndNoneIfResolved)
 {
     const AccuracyRow loose = study().measure({Method::rk45, 1e-2});
     EXPECT_GT(loose.flips, 0);
@@ -95,7 +95,7 @@ TEST(AccuracyStudy, SeesWrongVerdictsAtLooseTolerancesAndNoneIfResolved)
     EXPECT_EQ(resolved.undecided, 0);
 }
 
-TEST(AccuracyStudy, KnowsBoundsOnlyWhereErrorsAreKnown)
+TEST(AccuracyStudy, HasBoundsOnlyWhereErrorsAreKnown)
 {
     EXPECT_TRUE(std::isnan(study().measure({Method::rk45, 1e-2}).bound_over_error));
     const AccuracyRow row = study().measure({Method::rk45, 1e-6});

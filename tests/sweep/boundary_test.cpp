@@ -32,9 +32,9 @@ void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplit
     }
 }
 
-TEST(Boundary, OfThePapersBlockIsWhereOthersFoundIt)
+TEST(Boundary, OfThePapersBlockAgreesWithPublishedValues)
 {
-    // Six digits each, from an integration of the free stage too.
+    // Six digits each, from an integration that includes the free stage.
     const std::vector<double> scan = evenly(0.5, 16, 156);
     const Scene one_sine;
     expect_flips_at(boundary_on(one_sine, {paper_alpha, paper_r_max, 3}, scan, widest_kernel()),
@@ -53,7 +53,7 @@ TEST(Boundary, OfThePapersBlockIsWhereOthersFoundIt)
 TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
 {
     // The pulse lasts pi / Omega = ln(A / (A - 1)): A = 1 / (1 - exp(-pi / Omega)), and a block
-    // that the pulse leaves standing is never lifted again.
+    // that is not overturned by the pulse is never lifted again.
     for (const double frequency : {0.7, 2.0, 5.0}) {
         const Boundary boundary =
             boundary_on({PulseKind::rectangular, Theory::linear}, {0.2, 0.8, frequency},
@@ -63,10 +63,10 @@ TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
     }
 }
 
-TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsMakrisAndRoussos)
+TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsThatOfMakrisAndRoussos)
 {
-    // Omega sin psi - cos psi = exp(-(pi - psi) / Omega), a = 1 / sin psi (2000, eq. 27), up to
-    // where the block strikes before the pulse ends.
+    // Omega sin psi - cos psi = exp(-(pi - psi) / Omega), a = 1 / sin psi (2000, eq. 27), if the
+    // block does not strike the ground before the pulse ends.
     for (const double frequency : {2.0, 4.0, 6.0}) {
         const auto excess = [&](double psi) {
             return frequency * std::sin(psi) - std::cos(psi) -
@@ -118,7 +118,7 @@ TEST(Boundary, FindsIslandsThatAreThinnerThanAStepOfTheScan)
     }
 }
 
-/// How a scan in steps of 0.1 does against one in steps of 0.01, on random lines of every pulse.
+/// A scan in steps of 0.1 compared with one in steps of 0.01, on random lines of every pulse.
 struct Comparison {
     std::size_t flips = 0; ///< of the finer scan
     std::size_t missed = 0;
@@ -170,7 +170,7 @@ Comparison compare_scans(double lowest_frequency, double highest_frequency)
     return comparison;
 }
 
-TEST(Boundary, MissesNothingThatAFinerScanFinds)
+TEST(Boundary, FindsAllFlipsOfAFinerScan)
 {
     const Comparison comparison = compare_scans(0.5, 7.5);
     EXPECT_GT(comparison.flips, 150u);
@@ -180,16 +180,17 @@ TEST(Boundary, MissesNothingThatAFinerScanFinds)
 
 TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreThin)
 {
-    // Strips crowd towards the amplitude 1, each with thinner ones beside it. Without halving where
-    // impacts change, one in ten would be missed, of up to 1e-3.
+    // Strips accumulate towards the amplitude 1, each next to thinner ones. Without bisection where
+    // the number of impacts changes, one in ten would be missed, of up to 1e-3.
     const Comparison comparison = compare_scans(0.4, 0.7);
     EXPECT_GT(comparison.flips, 500u);
     EXPECT_LE(comparison.missed, comparison.flips / 50);
     EXPECT_LT(comparison.widest_missed, 20 * finest_step);
-    EXPECT_LE(comparison.missed_by_the_finer, comparison.flips / 50); // by luck of where it steps
+    EXPECT_LE(comparison.missed_by_the_finer,
+              comparison.flips / 50); // by chance, depending on its steps
 }
 
-TEST(Boundary, StopsAtTheMostFlipsThatAreAskedFor)
+TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
 {
     const BoundaryLine line{paper_alpha, paper_r_max, 0.6};
     const std::vector<double> scan = evenly(0.5, 12.5, 121);
@@ -201,7 +202,7 @@ TEST(Boundary, StopsAtTheMostFlipsThatAreAskedFor)
     EXPECT_TRUE(five.has_more);
     ASSERT_EQ(five.flips.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
-        // Brackets may differ, not what is between them.
+        // Brackets may differ, but not the flips between them.
         EXPECT_NEAR(five.flips[i].amplitude(), all.flips[i].amplitude(),
                     2 * flip_width * all.flips[i].above);
     }
@@ -214,7 +215,7 @@ Region region_at(const BoundaryLine& line, double amplitude)
     return boundary_on({}, line, {amplitude}, widest_kernel()).region_at_first;
 }
 
-/// Regions follow each other without a gap, and are those of the amplitudes beside the flip.
+/// Expects consecutive regions that agree with those of the amplitudes next to the flip.
 void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
 {
     const auto verdict = [](Region region) { return is_safe(region) - is_unsafe(region); };
@@ -236,9 +237,9 @@ void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
     }
 }
 
-TEST(Boundary, IsUndecidedWhereVerdictsCannotBeSettledAndOnlyThere)
+TEST(Boundary, IsUndecidedOnlyWhereVerdictsCannotBeSettled)
 {
-    // Without loss a slow pulse lets the block bounce half a million times.
+    // Without loss the block bounces half a million times under a slow pulse.
     const BoundaryLine line{0.17, 1, 0.02};
     const Boundary boundary =
         boundary_on({}, line, {0.9, 1.00001, 1.0001, 1.001, 1.01, 1.5, 2}, widest_kernel());
@@ -266,7 +267,7 @@ TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
     expect_whole_and_true(above, line);
 }
 
-TEST(Boundary, TellsWhetherTheBlockOverturnsAtTheFirstAmplitude)
+TEST(Boundary, ReportsWhetherTheBlockOverturnsAtTheFirstAmplitude)
 {
     const BoundaryLine line{paper_alpha, paper_r_max, 3};
     const Boundary all = boundary_on({}, line, {6, 12}, widest_kernel());
@@ -278,7 +279,7 @@ TEST(Boundary, TellsWhetherTheBlockOverturnsAtTheFirstAmplitude)
     EXPECT_EQ(strip.flips[0].region_below, Region::U1_plus);
 }
 
-TEST(Boundary, LosesNothingIfMoreIsLookedAt)
+TEST(Boundary, HasAtLeastTheSameFlipsWithMoreAmplitudes)
 {
     for (const double frequency : {0.6, 1.3, 3.0}) {
         std::vector<double> scan = evenly(0.5, 12.5, 121);
@@ -317,9 +318,9 @@ TEST(BoundaryTile, HasALineInEachColumn)
     const Boundary boundary = boundary_on({}, {paper_alpha, paper_r_max, 3}, scan, widest_kernel());
     ASSERT_EQ(boundary.flips.size(), 3u);
     for (std::size_t row = 0; row < 8; ++row) {
-        const std::size_t point = 2 * row; // of the first column; in the second nothing flips
+        const std::size_t point = 2 * row; // of the first column; the second has no flip
         EXPECT_TRUE(std::isnan(amplitude[point + 1]));
-        // Of a line without a flip, the first row tells the region.
+        // For a line without a flip, the first row contains the region.
         EXPECT_EQ(below[point + 1], row == 0 ? std::uint8_t(Region::S) : no_flip);
         EXPECT_EQ(above[point + 1], no_flip);
         if (row < 3) {
@@ -334,7 +335,7 @@ TEST(BoundaryTile, HasALineInEachColumn)
     }
 }
 
-TEST(BoundaryTile, SaysWhereThereAreMoreFlipsThanRows)
+TEST(BoundaryTile, ReportsWhereThereAreMoreFlipsThanRows)
 {
     Plane plane;
     plane.slenderness = Axis(AxisList{paper_alpha});

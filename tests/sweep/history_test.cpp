@@ -36,7 +36,7 @@ int count(const History& history, EventKind kind, double until)
         }));
 }
 
-TEST(History, EndsThePulseWhereTheSpectrumSays)
+TEST(History, HasTheEndStateOfTheSpectrum)
 {
     for_random_points([](const Scene& scene, const PlanePoint& point) {
         const Plane plane = plane_of(point);
@@ -58,7 +58,7 @@ TEST(History, EndsThePulseWhereTheSpectrumSays)
     });
 }
 
-TEST(History, IsWhatPeaksAndTimesOfFallsAreTakenFrom)
+TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
 {
     for_random_points([](const Scene& scene, const PlanePoint& point) {
         const Plane plane = plane_of(point);
@@ -77,8 +77,8 @@ TEST(History, IsWhatPeaksAndTimesOfFallsAreTakenFrom)
             const double found = std::get<std::vector<double>>(fields.values[0])[0];
             const double fall = std::get<std::vector<double>>(fields.values[1])[0];
             if (is_safe(history.region)) {
-                // Half a spacing beside a peak the angle is lower by an eighth of the acceleration,
-                // below 1 + a, times the spacing squared; and errors of 1e-9 grow.
+                // Half a spacing away from a peak the angle is lower by an eighth of the
+                // acceleration, below 1 + a, times the spacing squared; and errors of 1e-9 grow.
                 const double h = history.samples.back().time / view.samples;
                 EXPECT_NEAR(found, peak, (1 + point.amplitude) * h * h / 8 + 1e-6);
                 EXPECT_TRUE(std::isinf(fall));
@@ -128,7 +128,7 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
     });
 }
 
-TEST(History, LosesSpeedAtImpactsAndNowhereElse)
+TEST(History, LosesSpeedOnlyAtImpacts)
 {
     for_random_points([](const Scene& scene, const PlanePoint& point) {
         const History history = history_of(scene, point);
@@ -148,7 +148,7 @@ TEST(History, LosesSpeedAtImpactsAndNowhereElse)
             const HistorySample& after = history.samples[i];
             EXPECT_LE(before.time, after.time);
             const double speed = std::max(std::abs(before.velocity), std::abs(after.velocity));
-            // Between two samples the speed is more than at both by an acceleration times h.
+            // Between two samples the speed may exceed that of both by an acceleration times h.
             const double h = after.time - before.time;
             EXPECT_LE(std::abs(after.angle - before.angle),
                       h * (speed + h * (2 + point.amplitude)) + 1e-15);
@@ -156,7 +156,7 @@ TEST(History, LosesSpeedAtImpactsAndNowhereElse)
     });
 }
 
-TEST(History, ShowsTheBlockUntilItRests)
+TEST(History, ContinuesUntilTheBlockIsAtRest)
 {
     const History history = history_of({}, safe_point);
     EXPECT_EQ(history.region, Region::S);
@@ -169,7 +169,7 @@ TEST(History, ShowsTheBlockUntilItRests)
     EXPECT_EQ(history.samples.back().angle, 0);
 }
 
-TEST(History, ShowsTheFall)
+TEST(History, EndsWhenTheBlockOverturns)
 {
     PlanePoint point = safe_point;
     point.amplitude = 2;
@@ -200,9 +200,9 @@ TEST(History, IsThatOfABlockAtRestIfNothingLiftsIt)
     }
 }
 
-TEST(History, RestsAndIsLiftedAgain)
+TEST(History, ContainsRestAndAnotherUplift)
 {
-    // A slow pulse: bounces die out before the second lobe comes.
+    // A slow pulse: bounces die out before the second lobe.
     PlanePoint point = safe_point;
     point.frequency = 0.05;
     point.amplitude = 1.00001;
@@ -214,7 +214,7 @@ TEST(History, RestsAndIsLiftedAgain)
     EXPECT_LT(history.time_of_rest, history.end_of_pulse);
 }
 
-TEST(History, OfABlockThatLosesNothingStopsSomewhere)
+TEST(History, OfABlockWithoutLossTerminates)
 {
     PlanePoint point = safe_point;
     point.restitution = 1;
@@ -222,7 +222,7 @@ TEST(History, OfABlockThatLosesNothingStopsSomewhere)
     EXPECT_TRUE(std::isinf(history.time_of_rest));
     EXPECT_TRUE(std::isinf(history.time_of_fall));
     EXPECT_EQ(history.samples.back().time, history.end_of_pulse + free_time_shown);
-    // Energy is what it was at the end of the pulse.
+    // The energy equals that at the end of the pulse.
     const double q = history.samples.back().q;
     for (const HistorySample& sample : history.samples) {
         if (sample.time > history.end_of_pulse) {
@@ -231,7 +231,7 @@ TEST(History, OfABlockThatLosesNothingStopsSomewhere)
     }
 }
 
-TEST(History, GoesAsFarAsIsAskedFor)
+TEST(History, EndsAtTheRequestedTime)
 {
     for (const double until : {0.1, 1.0, 30.0, 100.0}) {
         HistoryView view;

@@ -1,5 +1,5 @@
-// The forced stage of a scene that records nothing, as the kernels compile it. Compiled twice, see
-// without_records.py: with the headers as they are, and with all that they record cut out.
+// The forced stage of a scene that records nothing, as compiled in the kernels. Compiled twice, see
+// without_records.py: with the original headers, and with all records removed.
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/number/pack.hpp"
 

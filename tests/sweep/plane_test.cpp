@@ -6,7 +6,7 @@
 namespace overturn {
 namespace {
 
-TEST(Axis, OfARangeEndsExactlyAndIsEven)
+TEST(Axis, OfARangeEndsExactlyAndIsEvenlySpaced)
 {
     const Axis axis(AxisRange{0.1, 12.0, 1000, Spacing::linear});
     EXPECT_EQ(axis.size(), 1000);
@@ -20,7 +20,8 @@ TEST(Axis, OfALogRangeHasEqualRatios)
     const Axis axis(AxisRange{0.01, 100.0, 5, Spacing::log});
     const std::vector<double> expected{0.01, 0.1, 1, 10, 100};
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_NEAR(axis[std::int64_t(i)] / expected[i], 1, 1e-15); // pow is good to an ulp or two
+        EXPECT_NEAR(axis[std::int64_t(i)] / expected[i], 1,
+                    1e-15); // pow is accurate to one or two ulp
     }
 }
 

@@ -1,4 +1,4 @@
-// Verdicts in doubt are settled with more digits, and only those.
+// Uncertain verdicts, and only those, are settled with more digits.
 #include "overturn/sweep/sweep_tile.hpp"
 #include "point_run.hpp"
 #include "support/every_scene.hpp"
@@ -39,8 +39,8 @@ Digits50 true_margin(const Point<double>& point)
         in_digits(point));
 }
 
-/// The last amplitude below 1.5 that the paper's block survives, and the first that it does not:
-/// neighbours among the doubles.
+/// The last amplitude below 1.5 at which the paper's block is safe, and the first at which it is
+/// not: neighbouring doubles.
 std::pair<double, double> neighbours_at_the_flip(Point<double> point)
 {
     double safe = 1.2;
@@ -64,14 +64,14 @@ TEST(ResolvedVerdicts, AreRightToTheLastBitOfTheAmplitude)
         point.amplitude = unsafe;
         EXPECT_TRUE(is_unsafe(compute(numerics, point).region));
         EXPECT_LT(compute(numerics, point).margin, 0);
-        // Doubles alone could not tell: the margin is of the order of their round-off.
+        // Doubles alone are not sufficient: the margin is of the order of their round-off.
         EXPECT_LT(std::abs(compute(numerics, point).margin), 1e-14);
         EXPECT_LT(compute(numerics, point).error, std::abs(compute(numerics, point).margin));
         EXPECT_EQ(compute(numerics, point).flags, 0);
     }
 }
 
-TEST(ResolvedVerdicts, StayThoseOfTheFirstRunWhereItIsSure)
+TEST(ResolvedVerdicts, AreThoseOfTheFirstPassWhereItIsCertain)
 {
     const Point<double> point{0.2, 0.8, 3, 4};
     Numerics plain = resolved_taylor;
@@ -83,17 +83,17 @@ TEST(ResolvedVerdicts, StayThoseOfTheFirstRunWhereItIsSure)
     EXPECT_EQ(once.error, resolved.error);
 }
 
-TEST(ResolvedVerdicts, AreNotGuessedWhereNoDigitsHelp)
+TEST(ResolvedVerdicts, AreUndecidedIfMoreDigitsDoNotHelp)
 {
-    // Without loss the block bounces for a hundred thousand times, and a slow pulse lifts it again.
+    // Without loss the block bounces a hundred thousand times before a slow pulse lifts it again.
     const Found found = compute(resolved_taylor, {0.3, 1, 0.02, 1.00002});
     EXPECT_EQ(found.region, Region::undecided);
     EXPECT_EQ(found.flags, status::unresolved);
 }
 
-TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
+TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
 {
-    // Without loss, from hardly lifted to thrown over.
+    // Without loss, from hardly lifted to overturned.
     Plane plane = plane_of(Point<double>{0.2, 1, 0, 0});
     plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
     plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
@@ -124,7 +124,7 @@ TEST(FirstPass, EndsWhereItIsInDoubtAndIsTheSameElsewhere)
     }
 }
 
-TEST(FirstPass, DoubtsAVerdictUnlessItsMarginIsLargerThanItsError)
+TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
 {
     Plane plane = plane_of(Point<double>{0.2, 0.9, 0, 0});
     plane.frequency = Axis(AxisRange{0.3, 8, 32, Spacing::log});
@@ -150,7 +150,7 @@ TEST(FirstPass, DoubtsAVerdictUnlessItsMarginIsLargerThanItsError)
     EXPECT_GT(doubted_of_fallen, 0);
 }
 
-TEST(ResolvedVerdicts, KnowABlockThatIsNeverLifted)
+TEST(ResolvedVerdicts, AreCertainForABlockThatIsNeverLifted)
 {
     for (const double amplitude : {0.0, 0.5, 1.0}) {
         const Found found = compute(resolved_rk45, {0.2, 0.8, 3, amplitude});

@@ -1,4 +1,4 @@
-// What the processor's rounding mode may change: the last bits, and no verdict that is known.
+// The rounding mode of the processor may change the last bits, but no certain verdict.
 #include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
@@ -39,7 +39,7 @@ Swept sweep(const Scene& scene, const Numerics& numerics, int mode)
             std::get<std::vector<double>>(fields.values[2])};
 }
 
-TEST(RoundingModes, LeaveEveryKnownVerdictAsItIs)
+TEST(RoundingModes, ChangeNoCertainVerdict)
 {
     for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
         const Scene scene{.pulse = PulseKind(pulse)};
@@ -59,12 +59,12 @@ TEST(RoundingModes, LeaveEveryKnownVerdictAsItIs)
                     moved += nearest.margin[i] != other.margin[i];
                 }
             }
-            EXPECT_GT(moved, 0) << "the mode has reached no kernel";
+            EXPECT_GT(moved, 0) << "the rounding mode has no effect on the kernel";
         }
     }
 }
 
-TEST(RoundingModes, LeaveNoPointWithoutAVerdict)
+TEST(RoundingModes, LeaveNoPointUndecided)
 {
     for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         for (const std::uint8_t region : sweep({}, {}, mode).region) {

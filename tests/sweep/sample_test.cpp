@@ -33,7 +33,7 @@ Met met_by(const Plane& plane, std::int64_t wanted)
         const Tile tile = tiling[i];
         int last = -1;
         for (const int point : chosen[std::size_t(i)]) {
-            EXPECT_GT(point, last) << "in order, and none twice";
+            EXPECT_GT(point, last) << "ascending and unique";
             EXPECT_LT(point, tile.points());
             last = point;
             ++met.points;
@@ -45,9 +45,9 @@ Met met_by(const Plane& plane, std::int64_t wanted)
     return met;
 }
 
-TEST(EvenlyChosen, PointsMeetEveryFrequencyAndAmplitude)
+TEST(EvenlyChosen, PointsIncludeEveryFrequencyAndAmplitude)
 {
-    // A power of two for each of the three is where counting in strides meets four columns alone.
+    // With powers of two for all three, a constant stride would reach only four columns.
     for (const std::int64_t side : {128, 120}) {
         const Met met = met_by(plane_of(side, side, 2), 1024);
         EXPECT_NEAR(double(met.points), 1024, 20);
@@ -57,7 +57,7 @@ TEST(EvenlyChosen, PointsMeetEveryFrequencyAndAmplitude)
     }
 }
 
-TEST(EvenlyChosen, PointsAreAllWhereThereAreFew)
+TEST(EvenlyChosen, PointsAreAllPointsOfASmallPlane)
 {
     for (const std::int64_t wanted : {4000, 2000, 1201}) {
         EXPECT_EQ(met_by(plane_of(40, 30, 2), wanted).points, 2400u);
@@ -70,7 +70,7 @@ TEST(EvenlyChosen, PointMayBeOne)
     EXPECT_EQ(met_by(plane_of(1, 1, 1), 1).points, 1u);
 }
 
-TEST(SampleOfAPlane, IsSpreadFromEndToEndOfEachAxis)
+TEST(SampleOfAPlane, ExtendsOverTheWholeOfEachAxis)
 {
     const Plane plane = plane_of(3000, 2000, 5);
     const Plane sample = sample_of(plane, 30000);

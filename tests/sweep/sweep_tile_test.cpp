@@ -36,7 +36,7 @@ std::string name_of(const Scene& scene, const Numerics& numerics)
            std::string(name_of(numerics.method)) + " at " + std::to_string(numerics.tolerance);
 }
 
-/// All bytes of the whole plane, field by field, in the plane's order.
+/// All bytes of the whole plane, field by field, in the order of the plane.
 std::vector<std::vector<std::byte>> sweep_plane(const Scene& scene, const Numerics& numerics,
                                                 const Plane& plane, const Tiling& tiling,
                                                 Kernel kernel)
@@ -100,8 +100,8 @@ TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
                 return sweep_plane(scene, numerics, plane, tiling, widest_kernel());
             };
             const auto whole = swept(Tiling(plane));
-            // Rows of 3, 5 and 37 points put every point into different lanes beside different
-            // ones.
+            // Rows of 3, 5 and 37 points put every point into different lanes with different
+            // neighbours.
             for (const auto& [rows, columns] : {std::pair{1, 3}, {29, 5}, {7, 37}}) {
                 EXPECT_EQ(swept(Tiling(shape_of(plane), rows, columns)), whole)
                     << name_of(scene, numerics);
@@ -110,7 +110,7 @@ TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
     }
 }
 
-TEST(SweepTile, AFieldDoesNotDependOnWhichOthersAreAskedFor)
+TEST(SweepTile, AFieldDoesNotDependOnTheOtherRequestedFields)
 {
     const Plane plane = small_plane();
     const Tile tile = Tiling(plane)[0];
@@ -122,7 +122,7 @@ TEST(SweepTile, AFieldDoesNotDependOnWhichOthersAreAskedFor)
     }
 }
 
-int looks = 0; // at whether the tile is to be dropped
+int looks = 0; // number of checks whether to abandon the tile
 
 bool never()
 {
@@ -135,7 +135,7 @@ bool from_the_third_look_on()
     return ++looks >= 3;
 }
 
-TEST(SweepTile, IsTheSameIfItMightHaveBeenDropped)
+TEST(SweepTile, IsUnchangedByChecksForAStop)
 {
     const Plane plane = small_plane();
     const Tile tile = Tiling(plane)[0];
@@ -147,7 +147,7 @@ TEST(SweepTile, IsTheSameIfItMightHaveBeenDropped)
     }
 }
 
-TEST(SweepTile, IsDroppedOnceThatIsAskedFor)
+TEST(SweepTile, IsAbandonedOnRequest)
 {
     const Plane plane = small_plane();
     const auto at_once = [] { return true; };
@@ -158,7 +158,7 @@ TEST(SweepTile, IsDroppedOnceThatIsAskedFor)
     }
 }
 
-TEST(SweepTile, IsDroppedInTheMidstOfABlockThatBouncesAMillionTimes)
+TEST(SweepTile, IsAbandonedDuringABlockThatBouncesAMillionTimes)
 {
     const Plane plane = plane_of(PlanePoint{
         .slenderness = 0.2, .restitution = 1, .amplitude = 1.000002, .frequency = 0.003});
@@ -167,7 +167,7 @@ TEST(SweepTile, IsDroppedInTheMidstOfABlockThatBouncesAMillionTimes)
         EXPECT_THROW(sweep_tile({}, numerics, plane, Tiling(plane)[0], {Field::region},
                                 widest_kernel(), from_the_third_look_on),
                      TileDropped);
-        EXPECT_LE(looks, 4); // once more when it has left
+        EXPECT_LE(looks, 4); // once more after it has returned
     }
 }
 
@@ -219,7 +219,7 @@ TEST(SweepTile, MethodsGiveTheSameRegions)
     }
 }
 
-TEST(SweepTile, RegionsWithASignFollowTheAngleOrTheVelocity)
+TEST(SweepTile, SignsOfRegionsAreThoseOfTheAngleOrTheVelocity)
 {
     const Plane plane = small_plane();
     for (const Scene& scene : every_scene()) {

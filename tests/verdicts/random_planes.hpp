@@ -1,6 +1,6 @@
-// Random planes of 32 x 32 points: half of them like real blocks and pulses, half of them spread
-// over whatever a job may ask for and a pulse can still move; half of each drawn close to a
-// boundary between safe and unsafe, if a line of amplitudes crosses one.
+// Random planes of 32 x 32 points: half of them with realistic blocks and pulses, half of them over
+// the whole range of jobs in which a pulse can move the block; half of each close to a boundary
+// between safe and unsafe, if a line of amplitudes crosses one.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -38,7 +38,7 @@ public:
         const double restitution =
             real ? largest_restitution(slenderness) * between(0.55, 1) : between(0.02, 1);
         plane.slenderness = Axis(AxisList{slenderness});
-        // Some blocks lose nothing at all.
+        // Some blocks have no loss.
         plane.restitution = Axis(AxisList{uniform() < 0.1 ? 1 : restitution});
         plane.frequency = axis([&] { return real ? between(0.5, 9.5) : log_between(0.03, 30); });
         plane.amplitude =
@@ -66,7 +66,7 @@ private:
         return Axis(values);
     }
 
-    /// Two neighbours among these amplitudes, one of which is safe and the other not.
+    /// Two neighbours among these amplitudes, one of them safe and the other unsafe.
     std::optional<std::pair<double, double>> flip_among(Plane line, const AxisList& amplitudes)
     {
         line.amplitude = Axis(amplitudes);
@@ -105,7 +105,7 @@ private:
                 amplitudes.push_back(flip->first + (flip->second - flip->first) * i / (side - 1));
             }
             const auto finer = flip_among(line, amplitudes);
-            if (!finer) { // as close as doubles come
+            if (!finer) { // neighbouring doubles
                 break;
             }
             flip = finer;

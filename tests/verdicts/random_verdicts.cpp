@@ -1,7 +1,7 @@
-// random_verdicts POINTS [SEED]: resolved verdicts and bounds of errors on POINTS random points of
-// every pulse and theory, against what is known better: the tightest run in doubles, and 50 digits
-// wherever its margin is below 1e-9. Prints a table, and names every point that is not as it should
-// be. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
+// random_verdicts POINTS [SEED]: resolved verdicts and error bounds on POINTS random points of
+// every pulse and theory, compared with a reference: the tightest run in doubles, and 50 digits if
+// its margin is below 1e-9. Prints a table and every point with a wrong verdict or an exceeded
+// bound. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
 #include "verdicts/random_planes.hpp"
 
 #include "point_run.hpp"
@@ -20,17 +20,17 @@ namespace overturn {
 namespace {
 
 constexpr Numerics tightest{.method = Method::taylor, .tolerance = 1e-14};
-constexpr double loosest = 1e-4; // of resolving
+constexpr double loosest = 1e-4; // loosest tolerance with resolve
 constexpr double margin_that_wants_digits = 1e-9;
-// What is promised: of all points one in 10^5 may exceed its bound, to first order; the median of
+// Specified limits: one in 10^5 of all points may exceed its bound, to first order; the median of
 // bound over error is at most 30; and one in 10^6 may stay unresolved.
 constexpr double most_exceeded = 1e-5;
 constexpr double most_overestimated = 30;
 constexpr double most_unresolved = 1e-6;
 
-/// What is true of a plane.
+/// The reference for a plane.
 struct Truth {
-    std::vector<double> margin; ///< not a number where nothing is known
+    std::vector<double> margin; ///< NaN where it is unknown
     std::vector<double> error;  ///< of the margin
     std::vector<bool> fell;
 };
@@ -39,7 +39,7 @@ struct BoundCheck {
     Numerics numerics;
     std::int64_t points = 0;
     std::int64_t exceeded = 0;
-    std::int64_t unbounded = 0; ///< an event may or may not have happened
+    std::int64_t unbounded = 0; ///< it is unknown whether an event has occurred
     std::vector<double> ratios;
 };
 
@@ -48,7 +48,7 @@ struct Resolving {
     std::int64_t points = 0;
     std::int64_t wrong = 0;
     std::int64_t unresolved = 0;
-    double seconds[2] = {};       ///< with loss at impacts, and without
+    double seconds[2] = {};       ///< with and without loss at impacts
     double plain_seconds[2] = {}; ///< of the same planes at a tolerance of 1e-6
 };
 
@@ -62,7 +62,7 @@ Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
     const PointRun run(scene, points_of(plane, whole(plane)), kernel);
     Ends ends = ends_of(run, tightest, {.error = true, .margin = true});
     for (int point = 0; point < ends.size(); ++point) {
-        // Nor are half a million impacts worth the hours that they take in 50 digits.
+        // Half a million impacts in 50 digits would take hours.
         const bool hopeless = ends.flags[point] & end_flag::capped;
         const double margin = std::abs(ends.margin[point]);
         if (!hopeless && !(margin >= margin_that_wants_digits && ends.error[point] < margin)) {
@@ -76,7 +76,7 @@ Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
     return truth;
 }
 
-/// What a command line would need to look at the point again.
+/// Prints all parameters needed to recompute a point.
 void name_point(const char* what, const Scene& scene, const Numerics& numerics, const Plane& plane,
                 int point, double found, double bound, const Truth& truth)
 {
@@ -178,7 +178,7 @@ double median(std::vector<double>& values)
 std::string ratio_of_times(const Resolving& resolving, int without_loss)
 {
     if (resolving.plain_seconds[without_loss] == 0) {
-        return "-"; // no such plane
+        return "-"; // there is no such plane
     }
     char text[16];
     std::snprintf(text, sizeof text, "%.2f",
@@ -197,7 +197,7 @@ std::vector<BoundCheck> all_bound_checks()
     return checks;
 }
 
-/// Resolves both methods on random planes of one scene; true if nothing is wrong.
+/// Resolves both methods on random planes of one scene; returns true if no verdict is wrong.
 bool study_scene(const Scene& kind, std::int64_t points, std::mt19937_64& generator,
                  std::vector<BoundCheck>& checks)
 {
@@ -255,11 +255,11 @@ bool study(std::int64_t points, std::uint64_t seed)
                     std::string(name_of(check.numerics.method)).c_str(), check.numerics.tolerance,
                     static_cast<long long>(check.points), double(check.exceeded) / all,
                     double(check.unbounded) / all, overestimated);
-        // One point in a small sample is no share yet.
+        // A single point in a small sample is not significant.
         right = right && double(check.exceeded) <= 1 + most_exceeded * all &&
                 overestimated <= most_overestimated;
     }
-    std::printf(right ? "every verdict is right\n" : "NOT as it should be\n");
+    std::printf(right ? "every verdict is correct\n" : "FAILED\n");
     return right;
 }
 

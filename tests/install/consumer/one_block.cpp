@@ -1,6 +1,6 @@
-// One block of the paper's under a one-sine pulse: prints its region, the angle and velocity at the
+// The paper's block under a one-sine pulse: prints its region, the angle and velocity at the
 // end of the pulse, and the margin, as the program stores them.
-// Headers that are included but not used stand for what they need: Boost and xsimd.
+// Some headers are included only to test their dependencies: Boost and xsimd.
 #include <overturn/integrate/forced_stage.hpp>
 #include <overturn/mechanics/free_rocking.hpp>
 #include <overturn/mechanics/region.hpp>
@@ -22,7 +22,7 @@ int main(int argc, char** argv)
 
     constexpr Theory theory = Theory::nonlinear;
     const Block<double> block{slenderness, restitution};
-    const double window = 1; // matters to wavelets only
+    const double window = 1; // used by wavelets only
     const Excitation<double> excitation = excitation_of<theory>(
         ground_motion(PulseKind::one_sine, window), slenderness, amplitude, frequency);
     const ForcedEnd<double> end = run_forced_stage<RungeKutta, theory>(block, excitation, 1e-9);
