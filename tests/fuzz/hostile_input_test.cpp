@@ -137,11 +137,11 @@ TEST(AnyHdf5File, IsAcceptedOrRefusedAsAResultFile)
                    folder, {"input.h5"});
 }
 
-/// The place at which a process crashed.
-enum Death { elsewhere = 97, in_hdf5 = 98 };
+/// Exit codes: where a process crashed.
+enum CrashOrigin { elsewhere = 97, in_hdf5 = 98 };
 
 /// HDF5 1.10 crashes at some files. Crashes within HDF5 are accepted, others are not.
-[[noreturn]] void tell_where_it_died(int)
+[[noreturn]] void exit_with_origin_of_crash(int)
 {
     void* frames[64];
     const int count = backtrace(frames, 64);
@@ -161,7 +161,7 @@ enum Death { elsewhere = 97, in_hdf5 = 98 };
 {
     constexpr unsigned patience = 200; // [s] for all inputs
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
-        std::signal(number, tell_where_it_died);
+        std::signal(number, exit_with_origin_of_crash);
     }
     alarm(patience);
     for (; next < inputs.size(); ++next) {

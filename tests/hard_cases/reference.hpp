@@ -22,7 +22,7 @@ struct Truth {
     double within_arc = 0; ///< c - |theta'|, with the sign of q0 [rad]
 };
 
-/// Limit of steps of half a millisecond each; most cases need a hundred.
+/// Steps that take about a second, half a millisecond each; most cases need a hundred.
 inline constexpr int steps_of_a_second = 2000;
 
 Truth truth_of(const HardCase& point, int step_limit = steps_of_a_second);

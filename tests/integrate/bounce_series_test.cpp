@@ -90,7 +90,7 @@ bool bounces_on_to_rest(const AfterImpact& start)
                                                        on * start.excitation.ground(at));
     };
     while (motion.rate > 1e-3 * start.rate) {
-        // A flight takes twenty such steps, limited because motion grows e-fold in 1/p.
+        // Twenty steps per flight, but at most 0.1 each because motion grows e-fold in 1/p.
         const double h = 0.1 * std::min(motion.rate / alpha, 1.0);
         while (motion.position >= 0) {
             if (phase > start.excitation.motion.end || motion.position > pi<double>() / 2 ||

@@ -97,8 +97,7 @@ class SymmetricRicker(unittest.TestCase):
 
     def test_at_0_7_r_max_both_the_output_and_the_blade_change_the_spectrum(self):
         def in_the_blade(landing, of):
-            """S+ with the forced stage of one spectrum and the restitution of another
-            afterwards."""
+            """S+ with the forced stage of one spectrum and the blade of another."""
             return (landing.landed & (landing.angle < 0) & (landing.velocity > 0)
                     & (landing.q0 < 0) & (landing.q0 >= of.q_min))
 

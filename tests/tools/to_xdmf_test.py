@@ -118,9 +118,9 @@ class TestTheReferences(Described):
         self.assertEqual([step.find("Time").get("Value") for step in steps], list("012345"))
         with h5py.File(self.folder / "spectrum.h5") as file:
             for step, (i, k) in zip(steps, np.ndindex(2, 3)):
-                told = {field.get("Name"): follow(self.folder, field[0])
+                stated = {field.get("Name"): follow(self.folder, field[0])
                         for field in step.findall("Attribute") if field.get("Center") == "Grid"}
-                self.assertEqual(told, {"slenderness": file["slenderness"][i],
+                self.assertEqual(stated, {"slenderness": file["slenderness"][i],
                                         "restitution": file["restitution"][k],
                                         "restitution_ratio": file["restitution_ratio"][i, k]})
         self.assertEqual(steps[5].get("Name"), "α = 0.2 rad,  r = r_max = 0.8851")
@@ -242,7 +242,7 @@ def look(reader, time):
     return {"class": grid.GetClassName(), "extent": grid.GetExtent(),
             "axes": [values_of(grid.GetXCoordinates()), values_of(grid.GetYCoordinates()),
                      values_of(grid.GetZCoordinates())],
-            "points": by_name(grid.GetPointData()), "told": by_name(grid.GetFieldData()),
+            "points": by_name(grid.GetPointData()), "stated": by_name(grid.GetFieldData()),
             "first": grid.GetPointData().GetScalars().GetName(),
             "contour": contour.GetDataInformation().GetBounds()}
 
@@ -295,8 +295,8 @@ class TestInParaView(Described):
                 self.assertEqual(step["axes"], [file["frequency"][:].tolist(),
                                                 file["amplitude"][:].tolist(), [0]])
                 self.assert_same(step, file, (i, k))
-                told = {name: value for name, (_, [value]) in step["told"].items()}
-                self.assertEqual(told, {"slenderness": file["slenderness"][i],
+                stated = {name: value for name, (_, [value]) in step["stated"].items()}
+                self.assertEqual(stated, {"slenderness": file["slenderness"][i],
                                         "restitution": file["restitution"][k],
                                         "restitution_ratio": file["restitution_ratio"][i, k]})
                 # Filters process the whole plane: the verdict flips from side to side.

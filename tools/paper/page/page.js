@@ -122,8 +122,8 @@ function endOf(point) {
           number("θ′", `${rounded(point.velocity, 3)} rad`)];
 }
 
-function tell(readout, point) {
-  readout.classList.toggle("told", Boolean(point));
+function fill(readout, point) {
+  readout.classList.toggle("filled", Boolean(point));
   if (!point) {
     readout.replaceChildren(element("span", "hint", hint));
     return;
@@ -168,7 +168,7 @@ function show(picture, point) {
     if (other.dataset.spectrum !== picture.dataset.spectrum) continue;
     mark(other, point);
     readoutOf(other).setAttribute("aria-live", other === picture ? "polite" : "off");
-    tell(readoutOf(other), point);
+    fill(readoutOf(other), point);
   }
 }
 
@@ -201,7 +201,7 @@ for (const picture of pictures) {
       readoutOf(picture).textContent = `Cannot read the values: ${error}`;
     });
   };
-  tell(readoutOf(picture), null);
+  fill(readoutOf(picture), null);
   picture.addEventListener("pointermove", (event) => answer(event, (spectrum) =>
     show(picture, pointAt(picture, spectrum, event) || kept.get(name) || null)));
   picture.addEventListener("pointerleave", (event) => answer(event, () =>
