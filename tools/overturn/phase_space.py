@@ -79,6 +79,7 @@ def fill_libration(panel, block, colour):
 def draw_boundaries(panel, block, **style):
     """Draws the lines between the seven regions: the separatrix (for |theta| > alpha, too), the
     outer edge of the blades, and theta = 0 outside of them, which separates U0 from U1."""
+    style = BOUNDARY | style
     angle = np.linspace(0, HALF_TURN, 1001)
     c, inward = block.separatrix_rate(angle), block.inward_rate(angle)
     for sign in (1, -1):
