@@ -1,6 +1,7 @@
 #include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "support/free_motion.hpp"
+#include "support/free_stage.hpp"
 
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>

@@ -1,11 +1,18 @@
 // The free stage by plain numerical integration: the reference for the regions.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/energy_criteria.hpp"
 
 #include <cmath>
 
 namespace overturn {
+
+/// The region of a block that the pulse left standing.
+template <Theory theory, class T>
+Region region_after_pulse(const State<T>& state, const Block<T>& block)
+{
+    return Region(int(region_code_after_pulse<theory>(state, block)));
+}
 
 struct FreeOutcome {
     bool falls = false;

@@ -33,10 +33,10 @@ def without(text, member):
 def main():
     records = pathlib.Path(sys.argv[1]).read_text()
     text = pathlib.Path(sys.argv[2]).read_text()
-    members = re.search(r"// Recorded on the way(.*?)// Known at the end", records, re.DOTALL)
+    members = re.search(r"// Recorded in every step(.*?)// Computed from the end", records, re.DOTALL)
     names = re.findall(r"bool (\w+)", members.group(1)) if members else []
     if not names:
-        sys.exit("without_records: found no members that are recorded on the way")
+        sys.exit("without_records: found no members that are recorded in every step")
     for name in names:
         text = without(text, name)
     pathlib.Path(sys.argv[3]).write_text(text)

@@ -16,6 +16,13 @@
 
 namespace overturn::benchmarks {
 
+/// The region of a block that the pulse left standing.
+template <Theory theory, class T>
+Region region_after_pulse(const State<T>& state, const Block<T>& block)
+{
+    return Region(int(region_code_after_pulse<theory>(state, block)));
+}
+
 template <class S>
 using RockingState = std::array<S, 2>; // tilt, rate
 

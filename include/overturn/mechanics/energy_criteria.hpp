@@ -95,11 +95,4 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
     return select<T>(state.rate > safe.outward, beyond_top, standing);
 }
 
-template <Theory theory, Number T>
-    requires(lanes_v<T> == 1)
-Region region_after_pulse(const State<T>& state, const Block<T>& block)
-{
-    return Region(int(region_code_after_pulse<theory>(state, block)));
-}
-
 } // namespace overturn
