@@ -6,8 +6,8 @@
 int main(int argc, char** argv)
 {
     using namespace overturn;
-    // A launcher starts many of us, and but for what all ranks do together rank 0 speaks for all.
-    // The others end well: seeing a bad end, a launcher may kill rank 0 before it has spoken.
+    // Under a launcher only rank 0 prints messages and executes the commands that are not parallel.
+    // The other ranks return 0: on an error, a launcher may kill rank 0 before it prints.
     const bool leads = launched_rank() == 0;
     try {
         const Command command = read_command_line(argc, argv);

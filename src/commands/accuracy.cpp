@@ -1,4 +1,4 @@
-// What accuracy costs in time, on the plane of a job.
+// Measures error and computing time on a sample of a job's plane.
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -18,7 +18,7 @@ namespace overturn {
 
 namespace {
 
-/// Time of one pass over the sample: the median of a few [s].
+/// Time of one pass over the sample, the median of several passes [s].
 double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
 {
     using Clock = std::chrono::steady_clock;
@@ -82,7 +82,7 @@ int accuracy(const AccuracyOptions& options)
         return refusal;
     }
 
-    say(fmt::format("settling verdicts, and computing up to {} points in 50 digits, some {} s",
+    say(fmt::format("settling verdicts and computing up to {} points in 50 digits: about {} s",
                     options.digits, std::ceil(0.02 * double(options.digits))));
     const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);
     print_head(study.sample());
@@ -94,7 +94,7 @@ int accuracy(const AccuracyOptions& options)
         print_row(rows.back(), study.sample());
     }
     write_accuracy_file(options.output, job, study.sample(), rows);
-    say(fmt::format("\n{0}: written; tools/plot_accuracy {0} draws it", options.output));
+    say(fmt::format("\n{0}: written; draw it with tools/plot_accuracy {0}", options.output));
     return exit_code::complete;
 }
 

@@ -1,4 +1,4 @@
-// What a job would compute, store and cost. Writes nothing.
+// Prints what a job would compute and store, and its estimated time. Writes nothing.
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
@@ -21,11 +21,11 @@ namespace {
 
 constexpr double sampling_time = 0.3; // [s]
 
-/// Points of a sample: along frequency, as the lanes of a kernel want them.
+/// Points of a sample: neighbours along frequency, which fill the lanes of a kernel.
 constexpr std::int64_t sample_length = 16;
 
-/// The i-th index of an axis. Over many i all four axes are covered evenly: the fractions are those
-/// of a Kronecker sequence with powers of 1/g, where g^5 = g + 1.
+/// The i-th index of an axis. Many i cover all four axes evenly: the fractions are those of a
+/// Kronecker sequence with powers of 1/g, where g^5 = g + 1.
 std::int64_t spread_index(std::int64_t i, int axis, std::int64_t size)
 {
     constexpr double g = 1.1673039782614187;
@@ -46,8 +46,8 @@ Tile sample_tile(const Plane& plane, std::int64_t i)
     return tile;
 }
 
-/// Computing time of the whole plane on one rank [s], writing not included, from a measured sample
-/// of it. The points are the same each time, as many of them as 0.3 s allow.
+/// Estimated time to compute the whole plane on one rank [s], without writing, from a measured
+/// sample. The order of the points is fixed; as many are computed as 0.3 s allow.
 double estimated_seconds(const Job& job, Kernel kernel)
 {
     using Clock = std::chrono::steady_clock;
@@ -56,7 +56,7 @@ double estimated_seconds(const Job& job, Kernel kernel)
         sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
         return tile.points();
     };
-    compute_sample(0); // the first one pays for cold caches
+    compute_sample(0); // untimed: the caches are cold
 
     const std::int64_t all_points = job.plane.points();
     std::int64_t points = 0;
@@ -74,7 +74,7 @@ void print_scene(const Job& job)
     print_row("pulse", name_of(job.scene.pulse));
     if (has_window(job.scene.pulse)) {
         print_row("window",
-                  fmt::format("-{0} to {0} pulse periods, cut off at {1:.2g} % of the peak",
+                  fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
                               job.scene.window, 100 * cut_by_window(job.scene)));
     }
     print_row("theory", name_of(job.scene.theory));
@@ -112,7 +112,7 @@ void print_size(const Job& job)
 
 int check(const JobSource& source)
 {
-    const Kernel kernel = widest_kernel(); // throws if this processor has none
+    const Kernel kernel = widest_kernel(); // throws if this processor supports none
     const Job job = read_job(source.path, source.overrides);
     if (!job.title.empty()) {
         fmt::print("{}\n\n", printable(job.title));

@@ -32,7 +32,7 @@ void limit(int resource, rlim_t most)
     setrlimit(resource, &limits);
 }
 
-/// A crash leaves no core file, an endless loop ends, and no size in a file takes all memory.
+/// Limits processor time and memory for the file at the path, and disables core files.
 void limit_resources(const std::string& path)
 {
     std::error_code none;
@@ -42,7 +42,7 @@ void limit_resources(const std::string& path)
     const rlimit processor_time{seconds, seconds + 1}; // SIGXCPU comes before SIGKILL
     setrlimit(RLIMIT_CPU, &processor_time);
     limit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__ // which takes all there is, to begin with
+#ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of address space at the start
     limit(RLIMIT_DATA, (rlim_t(1) << 29) + 2 * bytes);
 #endif
 }
@@ -51,14 +51,14 @@ void limit_resources(const std::string& path)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) {
-        _exit(exit_code::internal); // it has ended before the line above
+        _exit(exit_code::internal); // the parent ended before the call of prctl
     }
     limit_resources(path);
     int code = exit_code::complete;
     try {
         read();
         if (std::fflush(stdout) != 0) {
-            throw FileError("cannot write what was found.");
+            throw FileError("cannot write to stdout.");
         }
     } catch (const std::exception& error) {
         code = complain(error);
@@ -66,7 +66,7 @@ void limit_resources(const std::string& path)
     _exit(code);
 }
 
-/// The status of the child at its end, as in waitpid().
+/// Waits for the child, and returns its status as waitpid() does.
 int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
 {
     int status = 0;
@@ -90,8 +90,8 @@ int wait_for(pid_t child, const std::function<bool()>& is_unwanted)
 int run_in_child(const std::string& path, const std::function<void()>& read,
                  const std::function<bool()>& is_unwanted)
 {
-    std::signal(SIGCHLD, SIG_DFL); // a parent may have set SIG_IGN, which leaves no status
-    std::fflush(nullptr);          // the child would print buffered text again
+    std::signal(SIGCHLD, SIG_DFL); // SIG_IGN, inherited from a parent, would discard the status
+    std::fflush(nullptr);          // otherwise the child would print buffered text again
     const pid_t parent = getpid();
     const pid_t child = fork();
     if (child < 0) {
@@ -110,17 +110,17 @@ int run_in_child(const std::string& path, const std::function<void()>& read,
         if (is_unwanted()) {
             return exit_code::stopped;
         }
-        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps because "
-                                    "memory ran out.",
+        throw FileError(fmt::format("the process that read \"{}\" was killed, perhaps because it "
+                                    "ran out of memory.",
                                     path));
     }
     if (std::find(crashes.begin(), crashes.end(), signal) == crashes.end()) {
-        std::signal(signal, SIG_DFL); // it was sent to both of us
+        std::signal(signal, SIG_DFL); // it was sent to this process as well
         raise(signal);
     }
     throw FileError(fmt::format(
         "\"{}\" is damaged: the HDF5 library {}.", path,
-        signal == SIGXCPU ? "does not come to an end with it"
+        signal == SIGXCPU ? "does not finish reading it"
                           : fmt::format("crashes when it reads it ({})", strsignal(signal))));
 }
 

@@ -1,6 +1,5 @@
-// Reading a result file in a process of its own. HDF5 1.10 crashes on some files that are damaged,
-// or made for that, and takes its process with it: here a child dies, and the parent refuses the
-// file.
+// Reads a result file in a child process. HDF5 1.10 crashes on some files that are damaged or
+// malicious; then only the child dies, and the parent refuses the file.
 #pragma once
 
 #include <functional>
@@ -8,12 +7,12 @@
 
 namespace overturn {
 
-/// Calls `read` in a child process, which prints as this one would. Returns exit_code::complete, or
-/// the exit code of what `read` throws, after the child has complained. If `is_unwanted` becomes
-/// true meanwhile, the child is killed, and the result is exit_code::stopped.
-/// Throws FileError if the child crashes, or takes a minute of processor time and another one per
-/// GB of the file; its memory is limited to 512 MiB and twice the size of the file.
-/// Not between MPI_Init and MPI_Finalize, where a fork is not safe.
+/// Calls `read` in a child process, which shares stdout and stderr. Returns exit_code::complete; if
+/// `read` throws, the child prints the message, and the exit code of the error is returned. If
+/// `is_unwanted` becomes true, the child is killed, and exit_code::stopped is returned.
+/// Throws FileError if the child crashes, or exceeds its processor time: one minute, and another
+/// per GB of the file. Its memory is limited to 512 MiB plus twice the size of the file.
+/// Must not be called between MPI_Init and MPI_Finalize, where a fork is not safe.
 int run_in_child(
     const std::string& path, const std::function<void()>& read,
     const std::function<bool()>& is_unwanted = [] { return false; });

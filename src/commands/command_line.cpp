@@ -25,7 +25,7 @@ namespace {
 std::string kernel_text()
 {
     try {
-        return fmt::format("{}, the widest that this processor runs", name_of(widest_kernel()));
+        return fmt::format("{}, the widest that this processor supports", name_of(widest_kernel()));
     } catch (const ProcessorError& error) {
         return fmt::format("none: {}", error.what());
     }
@@ -43,10 +43,8 @@ std::string version_text()
 
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
-    command.add_option("JOB", job.path, "The job file (TOML)")->required();
-    command
-        .add_option("--set", job.overrides,
-                    "Lay KEY=VALUE, in TOML, over the job file; may be given again")
+    command.add_option("JOB", job.path, "Job file (TOML)")->required();
+    command.add_option("--set", job.overrides, "Override KEY with VALUE (TOML); repeatable")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
@@ -56,29 +54,27 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const std::string
     add_job_arguments(command, options.job);
     command
         .add_option("-o,--output", options.output,
-                    fmt::format("The result file; without it {} in the working directory", output))
+                    fmt::format("Result file; default: {} in the working directory", output))
         ->type_name("OUT.h5");
     command
-        .add_option("--kernel", options.kernel,
-                    "Lanes to compute with; changes the speed, but no byte of the result")
+        .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
         ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
         ->capture_default_str();
     command.add_flag("--durable", options.durable,
-                     "Bring each tile to the disk before it counts as done, so that it outlasts a "
-                     "loss of power; slower");
+                     "Sync each tile to disk, so that it survives a power failure; slower");
     command
         .add_option("--patience", options.patience,
-                    "End the run, resumable, if a rank does not respond for so long [s]")
+                    "Stop the run if a rank is silent for this long [s]; rerun to resume")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 }
 
 CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& path)
 {
-    return command.add_option(name, path, "The result file")->required();
+    return command.add_option(name, path, "Result file")->required();
 }
 
-/// Everything that the options are parsed into: it must live as long as the parser.
+/// All parsed options; must live as long as the parser.
 struct Arguments {
     RunOptions run;
     RunOptions boundary;
@@ -130,70 +126,70 @@ Command read_command_line(int argc, const char* const* argv)
     };
 
     RunOptions& run_options = arguments->run;
-    CLI::App* const run_command =
-        add_command("run", "Compute a spectrum, alone or under mpirun; resume an unfinished one",
-                    help::run, run, run_options);
+    CLI::App* const run_command = add_command(
+        "run", "Compute or resume a spectrum, with or without mpirun", help::run, run, run_options);
     add_run_arguments(*run_command, run_options, "JOB.h5");
 
     RunOptions& boundary_options = arguments->boundary;
     boundary_options.boundary = true;
-    CLI::App* const boundary_command =
-        add_command("boundary", "Find all amplitudes at which verdicts flip, alone or under mpirun",
-                    help::boundary, run, boundary_options);
+    CLI::App* const boundary_command = add_command(
+        "boundary", "Find all amplitudes at which verdicts flip, with or without mpirun",
+        help::boundary, run, boundary_options);
     add_run_arguments(*boundary_command, boundary_options, "JOB_boundary.h5");
 
     CLI::App* const check_command =
-        add_command("check", "Validate a job; tell its points, bytes and time; write nothing",
+        add_command("check", "Validate a job; print its points, bytes and time; write nothing",
                     help::check, check, arguments->check);
     add_job_arguments(*check_command, arguments->check);
 
     AccuracyOptions& accuracy_options = arguments->accuracy;
     CLI::App* const accuracy_command =
-        add_command("accuracy", "Measure what accuracy costs in time on a job's plane",
+        add_command("accuracy", "Measure error and computing time on a sample of a job's plane",
                     help::accuracy, accuracy, accuracy_options);
     add_job_arguments(*accuracy_command, accuracy_options.job);
     add_result_file(*accuracy_command, "-o,--output", accuracy_options.output)->type_name("OUT.h5");
     accuracy_command
         ->add_option("--points", accuracy_options.points,
-                     "Points of the sample, at most: times and verdicts")
+                     "Maximum number of sample points, for times and verdicts")
         ->check(CLI::Range(16, 10000000))
         ->capture_default_str();
     accuracy_command
         ->add_option("--digits", accuracy_options.digits,
-                     "Points of the sample in 50 digits: errors")
+                     "Maximum number of points computed in 50 digits, for errors")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 
     HistoryOptions& history_options = arguments->history;
     CLI::App* const history_command = add_command(
-        "history", "Follow one block, forced and free: angle, velocity, impacts over time",
+        "history", "Compute the motion of one block: angle, velocity and events over time",
         help::history, history, history_options);
     add_job_arguments(*history_command, history_options.job);
     history_command
         ->add_option("--at", history_options.at,
-                     "The point, where the job's axes have several values; any value will do")
+                     "Value of each axis with several in the job; need not be one of them")
         ->type_name("AXIS=VALUE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     add_result_file(*history_command, "-o,--output", history_options.output)->type_name("OUT.h5");
     history_command
         ->add_option("--until", history_options.until,
-                     "Last time to show [1/p]; without it until the block rests or lies, or 60/p "
-                     "after the pulse")
+                     "Last time [1/p]; default: until it comes to rest or overturns,\n"
+                     "at most 60/p after the pulse")
         ->check(CLI::PositiveNumber);
     history_command
-        ->add_option("--samples", history_options.samples, "Evenly spread times, beside events")
+        ->add_option("--samples", history_options.samples,
+                     "Number of evenly spaced times; events are added")
         ->check(CLI::Range(2, 10000000))
         ->capture_default_str();
 
     add_result_file(
-        *add_command("info", "Tell what a result file holds", help::info, info, arguments->info),
+        *add_command("info", "Print a summary of a result file", help::info, info, arguments->info),
         "FILE", arguments->info);
-    add_result_file(*add_command("verify", "Tell whether a result file is as it was written",
-                                 help::verify, verify, arguments->verify),
+    add_result_file(*add_command("verify", "Check a result file for damage", help::verify, verify,
+                                 arguments->verify),
                     "FILE", arguments->verify);
 
-    // For the build, which installs what they print; --help does not tell of them.
+    // For the build, which installs the output; hidden from --help.
     const std::string_view only = argc == 2 ? argv[1] : "";
     if (only == "--manual" || only == "--bash-completion") {
         return to_print(only == "--manual" ? manual_page(app) : bash_completion(app));

@@ -1,4 +1,4 @@
-// The command line: which subcommand is meant, with which options; help and version.
+// Parses the command line: the subcommand and its options; help and version.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@ namespace overturn {
 
 struct Command {
     std::function<int()> execute; ///< returns the exit code
-    bool on_every_rank = false;   ///< false: a launcher's other ranks have nothing to do
+    bool on_every_rank = false;   ///< false: only rank 0 executes the command
 };
 
 /// Throws UsageError.

@@ -39,9 +39,8 @@ int exit_code_of(const std::exception& error)
 std::string message_of(const std::exception& error)
 {
     if (is<std::bad_alloc>(error)) {
-        return "there is not enough memory. Each rank keeps the values of the axes, and rank 0 "
-               "some words for each tile: give the axes fewer points, or take a machine with "
-               "more.";
+        return "out of memory. Each rank stores the values of the axes, and rank 0 some bytes for "
+               "each tile. Give the axes fewer points, or use a machine with more memory.";
     }
     return printable(error.what());
 }

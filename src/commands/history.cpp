@@ -1,4 +1,4 @@
-// One point in full: the forced stage, then the analytical free stage.
+// The motion of one block: the forced stage, then the analytical free stage.
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -29,7 +29,7 @@ std::string trimmed(std::string text)
     return text;
 }
 
-/// The --set argument that puts an axis to one value.
+/// The --set argument that gives an axis a single value.
 std::string override_of(const std::string& at)
 {
     const std::size_t equals = std::min(at.find('='), at.size());
@@ -37,8 +37,8 @@ std::string override_of(const std::string& at)
     const std::string value = trimmed(at.substr(std::min(equals + 1, at.size())));
     const bool known = std::find(axis_names.begin(), axis_names.end(), name) != axis_names.end();
     if (!known || value.empty()) {
-        throw UsageError(fmt::format("--at {}: a coordinate is one of {}, and has a value: "
-                                     "--at frequency=3,amplitude=1.5",
+        throw UsageError(fmt::format("--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
+                                     "--at frequency=3,amplitude=1.5.",
                                      at, fmt::join(axis_names, ", ")));
     }
     return fmt::format("plane.{}.values=[{}]", name, value);
@@ -56,8 +56,8 @@ Job read_job_of_one_point(const HistoryOptions& options)
     for (std::size_t i = 0; i < axes.size(); ++i) {
         if (axes[i]->size() > 1) {
             throw UsageError(fmt::format(
-                "{} has {} values of plane.{}, from {} to {}, and a history is that of one point. "
-                "Say which, such as --at {}={}",
+                "{} has {} values of plane.{}, from {} to {}, but a history needs exactly one. "
+                "Choose it, for example with --at {}={}.",
                 options.job.path, axes[i]->size(), axis_names[i], axes[i]->first(), axes[i]->last(),
                 axis_names[i], axes[i]->first()));
         }
@@ -65,7 +65,7 @@ Job read_job_of_one_point(const HistoryOptions& options)
     return job;
 }
 
-/// A spectrum flags a point whose numbers overflow; a history would be that of no block.
+/// Throws JobError if the motion overflows; a spectrum flags such a point instead.
 void expect_finite(const History& history, const PlanePoint& point)
 {
     const bool finite = std::all_of(
@@ -75,16 +75,16 @@ void expect_finite(const History& history, const PlanePoint& point)
         });
     if (!finite) {
         throw JobError(fmt::format(
-            "plane.amplitude = {}, with plane.frequency = {}, moves the block beyond the range of "
-            "double precision. Lower it. (In a spectrum such a point is undecided, with the flag "
-            "not_finite in status.)",
+            "plane.amplitude = {} with plane.frequency = {} moves the block beyond the range of "
+            "double precision. Lower the amplitude. (In a spectrum such a point is undecided, with "
+            "the flag not_finite in status.)",
             point.amplitude, point.frequency));
     }
 }
 
 void print_event(const HistoryEvent& event)
 {
-    // A rounding below the last digit shown would print as -0.
+    // A tiny negative angle would print as -0.
     const auto shown = [](double angle) { return std::abs(angle) < 5e-6 ? 0 : angle; };
     fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>11.5f}{:>11.5f}{:>12.3e}\n", event.after.time,
                event_names[std::size_t(event.kind)], shown(event.after.angle),
@@ -113,11 +113,11 @@ void print_outcome(const History& history)
                                    : fmt::format("after {:.6g} / p", value);
     };
     print_row("region", name_of(history.region));
-    print_row("margin", fmt::format("{:.6g}, at most {:.1g} off", history.margin, history.error));
+    print_row("margin", fmt::format("{:.6g}, error at most {:.1g}", history.margin, history.error));
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
     if (history.shortened) {
-        print_row("note", "The history breaks off: there is more than can be followed.");
+        print_row("note", "The history is incomplete: it has too many events.");
     }
 }
 
@@ -145,7 +145,7 @@ int history(const HistoryOptions& options)
     print_outcome(history);
     print_events(history);
     write_history_file(options.output, job, history);
-    fmt::print("\n{0}: written; tools/plot_history {0} draws it\n", options.output);
+    fmt::print("\n{0}: written; draw it with tools/plot_history {0}\n", options.output);
     return exit_code::complete;
 }
 

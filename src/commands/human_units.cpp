@@ -9,7 +9,7 @@ namespace overturn {
 
 namespace {
 
-constexpr double least_scaled = 999.5; // would be shown as 1000
+constexpr double least_scaled = 999.5; // would be printed as 1000
 
 } // namespace
 

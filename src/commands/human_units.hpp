@@ -1,4 +1,4 @@
-// Counts, durations and sizes for people to read.
+// Counts, durations and sizes in readable units.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@ namespace overturn {
 /// Three digits and a prefix: "640", "1.20 k", "3.00 M", "1.00 G".
 std::string human_count(double count);
 
-/// "tile" of one, "tiles" of any other count; `plural` ends in s.
+/// The noun for a count: "tile" for 1, "tiles" otherwise; `plural` ends in s.
 constexpr std::string_view noun_of(double count, std::string_view plural)
 {
     return plural.substr(0, plural.size() - (count == 1 ? 1 : 0));
 }
 
-/// "310 ms", "1.25 s", "12 s", "2 min 05 s", "3 h 07 min", "2 d 04 h"; seconds [s], not negative.
+/// "310 ms", "1.25 s", "12 s", "2 min 05 s", "3 h 07 min", "2 d 04 h"; seconds [s] >= 0.
 std::string human_duration(double seconds);
 
 /// "640 bytes", "12.0 kB", "3.60 GB": powers of 1000.

@@ -1,4 +1,4 @@
-// What a result file holds, and how to go on with it if it is unfinished.
+// Prints a summary of a result file, and how to resume it if it is unfinished.
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "human_units.hpp"
@@ -17,8 +17,8 @@ namespace overturn {
 namespace {
 
 /// In the order of FileKind.
-constexpr std::array<const char*, 4> contents{"a spectrum", "where verdicts flip",
-                                              "the history of one block", "a study of accuracy"};
+constexpr std::array<const char*, 4> contents{"a spectrum", "a boundary",
+                                              "the history of one block", "an accuracy study"};
 
 void print_origin(const std::string& path, const FileOrigin& origin)
 {
@@ -26,7 +26,7 @@ void print_origin(const std::string& path, const FileOrigin& origin)
         fmt::print("{}\n\n", printable(origin.title));
     }
     print_row("file", fmt::format("{}, {}", path, human_bytes(double(origin.bytes))));
-    print_row("holds", contents[std::size_t(origin.kind)]);
+    print_row("contains", contents[std::size_t(origin.kind)]);
     print_row("made by", printable(fmt::format("overturn {} (commit {})", origin.program_version,
                                                origin.program_commit)));
 }
@@ -42,7 +42,7 @@ void print_plane_and_tiles(const std::string& path)
                    axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units)));
     }
     if (!damaged.empty()) {
-        print_row("damaged", fmt::format("{}: not what the job gives", fmt::join(damaged, ", ")));
+        print_row("damaged", fmt::format("{}: does not match the job", fmt::join(damaged, ", ")));
     }
     for (const FieldSummary& field : summary.fields) {
         print_row("field", fmt::format("{}, {}", field.name, field.type));
@@ -57,13 +57,13 @@ void print_plane_and_tiles(const std::string& path)
         print_row("lines", lines);
     }
     if (summary.tiles_done < summary.tiles) {
-        print_row("unfinished", fmt::format("To go on: overturn {} JOB.toml -o {}, with the job "
-                                            "file and the --set arguments of the first run",
+        print_row("unfinished", fmt::format("Resume with overturn {} JOB.toml -o {}, with the "
+                                            "job file and the --set arguments of the first run",
                                             is_boundary ? "boundary" : "run", path));
     }
 }
 
-void print_what_it_holds(const std::string& path)
+void print_summary(const std::string& path)
 {
     const FileOrigin origin = origin_of(path);
     if (origin.kind == FileKind::spectrum || origin.kind == FileKind::boundary) {
@@ -78,7 +78,7 @@ void print_what_it_holds(const std::string& path)
 
 int info(const std::string& path)
 {
-    return run_in_child(path, [&] { print_what_it_holds(path); });
+    return run_in_child(path, [&] { print_summary(path); });
 }
 
 } // namespace overturn

@@ -17,7 +17,7 @@ namespace overturn {
 
 namespace {
 
-/// "-o" and "--output"; none of a positional argument.
+/// "-o" and "--output"; empty for a positional argument.
 std::vector<std::string> names_of(const CLI::Option& option)
 {
     std::vector<std::string> names;
@@ -30,18 +30,18 @@ std::vector<std::string> names_of(const CLI::Option& option)
     return names;
 }
 
-/// "OUT.h5", "{auto,double}"; JOB of a positional argument; of a flag empty.
+/// "OUT.h5", "{auto,double}"; JOB for a positional argument; empty for a flag.
 std::string value_of(const CLI::Option& option)
 {
     if (option.get_positional()) {
         return option.get_name(true);
     }
-    // The type is followed by a colon and the values that are allowed.
+    // The type is followed by a colon and the allowed values.
     const std::string type = option.get_type_name();
     return option.get_expected_max() == 0 ? "" : type.substr(type.find(':') + 1);
 }
 
-/// roff takes some letters for its own, and dresses others up.
+/// Escapes the characters that roff interprets or replaces.
 std::string escaped(std::string_view text)
 {
     std::string result;
@@ -59,7 +59,7 @@ std::string escaped(std::string_view text)
     return result.starts_with('.') ? "\\&" + result : result;
 }
 
-/// Prose, which is filled; indented lines stay as they are.
+/// Paragraphs for roff to fill; indented lines are kept verbatim.
 std::string paragraphs(const std::string& text)
 {
     std::string result;
@@ -140,7 +140,7 @@ std::string subcommand(const CLI::App& command)
                        paragraphs(command.get_footer()));
 }
 
-/// The paragraphs of the footer begin with what they are about: "Examples: ...".
+/// A section for each paragraph of the footer, which begins with the title: "Examples: ...".
 std::string sections_of_footer(const std::string& footer)
 {
     std::string result;
@@ -155,8 +155,8 @@ std::string sections_of_footer(const std::string& footer)
     return result;
 }
 
-/// The cases tell what may stand at a place in the line, given the place, the subcommand and the
-/// word before: words, and files by their ending.
+/// The cases list the words and the ending of the files that are allowed at a position of the line,
+/// given the position, the subcommand and the previous word.
 constexpr const char* completion_script = R"(# Bash completion for overturn.
 _overturn()
 {{
@@ -174,7 +174,7 @@ _overturn()
 complete -F _overturn overturn
 )";
 
-/// What is between the braces of "{auto,double}", with spaces; of any other value nothing.
+/// "auto double" for "{auto,double}"; empty for any other value.
 std::string choices_of(std::string value)
 {
     if (!value.starts_with('{')) {
@@ -193,7 +193,7 @@ std::string manual_page(const CLI::App& program)
                                    ".SH SYNOPSIS\n"
                                    "\\fBoverturn\\fR \\fISUBCOMMAND\\fR [\\fIOPTIONS\\fR]\n"
                                    ".br\n\\fBoverturn\\fR \\fISUBCOMMAND\\fR \\fB\\-\\-help\\fR\n",
-                                   manual::date_of_words, program_version());
+                                   manual::date_of_texts, program_version());
     page += section("Description", manual::description);
     page += ".SH OPTIONS\n" + options_of(program) + ".SH SUBCOMMANDS\n";
     for (const CLI::App* command : program.get_subcommands({})) {
@@ -207,7 +207,7 @@ std::string manual_page(const CLI::App& program)
 std::string bash_completion(const CLI::App& program)
 {
     std::string commands, by_command;
-    std::set<std::string> by_option; // an option means the same to every subcommand
+    std::set<std::string> by_option; // an option has the same meaning in every subcommand
     for (const CLI::App* command : program.get_subcommands({})) {
         std::string words, ending;
         for (const CLI::Option* option : command->get_options()) {

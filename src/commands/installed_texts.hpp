@@ -1,4 +1,4 @@
-// Texts that are installed beside the program, made of the options and words that --help shows.
+// Texts that are installed with the program, generated from the options and texts of --help.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ class App;
 
 namespace overturn {
 
-/// The manual page, for man to read (roff).
+/// The manual page (roff).
 std::string manual_page(const CLI::App& program);
 
-/// What makes bash complete subcommands, options and file names.
+/// The script with which bash completes subcommands, options and file names.
 std::string bash_completion(const CLI::App& program);
 
 } // namespace overturn

@@ -16,8 +16,8 @@ Kernel kernel_called(std::string_view name)
     const auto found = std::find(kernel_names.begin(), kernel_names.end(), name);
     const auto kernel = Kernel(found - kernel_names.begin());
     if (!processor_runs(kernel)) {
-        throw UsageError(fmt::format("--kernel {} does not run on this processor. The widest that "
-                                     "does is {}.",
+        throw UsageError(fmt::format("--kernel {}: this processor does not support it. The widest "
+                                     "kernel that it supports is {}.",
                                      name, name_of(widest_kernel())));
     }
     if (!is_compiled(kernel)) {

@@ -1,4 +1,4 @@
-// The kernel that --kernel asks for.
+// The kernel chosen by --kernel.
 #pragma once
 
 #include "overturn/sweep/kernel.hpp"
@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// auto: the widest one that runs here. Throws UsageError if this processor cannot run the kernel,
-/// or if it was not compiled; ProcessorError if none runs here.
+/// auto: the widest kernel that the processor supports. Throws UsageError if the processor does not
+/// support the kernel or if it was not compiled; ProcessorError if no kernel is supported.
 Kernel kernel_called(std::string_view name);
 
 } // namespace overturn

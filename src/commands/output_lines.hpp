@@ -1,4 +1,4 @@
-// Lines that commands print: messages, and rows of a name and what there is to say about it.
+// The lines that commands print: messages, and rows of a name and a text.
 #pragma once
 
 #include "overturn/file/spectrum_summary.hpp"
@@ -12,8 +12,8 @@
 
 namespace overturn {
 
-/// Prints a line and flushes it, so that a log has it as soon as it is there, and before the
-/// progress of a run that follows. If its reader is gone, the run continues.
+/// Prints a line and flushes it, so that it appears in a log at once, before the progress of a run.
+/// Errors are ignored: a run continues if the reader of its log ends.
 inline void say(const std::string& line)
 {
     std::puts(line.c_str());
@@ -25,7 +25,7 @@ inline void print_row(std::string_view name, std::string_view text)
     fmt::print("{:<12} {}\n", name, text);
 }
 
-/// The row of an axis; `ending` follows the values.
+/// The row of an axis; `ending` is appended to the values.
 inline void print_axis(std::string_view name, std::int64_t size, double first, double last,
                        std::string_view ending)
 {
@@ -34,8 +34,8 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                         : fmt::format("{} values from {} to {}{}", size, first, last, ending));
 }
 
-/// How many lines of a boundary have no minimum overturning amplitude, or undecided verdicts; empty
-/// if none has.
+/// The number of lines of a boundary without a minimum overturning amplitude, and of those with
+/// undecided verdicts; empty if both are 0.
 inline std::string lines_text(const BoundaryLines& lines)
 {
     std::string text;
@@ -45,8 +45,8 @@ inline std::string lines_text(const BoundaryLines& lines)
                 fmt::format("{}{} of {} {}", text.empty() ? "" : "; ", count, lines.computed, what);
         }
     };
-    add(lines.unsafe_at_first, "lines overturn at the first amplitude looked at");
-    add(lines.undecided, "lines have undecided amplitudes, or more flips than are stored");
+    add(lines.unsafe_at_first, "lines overturn at the first amplitude of the job");
+    add(lines.undecided, "lines have undecided amplitudes or more flips than are stored");
     return text;
 }
 

@@ -19,7 +19,7 @@ namespace overturn {
 
 namespace {
 
-constexpr const char* before_anything = " before anything was computed";
+constexpr const char* before_anything = " before the computation started";
 
 void expect_no_stop(const char* when)
 {
@@ -34,13 +34,13 @@ void make_file(const Job& job, const std::string& path)
     const long double bytes = spectrum_file_bytes(job, tiling);
     constexpr long double made_at_once = 1e8L;
     if (bytes > made_at_once) {
-        say(fmt::format("{}: making a file of {}", path, human_bytes(double(bytes))));
+        say(fmt::format("{}: creating a file of {}", path, human_bytes(double(bytes))));
     }
-    create_spectrum_file(path, job, tiling, [] { expect_no_stop(" before the file was made"); });
+    create_spectrum_file(path, job, tiling, [] { expect_no_stop(" before the file was created"); });
 }
 
-/// Reads all that is done: a machine that lost its power may have kept the mark and lost the
-/// values.
+/// Checks all finished tiles: after a power failure, the checksum of a tile may be on the disk but
+/// not its values.
 std::vector<std::int64_t> find_damaged_tiles(const std::string& path)
 {
     using Clock = std::chrono::steady_clock;
@@ -48,7 +48,7 @@ std::vector<std::int64_t> find_damaged_tiles(const std::string& path)
     bool announced = false;
     return damaged_tiles(path, [&] {
         if (!announced && Clock::now() - start > std::chrono::seconds(2)) {
-            say(path + ": checking the tiles that are done");
+            say(path + ": verifying finished tiles");
             announced = true;
         }
         expect_no_stop(before_anything);
@@ -79,7 +79,7 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
         damaged = find_damaged_tiles(path);
     }
     if (existing == Existing::complete && damaged.empty()) {
-        say(path + " is complete already.");
+        say(path + " is already complete.");
         return std::nullopt;
     }
     demand_place_for_sidecar(path);

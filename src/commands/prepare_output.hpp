@@ -1,5 +1,5 @@
-// What happens to the output before a run computes: rank 0 examines what is there, makes the file,
-// and finds tiles that are not as they were written. A signal to stop ends it at any time.
+// Prepares the output of a run, on rank 0: examines an existing file and finds its damaged tiles,
+// or creates a new file. Signals are checked between tiles and stop it.
 #pragma once
 
 #include "overturn/job/job.hpp"
@@ -11,13 +11,13 @@
 
 namespace overturn {
 
-/// Whether a file at the path, which may crash HDF5, is safe to open and belongs to the job:
-/// exit_code::complete, or another one after a message. Throws FileError and Stopped. To be called
-/// before MPI_Init.
+/// Examines the file at the path in a child process, because HDF5 may crash on it. Returns
+/// exit_code::complete if it is absent or belongs to the job, else another code after printing a
+/// message. Throws FileError and Stopped. To be called before MPI_Init.
 int examine_in_child(const Job& job, const std::string& path);
 
-/// Makes sure that a file for the job exists at the path. Returns its damaged tiles, which are to
-/// be computed again; nothing if it is complete. Throws FileError and Stopped.
+/// Creates the file of the job unless it exists. Returns its damaged tiles, which are to be
+/// recomputed; nullopt if the file is complete. Throws FileError and Stopped.
 std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path);
 
 } // namespace overturn

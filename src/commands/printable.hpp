@@ -1,4 +1,4 @@
-// Text of others on a terminal.
+// Text from untrusted files, made safe for a terminal.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// How many bytes of UTF-8 the first letter takes; 0 if they are none.
+/// The number of bytes in the first UTF-8 character; 0 if it is invalid.
 inline std::size_t letter_length(std::string_view text)
 {
     const auto first = static_cast<unsigned char>(text[0]);
@@ -24,8 +24,8 @@ inline std::size_t letter_length(std::string_view text)
     return is_whole ? length : 0;
 }
 
-/// The text with a question mark for each control character but the ends of lines, and for what is
-/// no UTF-8: job files and result files may come from anywhere, and a terminal obeys what they say.
+/// Replaces each control character except newline, and each byte of invalid UTF-8, by a question
+/// mark. Job files and result files are untrusted, and could contain terminal escape sequences.
 inline std::string printable(std::string_view text)
 {
     std::string result;

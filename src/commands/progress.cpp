@@ -12,7 +12,7 @@ namespace {
 
 constexpr double redraw_interval = 0.2; // [s]
 
-// A log line every 10 s at first; in long runs when they are a tenth longer, at least every 10 min.
+// A log line every 10 s at first, later after another tenth of the time, at least every 10 min.
 constexpr double shortest_log_interval = 10;
 constexpr double longest_log_interval = 600;
 
@@ -25,7 +25,7 @@ double log_interval(double seconds)
 
 std::string progress_text(const Moment& moment)
 {
-    // Truncated: 100 % is for a run that is complete.
+    // Truncated: only a complete run shows 100 %.
     const int percent = int(100 * double(moment.done) / double(moment.all));
     std::string text = fmt::format("{} of {} {}, {} %", human_count(double(moment.done)),
                                    human_count(double(moment.all)), moment.items, percent);
@@ -64,9 +64,9 @@ void Progress::update(std::int64_t done)
         return;
     }
     next_ = moment_.seconds + (terminal_ ? redraw_interval : log_interval(moment_.seconds));
-    // On a terminal back to the first column; what is left of a longer line is erased.
+    // On a terminal: return to the first column, and erase the rest of a longer line.
     std::fprintf(stream_, terminal_ ? "\r%s\x1b[K" : "%s\n", progress_text(moment_).c_str());
-    std::fflush(stream_); // a failure is ignored: the reader may be gone
+    std::fflush(stream_); // failure ignored: the reader may have ended
     line_is_open_ = terminal_;
 }
 

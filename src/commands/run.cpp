@@ -1,5 +1,5 @@
 // The map of the code: open a session, read the job, open the file, hand out the missing tiles,
-// compute each, write each.
+// compute and write each of them.
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
@@ -31,11 +31,11 @@ namespace overturn {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::system_clock; // the record tells the date
+using Clock = std::chrono::system_clock; // the record contains the date
 
-constexpr int go_on = -1; ///< there is something to compute; no exit code
+constexpr int proceed = -1; ///< tiles are missing; not an exit code
 
-/// All that a rank needs to know to take part.
+/// The data that each rank needs to take part in a run.
 struct Task {
     const MpiSession& session;
     const Job& job;
@@ -44,7 +44,7 @@ struct Task {
     const RunOptions& options;
     const Kernel kernel;
     const Clock::time_point start;           ///< of the program
-    const std::vector<std::int64_t> damaged; ///< tiles of the file; on rank 0
+    const std::vector<std::int64_t> damaged; ///< tiles of the existing file; on rank 0
 
     bool leads() const { return session.rank() == 0; }
     /// Points of a spectrum, or lines of a boundary.
@@ -74,24 +74,24 @@ Job read_job_of(const RunOptions& options)
     return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
-std::string beginning(const Task& task, std::int64_t tiles_before)
+std::string start_line(const Task& task, std::int64_t tiles_before)
 {
     std::string what =
         tiles_before == 0
             ? fmt::format("{} {} in {} {}", human_count(double(task.items())),
                           noun_of(double(task.items()), task.item_name()), task.tiling.size(),
                           noun_of(double(task.tiling.size()), "tiles"))
-            : fmt::format("going on, {} of {} tiles are there", tiles_before, task.tiling.size());
+            : fmt::format("resuming: {} of {} tiles done", tiles_before, task.tiling.size());
     if (!task.damaged.empty()) {
-        what += fmt::format(", {} damaged {} computed again", task.damaged.size(),
-                            task.damaged.size() == 1 ? "tile is" : "tiles are");
+        what += fmt::format(", {} damaged {} to recompute", task.damaged.size(),
+                            noun_of(double(task.damaged.size()), "tiles"));
     }
     return fmt::format("{}: {}; {} {}, kernel {}", task.path, what, task.session.size(),
                        noun_of(task.session.size(), "ranks"), name_of(task.kernel));
 }
 
-/// What was done, and where the ranks' time went.
-std::string ending(const Task& task, const FarmReport& report, double seconds)
+/// The number of points computed, and how the ranks spent the time.
+std::string end_line(const Task& task, const FarmReport& report, double seconds)
 {
     const auto items = double(task.items(report.tiles));
     double computing = 0;
@@ -157,7 +157,7 @@ void write_record(const Task& task, const std::vector<std::string>& hosts, const
     write_sidecar(task.path, record);
 }
 
-/// Ends all ranks if one does not respond.
+/// Stops all ranks, with a message, if one of them is silent.
 FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<std::string>& hosts,
                                            const std::vector<std::int64_t>& missing,
                                            SpectrumFile& file)
@@ -169,30 +169,30 @@ FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<s
             hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank)]);
         task.session.abort(
             exit_code::stopped,
-            fmt::format("rank {}{} has not responded for {} s: it was stopped, its disk hangs, or "
-                        "its host cannot be reached. The tiles that are done are kept; run the "
-                        "same command again to resume.",
+            fmt::format("rank {}{} has not responded for {} s: it is suspended, its disk hangs, or "
+                        "its host is unreachable. Finished tiles are kept. Run the same command "
+                        "again to resume.",
                         silent.rank, host, silent.silence.count()));
     }
 }
 
-/// The number of tiles without a mark in the file, which decides whether it is complete. On rank 0.
+/// The number of tiles in the file that are not marked as done; 0 if it is complete. On rank 0.
 std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
 {
     const SpectrumSummary stored = summarize(task.path);
     const std::int64_t missing = stored.tiles - stored.tiles_done;
     if (missing > 0 && !report.stopped) {
-        throw FileError(fmt::format("all tiles were computed, but \"{}\" lacks {} of {}: something "
-                                    "else has written to it. Run the same command again to resume.",
+        throw FileError(fmt::format("all tiles were computed, but \"{}\" lacks {} of {}: another "
+                                    "program wrote to it. Run the same command again to resume.",
                                     task.path, missing, stored.tiles));
     }
     return missing;
 }
 
-int compute_what_is_missing(const Task& task)
+int compute_missing_tiles(const Task& task)
 {
     const std::vector<std::string> hosts = task.session.host_names();
-    // Of rank 0: others may have been started in other folders.
+    // The path on rank 0, because other ranks may have been started in other folders.
     const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {
@@ -216,7 +216,7 @@ int compute_what_is_missing(const Task& task)
             }
         }
         missing = file.missing_tiles();
-        say(beginning(task, task.tiling.size() - std::int64_t(missing.size())));
+        say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
     }
     const FarmReport report = compute_or_name_the_silent_rank(task, hosts, missing, file);
     file.close();
@@ -226,7 +226,7 @@ int compute_what_is_missing(const Task& task)
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
         write_record(task, hosts, report, seconds);
         const std::int64_t still_missing = count_missing_tiles(task, report) + still_damaged;
-        say(fmt::format("{}: {}", task.path, ending(task, report, seconds)));
+        say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
         if (still_missing > 0) {
             code = complain(Stopped(
                 fmt::format("; {} of {} tiles are missing", still_missing, task.tiling.size())));
@@ -245,56 +245,56 @@ int run(const RunOptions& options)
 {
     const auto start = Clock::now();
     const StopSignals signals;
-    std::signal(SIGXFSZ, SIG_IGN); // beyond the limit of file sizes a write fails, with a message
-    std::signal(SIGPIPE, SIG_IGN); // a log that nobody reads any more ends no run
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the file size limit fails with a message
+    std::signal(SIGPIPE, SIG_IGN); // a run continues if the reader of its log ends
     const std::string path = output_path(options);
     std::optional<Job> job;
     std::optional<SoleWriter> sole_writer;
     std::optional<std::vector<std::int64_t>> damaged;
-    int verdict = exit_code::complete;
+    int code = exit_code::complete;
 
-    // What rank 0 finds wrong is said once, and all ranks leave with it; what goes wrong on a
-    // single rank after that stops the others.
+    // An error that rank 0 finds before the computation is printed once, and all ranks return its
+    // exit code. A later error on any rank aborts the others.
     const auto complain_if_it_fails = [&](const auto& action) {
         try {
             action();
         } catch (const std::exception& error) {
-            verdict = complain(error);
+            code = complain(error);
         }
     };
     if (launched_rank() == 0) {
         complain_if_it_fails([&] {
-            kernel_called(options.kernel); // throws if it does not run here
+            kernel_called(options.kernel); // throws if this machine does not support it
             job = read_job_of(options);
             demand_path_for_mpi(fs::absolute(path).string());
-            verdict = examine_in_child(*job, path);
+            code = examine_in_child(*job, path);
         });
     }
     start_hdf5();
     const MpiSession session;
-    if (session.rank() == 0 && verdict == exit_code::complete) {
+    if (session.rank() == 0 && code == exit_code::complete) {
         complain_if_it_fails([&] {
-            if (!job) { // the launcher sets no rank, or another one
+            if (!job) { // launched_rank() is wrong under this launcher
                 job = read_job_of(options);
             }
             sole_writer.emplace(path);
             damaged = prepare_output(*job, path);
         });
     }
-    verdict = session.from_rank_0(damaged ? go_on : verdict);
-    if (verdict != go_on) {
-        return verdict;
+    code = session.from_rank_0(damaged ? proceed : code);
+    if (code != proceed) {
+        return code;
     }
     try {
         if (!job) {
             job = read_job_of(options);
         }
         if (session.from_rank_0(job->resolved) != job->resolved) {
-            throw JobError(options.job.path + " is another job here than on rank 0.");
+            throw JobError(options.job.path + " is not the job of rank 0. Use a shared folder.");
         }
-        return compute_what_is_missing({session, *job, tiling_of(*job), path, options,
-                                        kernel_called(options.kernel), start,
-                                        damaged.value_or(std::vector<std::int64_t>())});
+        return compute_missing_tiles({session, *job, tiling_of(*job), path, options,
+                                      kernel_called(options.kernel), start,
+                                      damaged.value_or(std::vector<std::int64_t>())});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

@@ -1,4 +1,4 @@
-// Whether a result file is as it was written.
+// Checks the coordinates of a result file against its job, and its tiles against their checksums.
 #include "child_process.hpp"
 #include "commands.hpp"
 
@@ -13,7 +13,7 @@ namespace overturn {
 
 namespace {
 
-/// The first of them, so that a file that is all wrong takes a line.
+/// The first numbers of the list, so that the message stays short.
 std::string list_text(const std::vector<std::int64_t>& numbers)
 {
     constexpr std::size_t most = 20;
@@ -23,32 +23,31 @@ std::string list_text(const std::vector<std::int64_t>& numbers)
                        numbers.size() > most ? ", ..." : "");
 }
 
-void print_whether_it_is_whole(const std::string& path)
+void check_file(const std::string& path)
 {
     const SpectrumSummary summary = summarize(path);
     if (const auto damaged = damaged_coordinates(path); !damaged.empty()) {
-        throw FileError(fmt::format("\"{}\" is damaged: of its coordinates {} are not its job's. "
-                                    "Remove it, and compute it again.",
+        throw FileError(fmt::format("\"{}\" is damaged: its coordinates do not match its job: {}. "
+                                    "Remove the file and recompute it.",
                                     path, fmt::join(damaged, ", ")));
     }
     if (const auto damaged = damaged_tiles(path); !damaged.empty()) {
         throw FileError(fmt::format(
-            "\"{}\" is damaged: {} of {} tiles are not as they were written, by number {}. To "
-            "compute them again: overturn {} JOB.toml -o {}, with the job file and the --set "
+            "\"{}\" is damaged: {} of {} tiles do not match their checksums (tile numbers: {}). "
+            "Recompute them with overturn {} JOB.toml -o {}, with the job file and the --set "
             "arguments of the first run.",
             path, damaged.size(), summary.tiles_done, list_text(damaged),
             summary.product == Product::boundary ? "boundary" : "run", path));
     }
-    fmt::print("{}: {} of {} {} as {} written\n", path, summary.tiles_done, summary.tiles,
-               summary.tiles == 1 ? "tile is done, and is" : "tiles are done, and all of them are",
-               summary.tiles == 1 ? "it was" : "they were");
+    fmt::print("{}: {} of {} {} done; coordinates and checksums match\n", path, summary.tiles_done,
+               summary.tiles, summary.tiles == 1 ? "tile is" : "tiles are");
 }
 
 } // namespace
 
 int verify(const std::string& path)
 {
-    return run_in_child(path, [&] { print_whether_it_is_whole(path); });
+    return run_in_child(path, [&] { check_file(path); });
 }
 
 } // namespace overturn

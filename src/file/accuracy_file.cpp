@@ -13,7 +13,7 @@ using namespace netcdf;
 
 constexpr char setting[] = "setting";
 
-/// Numbers along one dimension.
+/// A variable of numbers along one dimension.
 template <class Values>
 void add_list(hid_t file, const char* name, const char* dimension, const Values& values,
               const char* long_name)
@@ -30,12 +30,12 @@ void add_coordinates(hid_t file, const std::vector<AccuracyRow>& rows)
 {
     add_bare_dimension(file, setting, std::int64_t(rows.size()));
     add_list(file, "quantile", "quantile", error_quantiles,
-             "share of the points with at most this error");
+             "share of the points whose error is at most this");
     std::vector<std::uint8_t> regions(region_names.size());
     std::iota(regions.begin(), regions.end(), std::uint8_t(0));
     add_codes(file, "region", "region", regions,
               "region of the block's state at the end of the pulse", region_names);
-    add_list(file, "distance", "distance", distance_limits, "class of |margin|: below this");
+    add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
 }
 
 /// A table with one row per setting.
@@ -43,7 +43,7 @@ class Table {
 public:
     Table(hid_t file, const std::vector<AccuracyRow>& rows) : file_(file), rows_(rows) {}
 
-    /// A column, of a member or of what a function makes of a row.
+    /// A column: a member of each row, or the result of a function of it.
     template <class Value>
     void add(const char* name, const char* long_name, const char* units, const Value& value) const
     {
@@ -72,20 +72,20 @@ private:
     const std::vector<AccuracyRow>& rows_;
 };
 
-/// The settings, and what became of each.
+/// The settings and the results of each.
 void add_columns(const Table& table)
 {
     using Row = AccuracyRow;
     table.add("method", "0 rk45, 1 taylor", "1",
               [](const Row& row) { return int(row.numerics.method); });
-    table.add("tolerance", "local error per step over the size of the motion", "1",
+    table.add("tolerance", "local error per step, relative to the size of the motion", "1",
               [](const Row& row) { return row.numerics.tolerance; });
-    table.add("resolve", "1 where verdicts in doubt were settled with more digits", "1",
+    table.add("resolve", "1 if verdicts in doubt were resolved with more digits", "1",
               [](const Row& row) { return row.numerics.resolve; });
-    table.add("seconds_per_point", "time per point on one core, of regions alone", "s",
+    table.add("seconds_per_point", "time per point on one core, computing regions only", "s",
               &Row::seconds_per_point);
     table.add("steps", "steps tried per point", "1", &Row::steps);
-    table.add("evaluations", "evaluations per point, of the acceleration or of its series", "1",
+    table.add("evaluations", "evaluations of the acceleration or of its series, per point", "1",
               &Row::evaluations);
     table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
               &Row::angle);
@@ -93,15 +93,15 @@ void add_columns(const Table& table)
               &Row::velocity);
     table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
               &Row::margin);
-    table.add("flips", "points whose verdict is wrong", "1", &Row::flips);
-    table.add("flips_by_region", "region", "points of the region whose verdict is wrong", "1",
-              &Row::flips_by_region);
-    table.add("flips_by_distance", "distance", "points of the class whose verdict is wrong", "1",
-              &Row::flips_by_distance);
-    table.add("undecided", "points without a verdict", "1", &Row::undecided);
+    table.add("flips", "number of points with a wrong verdict", "1", &Row::flips);
+    table.add("flips_by_region", "region", "number of points of the region with a wrong verdict",
+              "1", &Row::flips_by_region);
+    table.add("flips_by_distance", "distance", "number of points of the class with a wrong verdict",
+              "1", &Row::flips_by_distance);
+    table.add("undecided", "number of points without a verdict", "1", &Row::undecided);
     table.add("bound_exceeded", "share of the points whose error of the margin exceeds its bound",
               "1", &Row::bound_exceeded);
-    table.add("bound_over_error", "median of the bound over the error of the margin", "1",
+    table.add("bound_over_error", "median of the ratio of bound and error of the margin", "1",
               &Row::bound_over_error);
 }
 
@@ -112,8 +112,10 @@ void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyR
     write_attribute(file, "points_in_50_digits", sample.in_digits);
     add_coordinates(file, rows);
     add_columns(Table(file, rows));
-    add_list(file, "points_by_region", "region", sample.by_region, "points of the region");
-    add_list(file, "points_by_distance", "distance", sample.by_distance, "points of the class");
+    add_list(file, "points_by_region", "region", sample.by_region,
+             "number of points of the region");
+    add_list(file, "points_by_distance", "distance", sample.by_distance,
+             "number of points of the class");
 }
 
 } // namespace

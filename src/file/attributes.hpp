@@ -1,5 +1,5 @@
-// Attributes of files and datasets as every reader of netCDF-4 understands them: fixed-length UTF-8
-// text, numbers, and lists of numbers.
+// Attributes of files and datasets in the forms that every netCDF-4 reader supports: fixed-length
+// UTF-8 text, numbers, and lists of numbers.
 #pragma once
 
 #include "hdf5_handles.hpp"
@@ -11,7 +11,7 @@
 
 namespace overturn::hdf5 {
 
-/// An empty text has no such form and is left out.
+/// An empty text is left out: a fixed length cannot be 0.
 void write_attribute(hid_t object, const char* name, std::string_view text);
 void write_attribute(hid_t object, const char* name, double value);
 void write_attribute(hid_t object, const char* name, std::int64_t value);
@@ -20,12 +20,12 @@ void write_attribute(hid_t object, const char* name, const std::vector<std::uint
 void write_attribute(hid_t object, const char* name, const std::vector<std::uint32_t>& values);
 void write_attribute(hid_t object, const char* name, const std::vector<std::int64_t>& values);
 
-/// Empty if there is no such attribute or if it is not a text of ours.
+/// Empty if the attribute is missing or is not fixed-length text.
 std::string read_text_attribute(hid_t object, const char* name);
 
 bool has_attribute(hid_t object, const char* name);
 
-/// Throws Hdf5Error if there is no such attribute or if it is not a number, or a list of numbers.
+/// Throw Hdf5Error if the attribute is missing, or is not a number or a list of numbers.
 std::int64_t read_integer_attribute(hid_t object, const char* name);
 std::vector<std::int64_t> read_integers_attribute(hid_t object, const char* name);
 

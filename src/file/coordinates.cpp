@@ -9,8 +9,8 @@ namespace overturn {
 namespace {
 
 constexpr double exact = 0;
-constexpr double of_one_function = 4; // each library is within two of the true value
-constexpr double of_several = 100;    // largest_restitution multiplies those of its sine
+constexpr double of_one_function = 4; // the error of each library is at most two
+constexpr double of_several = 100;    // largest_restitution amplifies those of its sine
 
 Coordinate coordinate_of(const Dimension& dimension)
 {
@@ -39,7 +39,7 @@ Coordinate restitution_ratio(const Plane& plane)
             plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
 }
 
-/// Of a job that names its block in metres.
+/// For a job whose block is given in metres.
 Coordinate pulse_period(const Plane& plane)
 {
     const double p = frequency_parameter(*plane.block);
@@ -51,12 +51,12 @@ Coordinate pulse_period(const Plane& plane)
              {"frequency"},
              {periods.size()},
              periods,
-             "period of the pulse, 2 pi / omega_p, where g is 9.81 m/s2",
+             "period of the pulse, 2 pi / omega_p, with g = 9.81 m/s2",
              "s"},
             of_several};
 }
 
-/// Of a job that names its block in metres.
+/// For a job whose block is given in metres.
 Coordinate peak_ground_acceleration(const Job& job)
 {
     const double threshold = uplift_threshold(job.scene.theory, job.plane.slenderness.first());
@@ -89,7 +89,7 @@ std::vector<Dimension> dimensions_of(const Job& job)
     return {{"slenderness", &plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
             {"restitution", &plane.restitution,
              plane.restitution_of == RestitutionOf::maximum
-                 ? "energy ratio at an impact, over the largest one of the block"
+                 ? "energy ratio at an impact, over its maximum for the block"
                  : "energy ratio at an impact",
              "1"},
             rows,
@@ -104,17 +104,18 @@ std::vector<Coordinate> coordinates_of(const Job& job)
     for (const Dimension& dimension : dimensions_of(job)) {
         all.push_back(coordinate_of(dimension));
     }
-    if (plane.block) { // its slenderness is the arctangent of its size
+    if (plane.block) { // its slenderness is an arctangent
         all.front().roundings = of_one_function;
     }
     if (job.product == Product::boundary) {
-        all.push_back(coordinate_of(
-            {layout::scan, &job.scan, "amplitudes that were looked at to find the flips", "1"}));
+        all.push_back(
+            coordinate_of({layout::scan, &job.scan,
+                           "amplitudes that were computed first to find the flips", "1"}));
     }
     all.push_back(restitution_ratio(plane));
     if (plane.block) {
         all.push_back(pulse_period(plane));
-        if (job.product == Product::spectrum) { // a boundary has no amplitudes but the flips
+        if (job.product == Product::spectrum) { // a boundary has crossings instead of amplitudes
             all.push_back(peak_ground_acceleration(job));
         }
     }

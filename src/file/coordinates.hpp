@@ -1,5 +1,4 @@
-// The coordinate variables of a result file: what the skeleton is given, and what a file is held
-// against when it is read back.
+// The coordinate variables of a result file, used to create a file and to check an existing one.
 #pragma once
 
 #include "netcdf.hpp"
@@ -11,12 +10,12 @@
 namespace overturn {
 
 struct Coordinate : netcdf::Variable {
-    /// What the C libraries of two machines may make of it, in units of its last place: where no
-    /// function of theirs takes part, nothing.
+    /// How much the values from two C libraries may differ, in units of the last place; 0 if no
+    /// library function is involved.
     double roundings = 0;
 };
 
-/// A dimension of every field; it has a coordinate variable of its name.
+/// A dimension of every field, with a coordinate variable of the same name.
 struct Dimension {
     const char* name;
     const Axis* axis;
@@ -24,10 +23,10 @@ struct Dimension {
     const char* units;
 };
 
-/// Slowest first. They point into the job.
+/// Slowest first. The dimensions point into the job.
 std::vector<Dimension> dimensions_of(const Job& job);
 
-/// In the order of the file: dimensions first.
+/// In the order of the file: those of the dimensions first.
 std::vector<Coordinate> coordinates_of(const Job& job);
 
 } // namespace overturn

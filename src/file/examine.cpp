@@ -1,4 +1,4 @@
-// Whether what stands at the output path is this job's.
+// Whether the file at the output path belongs to the job.
 
 #include "layout.hpp"
 #include "stored_spectrum.hpp"
@@ -16,7 +16,7 @@ namespace overturn {
 
 namespace {
 
-/// The part of a line around a column, so that a list of ten thousand values stays readable.
+/// The part of a line around a column, to shorten long lists of values.
 std::string excerpt(std::string_view line, std::size_t column)
 {
     constexpr std::size_t before = 40;
@@ -27,7 +27,7 @@ std::string excerpt(std::string_view line, std::size_t column)
                        begin + shown.size() < line.size() ? "..." : "");
 }
 
-/// Takes the first line off a text.
+/// Removes the first line from a text and returns it.
 std::string_view next_line(std::string_view& text)
 {
     const std::string_view line = text.substr(0, text.find('\n'));
@@ -35,7 +35,7 @@ std::string_view next_line(std::string_view& text)
     return line;
 }
 
-/// The first line in which two different texts differ, in words.
+/// Describes the first line in which two different texts differ.
 std::string first_difference(std::string_view stored, std::string_view given)
 {
     for (int number = 1;; ++number) {
@@ -46,13 +46,14 @@ std::string first_difference(std::string_view stored, std::string_view given)
             const auto differ =
                 std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());
             const auto column = std::size_t(differ.first - theirs.begin());
-            return fmt::format("line {} of its resolved job is\n  {}\nand here it is\n  {}\n",
-                               number, excerpt(theirs, column), excerpt(ours, column));
+            return fmt::format(
+                "line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n", number,
+                excerpt(theirs, column), excerpt(ours, column));
         }
     }
 }
 
-/// The refusal of a file that is not ours ends with what to do.
+/// Adds what to do to the message if the file cannot be opened.
 StoredSpectrum open_or_refuse(const std::string& path)
 {
     try {
@@ -72,13 +73,13 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
     }
     const StoredSpectrum stored = open_or_refuse(path);
     if (stored.product != job.product) {
-        throw FileError(fmt::format("\"{}\" is an {}, and an {} is to be computed. Choose another "
-                                    "name with -o.",
-                                    path, layout::name_of(stored.kind),
-                                    layout::name_of(FileKind(job.product))));
+        throw FileError(fmt::format(
+            "\"{}\" is an {}, but the job computes an {}. Choose another name "
+            "with -o.",
+            path, layout::name_of(stored.kind), layout::name_of(FileKind(job.product))));
     }
     if (stored.resolved_job != job.resolved) {
-        throw FileError(fmt::format("\"{}\" holds another job: {}Choose another name with -o.",
+        throw FileError(fmt::format("\"{}\" belongs to another job: {}Choose another name with -o.",
                                     path, first_difference(stored.resolved_job, job.resolved)));
     }
     if (stored.format != layout::newest_format) {
@@ -89,23 +90,23 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
     }
     if (stored.program_version != program_version() || stored.program_commit != program_commit()) {
         throw FileError(fmt::format(
-            "\"{}\" was computed by overturn {} (commit {}), and this is overturn {} (commit {}), "
-            "whose results may differ in their last digits. Choose another name with -o, or take "
-            "that program.",
+            "\"{}\" was computed by overturn {} (commit {}), but this is overturn {} (commit {}), "
+            "whose results may differ in the last digits. Choose another name with -o, or use "
+            "that version.",
             path, stored.program_version, stored.program_commit, program_version(),
             program_commit()));
     }
     if (stored.tile_shape != tiling.tile_shape() || stored.tiles != tiling.size() ||
         !std::ranges::equal(stored.fields, job.fields, {}, &FieldSummary::field)) {
-        throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles are not those of its "
-                                    "job. Remove it, or choose another name with -o.",
+        throw FileError(fmt::format("\"{}\" is damaged: its fields or tiles do not match its job. "
+                                    "Remove it, or choose another name with -o.",
                                     path));
     }
     if (const auto foreign = foreign_coordinates(stored, job); !foreign.empty()) {
-        throw FileError(
-            fmt::format("\"{}\" is damaged: of its coordinates {} are not its job's. Remove it, or "
-                        "choose another name with -o.",
-                        path, fmt::join(foreign, ", ")));
+        throw FileError(fmt::format(
+            "\"{}\" is damaged: its coordinates do not match its job: {}. Remove it, or "
+            "choose another name with -o.",
+            path, fmt::join(foreign, ", ")));
     }
     return stored.tiles_done < stored.tiles ? Existing::unfinished : Existing::complete;
 }

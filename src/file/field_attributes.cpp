@@ -18,7 +18,7 @@ namespace {
 
 using hdf5::write_attribute;
 
-/// What a field says of itself. An empty text or list is left out.
+/// The attributes of a field. An empty text or list is left out.
 struct Description {
     const char* long_name;
     const char* units;
@@ -35,15 +35,16 @@ Description description_of(Field field)
     const std::string or_none = regions + " no_flip undecided not_computed";
     switch (field) {
     case Field::region:
-        return {"region of the block's state at the end of the pulse", "",
-                "S safe within the separatrix, S_plus and S_minus safe thanks to the loss at the "
-                "first impact, U0 overturns without impact, U1 overturns after one impact, "
-                "F overturned during the pulse",
-                std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
-                regions + " undecided not_computed"};
+        return {
+            "region of the block's state at the end of the pulse", "",
+            "S: safe within the separatrix; S_plus, S_minus: safe due to the loss at the next "
+            "impact; U0: overturns without impact; U1: overturns after one impact; F: overturns "
+            "during the pulse",
+            std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
+            regions + " undecided not_computed"};
     case Field::status:
-        return {"incidents on the way to the end of the pulse", "",
-                "0 is a point without incident, 255 one not computed yet",
+        return {"status of the integration, until the end of the pulse", "",
+                "0: no flag is set; 255: not computed yet",
                 std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
                                           status::not_finite, status::unresolved},
                 "came_to_rest cap_was_hit not_finite unresolved"};
@@ -54,14 +55,13 @@ Description description_of(Field field)
                 "this_many_or_more not_computed bounce_series"};
     case Field::angle: return {"angle theta of the block at the end of the pulse", "rad"};
     case Field::velocity: return {"d theta / d(p t) at the end of the pulse", "rad"};
-    case Field::margin: return {"distance of the verdict from flipping, positive where safe", "1"};
+    case Field::margin: return {"distance from the other verdict, positive where safe", "1"};
     case Field::error:
         return {"bound of the error of the margin", "1",
-                "to first order; infinite where it is not known: an impact or a fall may or "
-                "may not have happened, or was close; a verdict holds where the margin is "
-                "larger"};
+                "to first order; infinite where it is unknown: an impact or a fall may or may "
+                "not have happened, or was close; a verdict is certain where |margin| is larger"};
     case Field::peak:
-        return {"largest |theta| / alpha, during the pulse and after it", "1",
+        return {"largest |theta| / alpha during the pulse and after it", "1",
                 "infinite where the block overturns"};
     case Field::fall_time:
         return {"p t from the first uplift to |theta| = pi/2", "1",
@@ -70,26 +70,28 @@ Description description_of(Field field)
         return {"integration steps tried", "1", "",
                 std::vector<std::uint32_t>{step_count::not_computed}, "not_computed"};
     case Field::flip_amplitude:
-        return {"amplitude at which the verdict flips, in ascending order; not a number "
-                "beyond the last flip",
-                "1",
-                "two amplitudes at most `width` of themselves apart, with settled verdicts, are on "
-                "either side. Where a region beside it is undecided, it is the last amplitude that "
-                "was settled, and no flip. Between neighbours of scan_amplitude the steps were "
-                "halved where margins bend or impacts change, down to `finest_step` of the "
-                "amplitude. Missed can be thinner strips, and strips between two neighbours of "
-                "which neither tells"};
+        return {
+            "amplitude at which the verdict flips, in ascending order; NaN beyond the "
+            "last flip",
+            "1",
+            "each flip lies between two amplitudes with settled verdicts, at most `width` apart "
+            "relative to their size. If a region next to it is undecided, it is not a flip but "
+            "the last settled amplitude. Between neighbours of scan_amplitude the steps were "
+            "halved where margins bend or impacts change, down to `finest_step` of the "
+            "amplitude. Thinner strips may be missed, and strips of which the two neighbours "
+            "give no sign"};
     case Field::region_below:
-        return {"region just below the flip", "",
-                "where there is no flip: of the first crossing, the region at the first of "
-                "scan_amplitude. A first flip from a safe region is the minimum overturning "
-                "amplitude; where the first crossing has an unsafe region below, the block "
-                "overturns at the first amplitude looked at",
-                regions_or_none, or_none};
+        return {
+            "region just below the flip", "",
+            "if there is no flip, the first crossing has the region at the first scan_amplitude. "
+            "A first flip above a safe region is the minimum overturning amplitude. If the first "
+            "crossing has an unsafe region below, the block overturns at the first amplitude of "
+            "the job",
+            regions_or_none, or_none};
     case Field::region_above:
         return {"region just above the flip", "",
-                "undecided: up to the next flip verdicts could not be settled; or it is the last "
-                "crossing, and there are more",
+                "undecided: verdicts could not be settled up to the next flip, or this is the last "
+                "crossing and there are more flips",
                 regions_or_none, or_none};
     }
     return {};
@@ -102,8 +104,8 @@ void write_field_attributes(hid_t dataset, Field field, const std::string& coord
     const Description description = description_of(field);
     write_attribute(dataset, "long_name", description.long_name);
     write_attribute(dataset, "units", description.units);
-    // NaN is what readers take for missing, so it can be declared; on the integer fields a declared
-    // fill value would turn codes into floats.
+    // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
+    // field would make them convert codes to floats.
     const auto fill = layout::stored_as(field).fill;
     if (const auto* not_a_number = std::get_if<double>(&fill)) {
         write_attribute(dataset, "_FillValue", *not_a_number);

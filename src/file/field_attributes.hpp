@@ -1,4 +1,4 @@
-// What a field says of itself in the file: names, units, and the meaning of codes.
+// The attributes of a field in the file: long name, units, and the meaning of codes.
 #pragma once
 
 #include "hdf5_handles.hpp"

@@ -14,7 +14,7 @@ herr_t take_first(unsigned position, const H5E_error2_t* error, void* descriptio
     return 0;
 }
 
-/// The words between `mark` and the next quote; the whole description if there is no such mark.
+/// The text between `mark` and the next quote; the whole description if it does not contain `mark`.
 std::string quoted_after(const std::string& mark, const std::string& description)
 {
     const std::size_t begin = description.find(mark);
@@ -38,7 +38,7 @@ std::string innermost_cause()
 {
     std::string description;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &description);
-    // HDF5 quotes the system, "..., error message = 'No space left on device', ...", and MPI.
+    // HDF5 quotes messages of the system, "error message = 'No space left on device'", and of MPI.
     const std::string cause =
         quoted_after("error message = '", quoted_after("MPI error string is '", description));
     if (cause.empty()) {

@@ -1,6 +1,6 @@
-// Raw HDF5, wrapped once: handles that close themselves, and check(), through which every call
-// goes. A failed call becomes an Hdf5Error that carries the innermost cause in plain words; the
-// public functions of this room turn it into a FileError that says which file and what to do.
+// Wrappers of raw HDF5: handles that close themselves, and check(), which checks every call. A
+// failed call throws an Hdf5Error with the innermost cause; the public functions of this module
+// convert it to a FileError with the file and what to do.
 #pragma once
 
 #include <hdf5.h>
@@ -17,14 +17,14 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// To be called before anything else of HDF5: makes it silent, and keeps it from closing files on
-/// its own at exit, which would wait for other ranks.
+/// To be called before any other HDF5 function. Turns off the messages of HDF5, and the closing of
+/// files at exit, which would wait for other ranks.
 void start();
 
-/// Why the last call failed, as in "no space left on device".
+/// The reason why the last call failed, such as "no space left on device".
 std::string innermost_cause();
 
-/// The result of an HDF5 call; throws Hdf5Error if it is negative.
+/// Returns the result of an HDF5 call; throws Hdf5Error if it is negative.
 template <class Result>
 Result check(Result result)
 {
@@ -34,13 +34,13 @@ Result check(Result result)
     return result;
 }
 
-/// Owns an identifier of HDF5.
+/// Owns an HDF5 identifier.
 class Handle {
 public:
     using Close = herr_t (*)(hid_t);
 
     Handle() = default;
-    /// `id` is the result of the call that opened it, checked here.
+    /// `id` is the result of the call that opened the object; it is checked here.
     Handle(hid_t id, Close closer) : id_(check(id)), close_(closer) {}
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
     Handle& operator=(Handle&& other) noexcept
@@ -58,7 +58,7 @@ public:
 
     operator hid_t() const { return id_; }
 
-    /// Closes now, so that an error is heard of.
+    /// Closes the object and throws Hdf5Error on failure; the destructor ignores errors.
     void close()
     {
         if (id_ >= 0) {
@@ -66,7 +66,7 @@ public:
         }
     }
 
-    /// Gives the identifier up without closing it.
+    /// Releases the identifier without closing it.
     hid_t release() { return std::exchange(id_, -1); }
 
 private:
@@ -74,7 +74,7 @@ private:
     Close close_ = nullptr;
 };
 
-/// Access to a file without locks, which network file systems often lack.
+/// Access without file locks, which network file systems often do not support.
 Handle file_access();
 
 Handle open_to_read(const std::string& path);

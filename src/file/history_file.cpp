@@ -9,7 +9,7 @@ namespace {
 using hdf5::write_attribute;
 using namespace netcdf;
 
-/// What is told of a sample.
+/// A quantity that is stored for each sample.
 struct Quantity {
     const char* name;
     const char* long_name;
@@ -26,10 +26,10 @@ constexpr Quantity quantities[] = {
     {"q",
      "4 sin^2((alpha - |theta|) / 2) - theta'^2; linear theory: (alpha - |theta|)^2 - theta'^2",
      "rad2", &HistorySample::q},
-    {"ground", "acceleration of the ground over g", "1", &HistorySample::ground},
+    {"ground", "ground acceleration over g", "1", &HistorySample::ground},
 };
 
-/// `when` completes the long name of the quantity.
+/// `when` is appended to the long name of the quantity.
 void add_quantity(hid_t file, const char* dimension, const std::string& name,
                   const Quantity& quantity, const std::vector<HistorySample>& samples,
                   const std::string& when = "")
@@ -64,7 +64,7 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
     }
     add_bare_dimension(file, "event", std::int64_t(events.size()));
     add_quantity(file, "event", "event_time", time_of_sample, after);
-    add_codes(file, "event_kind", "event", kinds, "what happens", event_names);
+    add_codes(file, "event_kind", "event", kinds, "kind of the event", event_names);
     for (const Quantity& quantity : quantities) {
         const std::string name = std::string("event_") + quantity.name;
         add_quantity(file, "event", name + "_before", quantity, before, ", just before the event");
@@ -72,7 +72,7 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
     }
 }
 
-/// The point, and what became of it.
+/// The point and its outcome.
 void add_outcome(hid_t file, const Job& job, const History& history)
 {
     write_attribute(file, "slenderness", job.plane.slenderness.first());

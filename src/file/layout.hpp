@@ -1,4 +1,4 @@
-// What stands where in a result file: names, dimensions and types, shared by writer and readers.
+// The layout of result files: names, dimensions and types, shared by writers and readers.
 #pragma once
 
 #include "hdf5_handles.hpp"
@@ -13,7 +13,7 @@
 
 namespace overturn::layout {
 
-/// Global attribute `kind`: tells what a file holds, in the order of FileKind.
+/// Values of the global attribute `kind`, in the order of FileKind.
 inline constexpr std::array<const char*, 4> kinds{"overturning spectrum", "overturning boundary",
                                                   "rocking history", "accuracy study"};
 
@@ -22,7 +22,7 @@ inline constexpr const char* name_of(FileKind kind)
     return kinds[std::size_t(kind)];
 }
 
-/// Global attribute: what a reader must know of. Files without it are of version 1: they had four
+/// Global attribute: the version of the layout. Files without it are of version 1: they have four
 /// dimensions and the attributes amplitude_extent and frequency_extent.
 inline constexpr char format_version[] = "format_version";
 inline constexpr std::int64_t newest_format = 2;

@@ -17,8 +17,8 @@ using hdf5::write_attribute;
 
 namespace {
 
-// Readers of netCDF-4 want attributes and links in order of creation; times would make equal runs
-// differ.
+// netCDF-4 readers need attributes and links in the order of their creation. Times are not tracked,
+// because they would differ between equal runs.
 Handle file_creation()
 {
     Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
@@ -29,9 +29,9 @@ Handle file_creation()
     return creation;
 }
 
-/// Variables, because a compact attribute ends at 64 KiB and lists can be longer; arrays of
-/// characters, because HDF5 1.10 crashes when it reads a damaged heap of variable-length strings.
-/// An empty text is left out.
+/// Stores a text as a variable, because a compact attribute is limited to 64 KiB, and as an array
+/// of characters, because HDF5 1.10 crashes when it reads a damaged heap of variable-length
+/// strings. An empty text is left out.
 void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
 {
     if (text.empty()) {
@@ -74,11 +74,11 @@ void add_job(hid_t file, const Job& job)
 {
     add_text(file, "job_given", job.given, "job file as given");
     add_text(file, "job_overrides", fmt::format("{}", fmt::join(job.overrides, "\n")),
-             "settings laid over the job file, one per line");
-    add_text(file, layout::job_resolved, job.resolved, "job as resolved, with every default");
+             "overrides of the job file, one per line");
+    add_text(file, layout::job_resolved, job.resolved, "job as resolved, including all defaults");
 }
 
-/// A variable that is a dimension itself has no other.
+/// Makes the dataset a dimension if it has the name of one, else attaches its dimensions.
 void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name,
                               const std::vector<std::string>& dimensions)
 {

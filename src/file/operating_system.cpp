@@ -19,7 +19,7 @@ bool sync(const std::string& path)
     const int reason = errno;
     close(descriptor);
     errno = reason;
-    // Some file systems cannot sync a folder, and say so with EINVAL.
+    // Some file systems cannot sync a folder, and return EINVAL.
     return result == 0 || (reason == EINVAL && std::filesystem::is_directory(path));
 }
 

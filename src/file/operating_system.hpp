@@ -1,19 +1,18 @@
-// Files on the disk, and the messages of the operating system as part of our sentences.
+// Syncing of files to the disk, and error messages of the operating system.
 #pragma once
 
 #include <string>
 
 namespace overturn {
 
-/// Waits until the file or folder is on the disk, where it outlasts a loss of power. False, with
-/// errno, if that failed. Also brings there what other processes of this machine have written into
-/// the file.
+/// Syncs a file or folder to the disk, so that it survives a power failure, including what other
+/// processes of this machine have written to it. Returns false, with errno, on failure.
 bool sync(const std::string& path);
 
-/// "No space left" becomes "no space left"; "MPI_ERR" stays.
+/// A message as part of a sentence: "No space left" becomes "no space left"; "MPI_ERR" is kept.
 std::string in_sentence(std::string message);
 
-/// What an error number of the system means, as in "no space left on device".
+/// The message of a system error number, such as "no space left on device".
 std::string system_reason(int error_number);
 
 } // namespace overturn

@@ -17,7 +17,7 @@ namespace overturn {
 
 namespace {
 
-/// A JSON string (RFC 8259). UTF-8 passes as it is.
+/// A JSON string (RFC 8259). UTF-8 is kept unchanged.
 std::string quoted(std::string_view text)
 {
     std::string result = "\"";
@@ -37,7 +37,7 @@ std::string mpi_version()
     char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
     int length = 0;
     MPI_Get_library_version(text, &length);
-    return text; // Open MPI counts the zero at its end into the length
+    return text; // not by its length, into which Open MPI counts the terminating zero
 }
 
 std::string compiler_version()
@@ -51,7 +51,7 @@ std::string compiler_version()
 #endif
 }
 
-/// By which a sidecar is told from what else may be called OUT.h5.json.
+/// Distinguishes a sidecar from other files called OUT.h5.json.
 constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
 std::string sidecar_of(const std::string& spectrum_path)
@@ -115,27 +115,28 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
         return;
     }
     std::string beginning(sidecar_beginning.size(), '\0');
-    if (S_ISREG(file.st_mode)) { // to open a pipe would wait for its other end
+    if (S_ISREG(file.st_mode)) { // opening a pipe would wait for its other end
         std::ifstream(path, std::ios::binary).read(beginning.data(), int(beginning.size()));
     }
     if (beginning != sidecar_beginning) {
-        throw FileError(fmt::format("\"{}\" stands where the record of this run would be written, "
-                                    "and is none. Move it away, or choose another name with -o.",
-                                    path));
+        throw FileError(
+            fmt::format("\"{}\" exists but is not the record of an overturn run. Move it "
+                        "away, or choose another name with -o.",
+                        path));
     }
 }
 
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
 {
-    demand_place_for_sidecar(spectrum_path); // something may have taken it meanwhile
+    demand_place_for_sidecar(spectrum_path); // a file may have appeared during the run
     PartFile part(sidecar_of(spectrum_path));
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
     stream << as_json(record);
     stream.close();
     if (!stream) {
-        throw FileError(fmt::format("cannot write \"{0}.json\", the record of this run: {1}. What "
-                                    "it computed is in \"{0}\" all the same.",
+        throw FileError(fmt::format("cannot write \"{0}.json\", the record of this run: {1}. The "
+                                    "computed tiles are in \"{0}\" nevertheless.",
                                     spectrum_path, system_reason(errno)));
     }
     part.move_into_place();

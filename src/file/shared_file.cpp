@@ -40,7 +40,7 @@ void write(const std::string& path, const Token& token)
     std::fstream stream(path, std::ios::in | std::ios::out | std::ios::binary);
     stream.seekp(token.place);
     stream.write(reinterpret_cast<const char*>(&token.number), sizeof token.number);
-    stream.close(); // over NFS other hosts see it then
+    stream.close(); // makes the number visible to other hosts over NFS
     if (!stream) {
         throw FileError(
             fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
@@ -60,12 +60,12 @@ bool holds(const std::string& path, const Token& token)
 
 void demand_path_for_mpi([[maybe_unused]] const std::string& path)
 {
-#ifndef OMPI_MAJOR_VERSION // MPICH and its relatives read files by ROMIO
+#ifndef OMPI_MAJOR_VERSION // MPICH and its derivatives use ROMIO
     if (path.find(':') != std::string::npos) {
-        throw FileError(
-            fmt::format("\"{}\" has a colon, and this MPI library takes what precedes it "
-                        "for a type of file system. Choose another path with -o.",
-                        path));
+        throw FileError(fmt::format(
+            "\"{}\" has a colon, but this MPI library interprets the text before a colon "
+            "as a type of file system. Choose another path with -o.",
+            path));
     }
 #endif
 }

@@ -1,4 +1,4 @@
-// The file of which no tile is computed yet, and its size.
+// Creates a file in which no tile is computed, and computes its size.
 
 #include "attributes.hpp"
 #include "coordinates.hpp"
@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const std::vector<Dimension>& dimensions)
     return names;
 }
 
-/// In the words of CF, of the variables that have them beside their dimensions.
+/// The coordinates that are not dimensions ("auxiliary" in the CF conventions).
 std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
 {
     std::string names;
@@ -49,11 +49,11 @@ std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
     return names;
 }
 
-/// Writes fill values to every chunk: all that a run does later is to overwrite them.
+/// Writes fill values to every chunk, so that a run only overwrites existing values.
 void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& path,
           const BetweenTiles& between_tiles)
 {
-    // What the system has not yet brought to the disk stays little: no wait for it takes long.
+    // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const std::int64_t points = tiling.points_of_tile();
     const std::int64_t bytes = points * std::int64_t(bytes_per_point(field));
@@ -101,7 +101,7 @@ void add_run_token(hid_t file)
         create_dataset(file, layout::run_token, H5T_STD_U64LE, {}, early_allocated());
     write_attribute(
         dataset, "long_name",
-        "random number by which the ranks of a run that starts compare their files, or 0");
+        "random number by which the ranks check at the start that they share the file, or 0");
 }
 
 void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
@@ -109,13 +109,14 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
     const Handle dataset = create_dataset(file, layout::checksum, H5T_STD_U64LE,
                                           {hsize_t(tiling.size())}, early_allocated());
     attach_dimensions(file, dataset, {layout::tile});
-    write_attribute(dataset, "long_name", "checksum of the tile, 0 where it is not computed yet");
+    write_attribute(dataset, "long_name", "checksum of the tile, 0 if it is not computed yet");
     write_attribute(dataset, "algorithm",
                     "xxHash64, seed 0, over the stored values of the tile, field by field in the "
                     "order of the variables; a hash of 0 is stored as 1");
-    write_attribute(dataset, "numbering",
-                    "tiles are rectangles of the last two dimensions at one place of the others, "
-                    "smaller at the far edges; the last dimension counts fastest");
+    write_attribute(
+        dataset, "numbering",
+        "tiles are rectangles in the last two dimensions, at one index of the others, smaller at "
+        "the far edges; the last dimension varies fastest");
     write_attribute(dataset, layout::dimensions,
                     fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
     write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
@@ -129,7 +130,7 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
         write_attribute(file, "tolerance", job.numerics.tolerance);
         write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
     }
-    add_run_token(file); // first, so that a limit of file sizes does not exclude it
+    add_run_token(file); // first, so that it is within any limit of file sizes
     const std::vector<Coordinate> coordinates = coordinates_of(job);
     for (const Coordinate& coordinate : coordinates) {
         add_variable(file, coordinate);
@@ -146,15 +147,15 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
 
 } // namespace
 
-// Values, coordinates, checksums and texts are exact. What HDF5 adds was measured on files of 1 to
-// 390625 tiles: 18 KB for the file, 1 KB for each field, and for its index of chunks nodes of 3656
-// bytes, one for 56 tiles (rounded up here).
+// Values, coordinates, checksums and texts are counted exactly. The overhead of HDF5 was measured
+// on files of 1 to 390625 tiles: 18 KB per file, 1 KB per field, and in the chunk index of a field
+// one node of 3656 bytes per 56 tiles (rounded up here).
 long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
 {
     const Plane& plane = job.plane;
     using Count = long double;
     const auto tiles = Count(tiling.size());
-    // Tiles at the far edges take the space of whole ones.
+    // Tiles at the far edges occupy whole chunks.
     const Count points = tiles * Count(tiling.points_of_tile());
     Count numbers = Count(plane.slenderness.size() * plane.restitution.size()) + tiles;
     for (const std::int64_t size : tiling.shape()) {
@@ -187,8 +188,8 @@ void create_spectrum_file(const std::string& path, const Job& job, const Tiling&
     const std::uint64_t available = part.available_bytes();
     if (needed > static_cast<long double>(available)) {
         throw FileError(
-            fmt::format("cannot create \"{}\": it takes {:.0f} bytes, and {} are available. "
-                        "Free some, choose another disk with -o, or ask for fewer "
+            fmt::format("cannot create \"{}\": it takes {:.0f} bytes, but {} are available. "
+                        "Free some space, choose another disk with -o, or reduce the number of "
                         "points or fields.",
                         path, needed, available));
     }

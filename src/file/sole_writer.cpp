@@ -16,7 +16,7 @@ namespace overturn {
 
 namespace {
 
-/// Whether the open file is still the one of that name: its last holder may have removed it.
+/// Whether the open file still has this name: the run that held the lock may have removed it.
 bool is_in_place(int descriptor, const std::string& path)
 {
     struct stat open_file = {};
@@ -25,7 +25,7 @@ bool is_in_place(int descriptor, const std::string& path)
            open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
 }
 
-/// Beside the file itself, whichever link to it was named.
+/// The path of the lock file, next to the file itself even if `path` is a link to it.
 std::string lock_of(const std::string& path)
 {
     std::error_code reported_by_open_lock;
@@ -33,8 +33,8 @@ std::string lock_of(const std::string& path)
     return (reported_by_open_lock ? path : file.string()) + ".lock";
 }
 
-/// Creates the lock, or opens that of another run. -1 if the folder cannot be written, which the
-/// first attempt to write there reports.
+/// Creates the lock file, or opens that of another run. Returns -1 if the folder is not writable;
+/// the first attempt to create a file there reports that.
 int open_lock(const std::string& lock)
 {
     for (;;) {
@@ -43,7 +43,7 @@ int open_lock(const std::string& lock)
             return descriptor;
         }
         if (!is_left_over(lock)) {
-            continue; // its holder has removed it
+            continue; // the other run has removed it
         }
         descriptor = open(lock.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
         if (descriptor >= 0) {
@@ -51,8 +51,8 @@ int open_lock(const std::string& lock)
         }
         if (errno != ENOENT) {
             throw FileError(
-                fmt::format("cannot open the lock \"{}\": {}. If no run of another user "
-                            "holds it, remove it; or choose another name with -o.",
+                fmt::format("cannot open the lock \"{}\": {}. Remove it if no other user's run "
+                            "is using it, or choose another name with -o.",
                             lock, system_reason(errno)));
         }
     }

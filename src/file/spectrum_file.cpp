@@ -34,10 +34,10 @@ struct SpectrumFile::Open {
     struct stat as_opened = {};
     std::chrono::steady_clock::time_point last_seen;
 
-    /// If a loss of power matters.
-    void bring_to_disk() const;
-    /// That the name still stands for the file that was opened, with all its bytes: writing into
-    /// one that was removed or cut fails nowhere.
+    /// Syncs the file if it is to survive a power failure.
+    void sync_if_durable() const;
+    /// Throws FileError if the path no longer names the opened file, or the file was truncated:
+    /// writing to a removed or truncated file reports no error.
     void expect_in_place();
     void expect_in_place_now_and_then();
     FileError cannot_write(const Tile& tile, std::string_view dataset,
@@ -47,8 +47,8 @@ struct SpectrumFile::Open {
 FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view dataset,
                                            const hdf5::Hdf5Error& error) const
 {
-    // MPI-IO keeps the reason of a failed write to itself: what the system said last is the best
-    // guess, and a full disk cannot be hidden.
+    // MPI-IO does not report the reason of a failed write: the last system error is the best guess,
+    // and a full disk can be detected.
     int reason = errno;
     struct statvfs disk = {};
     if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
@@ -57,7 +57,7 @@ FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view da
     return FileError(
         fmt::format("cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
                     tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
-                    reason == ENOSPC || reason == EDQUOT ? "Free some and run" : "Run"));
+                    reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run"));
 }
 
 void SpectrumFile::Open::expect_in_place()
@@ -65,18 +65,17 @@ void SpectrumFile::Open::expect_in_place()
     struct stat found = {};
     const bool is_found = stat(path.c_str(), &found) == 0;
     if (!is_found && errno != ENOENT) {
-        return; // no news: writing tells what is wrong
+        return; // inconclusive: a write will report the error
     }
     if (!is_found || found.st_dev != as_opened.st_dev || found.st_ino != as_opened.st_ino) {
         throw FileError(
-            fmt::format("\"{}\" was removed, moved or replaced while it was written. If "
-                        "it was moved, move it back and run the same command again to "
-                        "resume.",
+            fmt::format("\"{}\" was removed, moved or replaced during the run. If it was moved, "
+                        "move it back and run the same command again to resume.",
                         path));
     }
     if (found.st_size < as_opened.st_size) {
-        throw FileError(fmt::format("\"{}\" was cut from {} to {} bytes while it was written. "
-                                    "Remove it, and compute it again.",
+        throw FileError(fmt::format("\"{}\" was truncated from {} to {} bytes during the run. "
+                                    "Remove the file and recompute it.",
                                     path, as_opened.st_size, found.st_size));
     }
 }
@@ -91,19 +90,19 @@ void SpectrumFile::Open::expect_in_place_now_and_then()
     }
 }
 
-void SpectrumFile::Open::bring_to_disk() const
+void SpectrumFile::Open::sync_if_durable() const
 {
-    // MPI-IO has handed each write to the system when it returns; its own sync would want all ranks
-    // at once.
+    // A write by MPI-IO has been passed to the system when it returns. The sync of MPI-IO would be
+    // collective.
     if (durability == Durability::on_disk && !sync(path)) {
-        throw hdf5::Hdf5Error("the disk did not take it");
+        throw hdf5::Hdf5Error("syncing to the disk failed");
     }
 }
 
 namespace {
 
-/// Each write is handed to the system before it returns: a rank alone needs no MPI-IO for that,
-/// which would make and remove files of its own beside this one.
+/// Each write is passed to the system before it returns. A single rank does not use MPI-IO for
+/// that, because MPI-IO would create and remove temporary files next to this one.
 Handle unbuffered_access(MPI_Comm communicator)
 {
     Handle access = hdf5::file_access();
@@ -128,7 +127,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     open_->durability = durability;
     open_->fields = job.fields;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
-        // MPI-IO would say "invalid access mode".
+        // The message of MPI-IO would be "invalid access mode".
         throw FileError(
             fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
     }
@@ -196,12 +195,12 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
             dataset = name_of(open_->fields[i]);
             write_tile(open_->datasets[i], tile, open_->fields[i], fields.values[i]);
         }
-        open_->bring_to_disk();
+        open_->sync_if_durable();
         dataset = layout::checksum;
         write_checksum(open_->checksums, tile.number, tile_checksum(fields.values));
     } catch (const hdf5::Hdf5Error& error) {
         const FileError failure = open_->cannot_write(tile, dataset, error);
-        open_->expect_in_place(); // which would be the reason
+        open_->expect_in_place(); // throws if this is the reason
         throw failure;
     }
 }
@@ -214,11 +213,11 @@ void SpectrumFile::close()
         open_->checksums.close();
         check(H5Fflush(open_->file, H5F_SCOPE_GLOBAL));
         open_->file.close();
-        open_->bring_to_disk();
+        open_->sync_if_durable();
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(
-            fmt::format("cannot bring all of \"{}\" to the disk: {}. What it holds cannot "
-                        "be trusted: remove it and compute it again.",
+            fmt::format("cannot write all of \"{}\" to the disk: {}. Its content may be damaged: "
+                        "remove the file and recompute it.",
                         open_->path, error.what()));
     }
 }

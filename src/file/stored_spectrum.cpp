@@ -33,7 +33,7 @@ void demand(bool condition, const char* what_is_wrong)
     }
 }
 
-/// How many names the object has.
+/// The number of names (hard links) of an object.
 unsigned count_names(hid_t object)
 {
 #if H5_VERSION_GE(1, 12, 0)
@@ -46,17 +46,17 @@ unsigned count_names(hid_t object)
     return info.rc;
 }
 
-/// A dataset that lies in the file itself, under one name. HDF5 also follows links and storage into
-/// other files, to read them, and to write to them when a run goes on.
+/// Opens a dataset that is stored in the file itself, under a single name. HDF5 follows links and
+/// external storage into other files, which a resumed run would write to.
 Handle open_own_dataset(hid_t file, const std::string& name)
 {
     H5L_info_t link = {};
     check(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
-    demand(link.type == H5L_TYPE_HARD, "a dataset is a link to elsewhere");
+    demand(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
     Handle dataset = hdf5::open_dataset(file, name);
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
-           "the values of a dataset lie in another file");
+           "the values of a dataset are stored in another file");
     demand(count_names(dataset) == 1, "a dataset has two names");
     return dataset;
 }
@@ -75,8 +75,8 @@ bool has_type(hid_t dataset, hid_t expected)
     return check(H5Tequal(type, expected)) > 0;
 }
 
-/// The length of a list of this type. It is held against what is stored, so that a damaged one
-/// cannot make us allocate without bound.
+/// The length of a list of this type. It is checked against the size of the file, because a damaged
+/// length could exhaust the memory.
 hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
                        const char* what_is_wrong)
 {
@@ -89,8 +89,8 @@ hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
     return shape[0];
 }
 
-/// Whether all values are stored. Reads the whole index of chunks as well, so that a damaged one
-/// shows, or crashes HDF5, before anything else is done with the file.
+/// Whether all values are stored. This also reads the whole chunk index, so that a damaged index is
+/// found, or crashes HDF5, before the file is used.
 bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t bytes_per_value)
 {
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
@@ -126,7 +126,7 @@ AxisSummary read_axis(hid_t file, const std::string& name, std::uint64_t bytes)
             hdf5::read_text_attribute(dataset, "units")};
 }
 
-/// The fields in the order of their creation, which is the job's.
+/// The fields in the order of their creation, which is that of the job.
 std::vector<FieldSummary> read_fields(hid_t file)
 {
     H5G_info_t group = {};
@@ -163,7 +163,7 @@ void check_field(const StoredSpectrum& spectrum, Field field)
            "values of a field are missing");
 }
 
-/// The names of the dimensions, slowest first. Files of the first format had four.
+/// The names of the dimensions, slowest first. Files of format 1 have four.
 std::vector<std::string> read_dimensions(const StoredSpectrum& spectrum)
 {
     const Handle checksums = open_own_dataset(spectrum.file, layout::checksum);
@@ -205,7 +205,7 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
         std::count(spectrum.checksums.begin(), spectrum.checksums.end(), not_computed_checksum);
 }
 
-/// A file of the kinds up to the last one; `wanted` tells what it should have been.
+/// The metadata of a file whose kind is at most `last`; `wanted` names the kind in the message.
 FileOrigin read_origin(hid_t file, const std::string& path, FileKind last, const char* wanted)
 {
     FileOrigin origin;
@@ -216,14 +216,14 @@ FileOrigin read_origin(hid_t file, const std::string& path, FileKind last, const
     if (origin.kind > last) {
         throw FileError(fmt::format("\"{}\" is an HDF5 file, but not a {} of overturn{}.", path,
                                     wanted,
-                                    kind.empty() ? "" : fmt::format(": it is a \"{}\"", kind)));
+                                    kind.empty() ? "" : fmt::format(": its kind is \"{}\"", kind)));
     }
     origin.format = hdf5::has_attribute(file, layout::format_version)
                         ? hdf5::read_integer_attribute(file, layout::format_version)
                         : 1;
     if (origin.format < 1 || origin.format > layout::newest_format) {
-        throw FileError(fmt::format("\"{}\" has the format version {}, and this program reads "
-                                    "those up to {}. Use a newer one.",
+        throw FileError(fmt::format("\"{}\" has format version {}, but this program reads up to "
+                                    "version {} only. Use a newer program.",
                                     path, origin.format, layout::newest_format));
     }
     origin.title = hdf5::read_text_attribute(file, "title");
@@ -251,7 +251,7 @@ StoredSpectrum read_spectrum(Handle file, const std::string& path)
     return spectrum;
 }
 
-/// In the words of HDF5.
+/// Throws Hdf5Error, which foreign_coordinates() converts.
 std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
 {
     const auto has_shape = [&](const std::string& name, const std::vector<hsize_t>& shape) {
@@ -259,7 +259,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
         return shape_of(dataset) == shape && has_type(dataset, H5T_IEEE_F64LE);
     };
     std::vector<std::string> foreign;
-    // Sizes first: those of a made-up job may be beyond all memory, those in the file are not.
+    // Sizes first: the job in a malicious file may have axes that do not fit into memory.
     for (const Dimension& dimension : dimensions_of(job)) {
         if (!has_shape(dimension.name, {hsize_t(dimension.axis->size())})) {
             foreign.emplace_back(dimension.name);
@@ -289,7 +289,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     return foreign;
 }
 
-/// What `read` returns; a file that it cannot read is refused by name.
+/// Returns the result of `read`; converts its errors to a FileError that names the file.
 template <class Read>
 auto or_refused(const std::string& path, const Read& read)
 {
@@ -299,7 +299,7 @@ auto or_refused(const std::string& path, const Read& read)
         throw FileError(
             fmt::format("\"{}\" cannot be read or is damaged: {}.", path, error.what()));
     } catch (const std::bad_alloc&) {
-        throw FileError(fmt::format("\"{}\" is damaged: a size in it is absurd.", path));
+        throw FileError(fmt::format("\"{}\" is damaged: it contains an impossible size.", path));
     }
 }
 
@@ -307,9 +307,9 @@ Handle open_file(const std::string& path)
 {
     std::error_code reason;
     if (!std::filesystem::is_regular_file(path, reason)) {
-        throw FileError(
-            fmt::format("cannot read \"{}\": {}.", path,
-                        reason ? in_sentence(reason.message()) : std::string("it is not a file")));
+        throw FileError(fmt::format("cannot read \"{}\": {}.", path,
+                                    reason ? in_sentence(reason.message())
+                                           : std::string("it is not a regular file")));
     }
     hdf5::start();
     if (check(H5Fis_hdf5(path.c_str())) == 0) {

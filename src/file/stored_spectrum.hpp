@@ -1,5 +1,5 @@
-// A result file opened for reading, its structure checked: whoever holds one of these can trust the
-// numbers in it, if not yet the values of the tiles.
+// A result file opened for reading. Its structure and metadata are checked; the values of its tiles
+// are not.
 #pragma once
 
 #include "hdf5_handles.hpp"
@@ -22,11 +22,11 @@ struct StoredSpectrum : SpectrumSummary {
     Tiling tiling() const;
 };
 
-/// Names of the coordinates whose size or values are not those that the job gives them. Throws
-/// FileError if they cannot be read.
+/// Names of the coordinates whose size or values do not match the job. Throws FileError if they
+/// cannot be read.
 std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job);
 
-/// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
+/// Throws FileError if the file is missing, not a spectrum or boundary of overturn, or damaged.
 StoredSpectrum open_stored_spectrum(const std::string& path);
 
 } // namespace overturn

@@ -31,7 +31,7 @@ Extents begin_of(const Tile& tile)
     return begin;
 }
 
-/// Where a tile lies in a dataset.
+/// The part of a dataset that a tile occupies.
 Handle selection(hid_t dataset, const Tile& tile)
 {
     const Extents begin = begin_of(tile);
@@ -41,8 +41,8 @@ Handle selection(hid_t dataset, const Tile& tile)
     return space;
 }
 
-/// The tile's values in memory, in the shape of the selection: HDF5 walks point by point through
-/// shapes that differ, which cost half as much as computing the points.
+/// The tile's values in memory, in the shape of the selection: if the shapes differ, HDF5 copies
+/// point by point, which took half as long as computing the points.
 Handle in_memory(const Tile& tile)
 {
     const Extents count = extents_of(tile);

@@ -1,5 +1,5 @@
-// The values of one tile in a dataset of the result file, and the checksums of all: a checksum
-// marks a tile as done.
+// Access to the values of one tile in a dataset, and to the checksums of all tiles, which mark
+// tiles as done.
 #pragma once
 
 #include "hdf5_handles.hpp"
@@ -12,10 +12,10 @@
 
 namespace overturn {
 
-/// What stands where nothing is computed yet.
+/// The fill values of points that are not computed yet.
 FieldValues not_computed(Field field, std::int64_t points);
 
-/// Writes all of a tile's chunk, for the first time. Not through MPI-IO.
+/// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
 void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values);
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);

@@ -11,7 +11,7 @@ namespace overturn {
 
 void expect_room_for(const std::string& path, FileKind kind)
 {
-    static_cast<void>(PartFile(path)); // which throws if there is no folder, or none to write in
+    static_cast<void>(PartFile(path)); // throws if the folder is missing or not writable
     if (!std::filesystem::exists(path)) {
         return;
     }
@@ -23,8 +23,8 @@ void expect_room_for(const std::string& path, FileKind kind)
         found = "";
     }
     if (found != layout::name_of(kind)) {
-        throw FileError(fmt::format("\"{}\" exists and is no {}. Remove it, or choose another name "
-                                    "with -o.",
+        throw FileError(fmt::format("\"{}\" exists but its kind is not \"{}\". Remove it, or "
+                                    "choose another name with -o.",
                                     path, layout::name_of(kind)));
     }
 }

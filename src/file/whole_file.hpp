@@ -1,4 +1,4 @@
-// Result files that are written in one step when everything is computed: complete, or not there.
+// Result files that are written as a whole at the end of the computation: complete, or absent.
 #pragma once
 
 #include "netcdf.hpp"
@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// Makes a file of this kind with what `write` puts into it, in place of an older one of the kind.
-/// Throws FileError.
+/// Creates a file of this kind with the content that `write` adds; replaces an existing file of the
+/// same kind. Throws FileError.
 void write_whole_file(const std::string& path, FileKind kind, const Job& job,
                       const std::function<void(hid_t file)>& write);
 

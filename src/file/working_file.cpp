@@ -17,9 +17,9 @@ namespace overturn {
 
 namespace {
 
-/// Has no meaning for files under Linux, and is set when they are created. On a file system that
-/// does not keep it, the files of killed runs look foreign: they are refused, and have to be
-/// removed by hand.
+/// The permission bit that marks working files; it has no meaning for files under Linux. On a file
+/// system that does not store it, the files left by killed runs look like files of other programs:
+/// they are refused, and must be removed by hand.
 constexpr mode_t mark = S_ISVTX;
 
 std::string folder_of(const std::string& path)
@@ -28,7 +28,7 @@ std::string folder_of(const std::string& path)
     return folder.empty() ? std::string(".") : folder.string();
 }
 
-/// The file that is to be replaced, if the path is a link to one.
+/// The file to replace: the target if the path is a link to a file, else the path.
 std::string behind_links(const std::string& path)
 {
     std::error_code none;
@@ -51,10 +51,10 @@ bool is_left_over(const std::string& path)
         return false;
     }
     if (!S_ISREG(file.st_mode) || (file.st_mode & mark) == 0) {
-        throw FileError(fmt::format("\"{}\" exists, was not made by overturn, and has the name of "
-                                    "a file that overturn needs for a while. Move it away, or "
-                                    "choose another name with -o.",
-                                    path));
+        throw FileError(
+            fmt::format("\"{}\" exists but is not an overturn {} file. Move it away, or "
+                        "choose another name with -o.",
+                        path, path.ends_with(".lock") ? "lock" : "part"));
     }
     return true;
 }
@@ -102,7 +102,7 @@ std::uint64_t PartFile::available_bytes() const
 {
     struct statvfs disk = {};
     if (statvfs(folder_.c_str(), &disk) != 0) {
-        throw FileError(fmt::format("cannot see how much space is left in \"{}\": {}.", folder_,
+        throw FileError(fmt::format("cannot determine the free space in \"{}\": {}.", folder_,
                                     system_reason(errno)));
     }
     return std::uint64_t(disk.f_bavail) * disk.f_frsize;
@@ -115,8 +115,8 @@ void PartFile::move_into_place()
     }
     in_place_ = true;
     namespace fs = std::filesystem;
-    std::error_code left_as_it_is; // by a file system that does not allow it
-    fs::permissions(target_, fs::perms::sticky_bit, fs::perm_options::remove, left_as_it_is);
+    std::error_code ignored; // some file systems do not allow it
+    fs::permissions(target_, fs::perms::sticky_bit, fs::perm_options::remove, ignored);
 }
 
 } // namespace overturn

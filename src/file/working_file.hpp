@@ -1,5 +1,5 @@
-// Files that exist beside a result while overturn works: a lock, and parts that are renamed when
-// they are whole. Other files of such a name are never reused or removed.
+// Temporary files next to a result while overturn runs: a lock, and part files that are renamed
+// when they are complete. Files of other programs with such a name are never reused or removed.
 #pragma once
 
 #include <cstdint>
@@ -7,32 +7,32 @@
 
 namespace overturn {
 
-/// Returns the descriptor of a new one; -1, with errno, if it cannot be created.
+/// Creates a working file and returns its descriptor; -1, with errno, on failure.
 int create_working_file(const std::string& path);
 
-/// Whether there is one, of a run that was killed or still works. Throws FileError if another file
-/// has the name.
+/// Whether a working file of a killed or active run exists. Throws FileError if a file of another
+/// program has the name.
 bool is_left_over(const std::string& path);
 
-/// A file under construction: it is written under another name, OUT.part, and takes its own in one
-/// step when it is whole and on the disk. If that never comes, it disappears again.
+/// A file under construction. It is written as OUT.part and renamed atomically when it is complete
+/// and synced to the disk. If it is not completed, the destructor removes it.
 class PartFile {
 public:
-    /// Throws FileError if the folder of `path` is missing or not writable, if `path` is a link to
-    /// nothing, or if the part's name is taken. The part of a run that was killed is replaced. A
-    /// link to a file stays: the part becomes that file.
+    /// Throws FileError if the folder of `path` is missing or not writable, if `path` is a dangling
+    /// link, or if another program's file is called OUT.part. The part file of a killed run is
+    /// replaced. If `path` is a link to a file, the link is kept and its target is replaced.
     explicit PartFile(const std::string& path);
     ~PartFile();
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
 
-    /// Where to write.
+    /// The path of the part file, to write to.
     const std::string& path() const { return part_; }
 
-    /// Bytes that the disk still takes from a user without privileges.
+    /// Free space on the disk for an unprivileged user [byte].
     std::uint64_t available_bytes() const;
 
-    /// The writer has closed the file: sync it and rename it. Throws FileError.
+    /// Syncs the file, which must be closed, and renames it. Throws FileError.
     void move_into_place();
 
 private:

@@ -6,9 +6,9 @@ namespace {
 
 constexpr std::size_t npos = std::string_view::npos;
 
-/// The end of the string that begins at `begin`, as TOML has it: with one quote or three, and with
-/// backslashes if the quotes are double ones. A line's end in a string of one quote is an error,
-/// and whatever follows it does not matter.
+/// The end of the TOML string that begins at `begin`: with one quote or three, and with escapes if
+/// the quotes are double. A newline in a string of one quote is an error, after which the result
+/// does not matter.
 std::size_t end_of_string(std::string_view text, std::size_t begin)
 {
     const char quote = text[begin];
@@ -20,7 +20,7 @@ std::size_t end_of_string(std::string_view text, std::size_t begin)
         end += quote == '"' && text[end] == '\\' ? 2 : 1;
     }
     end += is_long ? 3 : 1;
-    // Up to two quotes before the last three belong to the string.
+    // Up to two quotes before the closing three belong to the string.
     for (int i = 0; is_long && i < 2 && end < text.size() && text[end] == quote; ++i) {
         ++end;
     }

@@ -1,4 +1,4 @@
-// Keys with so many parts that no stack is long enough for the tables they make.
+// Finds keys with so many parts that parsing them would overflow the stack.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace overturn {
 
-/// Parts that a dotted key of a TOML text may have; a job's have three.
+/// Maximum number of parts of a dotted key; those of a job have at most three.
 inline constexpr std::size_t most_key_parts = 16;
 
-/// Where the text has a key of more parts; npos if it has none. toml++ makes a table within a table
-/// of each part, and takes them apart by recursion.
+/// The position of a key with more parts in a TOML text; npos if there is none. toml++ creates
+/// nested tables for the parts, and destroys them recursively.
 std::size_t find_deep_key(std::string_view text);
 
 } // namespace overturn

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 6> job_keys{"title", "scene",    "plane",
                                                    "block", "numerics", "output"};
 
-// Lists of millions of values fit; something that is no job at all does not fill the memory.
+// Sufficient for lists of millions of values; a file that is not a job cannot fill the memory.
 constexpr std::size_t largest_file = std::size_t(64) << 20;
 
 [[noreturn]] void refuse_file(const std::string& path, int error)
@@ -42,8 +42,8 @@ std::string file_text(const std::string& path)
         text.append(block.data(), size);
         if (text.size() > largest_file) {
             throw JobError(
-                fmt::format("{}: is larger than {} MiB, the most that a job file can be. Give "
-                            "long axes as first, last and count.",
+                fmt::format("{}: is larger than {} MiB, the maximum size of a job file. Give long "
+                            "axes as first, last and count.",
                             path, largest_file >> 20));
         }
     }
@@ -57,15 +57,15 @@ toml::table parse(const std::string& text, const std::string& path)
 {
     if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
         const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
-        throw JobError(fmt::format("{}:{}: a key has more than {} parts, and those of a job have "
-                                   "three at most, such as plane.frequency.count. Mend it.",
+        throw JobError(fmt::format("{}:{}: a key has more than {} parts, but keys of a job have at "
+                                   "most three, such as plane.frequency.count. Shorten the key.",
                                    path, line, most_key_parts));
     }
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
-        throw JobError(fmt::format("{}: this is not TOML: {}. Mend it here or just before; text "
-                                   "wants \"quotes\".",
+        throw JobError(fmt::format("{}: this is not TOML: {}. Fix it here or just before; strings "
+                                   "need \"quotes\".",
                                    place_of(error.source()),
                                    on_one_line(std::string(error.description()))));
     }
@@ -79,15 +79,15 @@ std::string read_title(const Entry& job)
     }
     std::string title = string_of(*entry);
     if (title.find('\0') != title.npos) {
-        refuse(*entry, " holds a NUL character, which ends strings in other programs. Remove it.");
+        refuse(*entry, " has a NUL character, which ends strings in other programs. Remove it.");
     }
     return title;
 }
 
-/// What can be addressed, with room to spare [bytes].
+/// Largest total size of the fields [bytes], with a margin to what can be addressed.
 constexpr long double most_bytes = 0x1p62L;
 
-/// How much a job asks for: in floating point, which cannot overflow here.
+/// The size of a job, in floating point, which cannot overflow here.
 struct JobSize {
     long double points;
     long double bytes;
@@ -120,7 +120,7 @@ Job read_job_text(std::string text, const std::string& name,
     job.overrides = overrides;
     toml::table table = parse(job.given, name);
     for (const std::string& argument : overrides) {
-        lay_override(table, argument);
+        apply_override(table, argument);
     }
     const Entry entry{&table, ""};
     expect_table(entry, job_keys);
@@ -132,8 +132,8 @@ Job read_job_text(std::string text, const std::string& name,
     job.plane = read_plane(entry);
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         refuse(*find(entry, "plane"),
-               fmt::format(" has {:.4g} points and would take {:.4g} bytes; {:.4g} can be "
-                           "addressed. Lower the counts.",
+               fmt::format(" has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are "
+                           "allowed. Lower the counts.",
                            size.points, size.bytes, most_bytes));
     }
     job.resolved = resolved_text(job);
@@ -143,8 +143,8 @@ Job read_job_text(std::string text, const std::string& name,
 Job boundary_of(Job job)
 {
     if (job.plane.amplitude.size() == 1) {
-        throw JobError(fmt::format("plane.amplitude has one value, {}, and flips are looked for "
-                                   "between the first and the last. Give two or more.",
+        throw JobError(fmt::format("plane.amplitude has one value, {}, but flips are found between "
+                                   "the first and the last. Give two or more values.",
                                    job.plane.amplitude.first()));
     }
     job.product = Product::boundary;
@@ -152,11 +152,11 @@ Job boundary_of(Job job)
     job.scan = job.plane.amplitude;
     job.plane.amplitude = Axis(AxisRange{0, double(most_crossings - 1), most_crossings});
     job.fields.assign(boundary_fields.begin(), boundary_fields.end());
-    // A spectrum of two amplitudes may have a boundary of 64 crossings that is too large.
+    // With fewer than 64 amplitudes, the boundary is larger than the spectrum.
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
-                                   "slenderness, whose boundaries would take {:.4g} bytes; {:.4g} "
-                                   "can be addressed. Lower the counts.",
+                                   "slenderness, whose boundaries would take {:.4g} bytes, but at "
+                                   "most {:.4g} are allowed. Lower the counts.",
                                    size.points / most_crossings, size.bytes, most_bytes));
     }
     return job;
@@ -164,8 +164,8 @@ Job boundary_of(Job job)
 
 Tiling tiling_of(const Job& job)
 {
-    // A line of a boundary takes longer than a tile of a spectrum: some 10 ms, and many times that
-    // where a slow pulse lets blocks bounce on and on.
+    // A line of a boundary takes longer than a tile of a spectrum: about 10 ms, and much more for
+    // slow pulses, under which blocks bounce very often.
     constexpr std::int64_t lines = 1;
     return job.product == Product::boundary ? Tiling(shape_of(job.plane), most_crossings, lines)
                                             : Tiling(job.plane);

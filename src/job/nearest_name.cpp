@@ -9,8 +9,8 @@ namespace overturn {
 
 namespace {
 
-/// Letters to insert, remove, replace or swap with their neighbour to turn one word into the other
-/// (optimal string alignment), capital letters aside.
+/// The number of letters to insert, remove, replace or swap with their neighbour to turn one word
+/// into the other (optimal string alignment), ignoring case.
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
     const auto equal = [&](std::size_t i, std::size_t j) {
@@ -44,7 +44,7 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
     std::size_t least = word.size() + 1;
     for (const std::string_view name : names) {
         const auto [shorter, longer] = std::minmax({word.size(), name.size()});
-        // The distance is at least the difference in length: a huge word is not looked into.
+        // The distance is at least the difference in length; this skips huge words.
         if (3 * (longer - shorter) > longer) {
             continue;
         }

@@ -17,10 +17,10 @@ namespace {
 
 using Path = std::vector<std::string>;
 
-// An argument may hold a list of thousands; in a message its beginning is enough.
+// An argument may be a list of thousands of values; messages quote its beginning.
 constexpr std::size_t longest_place = 100;
 
-/// The argument on one line.
+/// The beginning of the argument, on one line, as the place in messages.
 std::string place_of_argument(const std::string& argument)
 {
     return on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
@@ -45,8 +45,8 @@ bool is_bare_key(std::string_view key)
     });
 }
 
-/// Text that can only be meant as a string: it begins with a letter and has nothing in it that
-/// quotes, brackets, comments or ends a line in TOML.
+/// Whether a text can only be a string without quotes: it begins with a letter and has no quotes,
+/// brackets, comments or newlines.
 bool is_unquoted_string(std::string_view text)
 {
     const auto is_special = [](unsigned char letter) {
@@ -62,8 +62,8 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
     Path path;
     while (true) {
         if (path.size() == most_key_parts) {
-            refuse_argument(argument, fmt::format("the key has more than {} parts, and those of a "
-                                                  "job have three at most.",
+            refuse_argument(argument, fmt::format("the key has more than {} parts, but keys of a "
+                                                  "job have at most three.",
                                                   most_key_parts));
         }
         const std::size_t dot = dotted_key.find('.');
@@ -71,9 +71,9 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
         if (!is_bare_key(key)) {
             refuse_argument(
                 argument,
-                fmt::format("the key {} is {}. Keys are words of letters, digits, '_' and "
-                            "'-', joined by dots, such as plane.frequency.count.",
-                            in_quotes(key), key.empty() ? "empty" : "not usable"));
+                fmt::format("the key {} is {}. Keys consist of letters, digits, '_' and '-', "
+                            "joined by dots, such as plane.frequency.count.",
+                            in_quotes(key), key.empty() ? "empty" : "invalid"));
         }
         path.emplace_back(key);
         if (dot == dotted_key.npos) {
@@ -83,8 +83,8 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
     }
 }
 
-/// A job with this one entry, which knows that it came from the argument. A value that is no TOML
-/// may still be a string without its quotes.
+/// A job with this entry only, whose source is the argument. A value that is not TOML may be a
+/// string without quotes.
 toml::table job_of(const std::string& argument, const Path& path, std::string_view value)
 {
     std::string problem;
@@ -106,33 +106,33 @@ toml::table job_of(const std::string& argument, const Path& path, std::string_vi
         job = parsed(in_quotes(value));
     }
     if (!job) {
-        refuse_argument(argument, fmt::format("the value is not valid TOML: {}. Write a number, a "
+        refuse_argument(argument, fmt::format("the value is not valid TOML: {}. Give a number, a "
                                               "\"string\", or a [list].",
                                               problem));
     }
     return *std::move(job);
 }
 
-/// The value at the end of the path; along it, no table may hold anything else.
-const toml::node& value_at(const toml::table& laid, const Path& path, const std::string& argument)
+/// The value at the end of the path. Refuses the argument if a table on the path has other keys.
+const toml::node& value_at(const toml::table& given, const Path& path, const std::string& argument)
 {
-    const toml::node* node = &laid;
+    const toml::node* node = &given;
     for (std::size_t depth = 0; depth < path.size(); ++depth) {
         const toml::table& table = *node->as_table();
         if (table.size() != 1) {
-            refuse_argument(argument, "there is more than one value. Give each its own --set.");
+            refuse_argument(argument, "there is more than one value. Use one --set for each.");
         }
         node = &table.begin()->second;
     }
     return *node;
 }
 
-/// Moves the value at the end of the path to the same place in the job. A moved node still knows
-/// where it came from; a copied one would not.
-void lay(toml::table& job, toml::table& laid, const Path& path, const std::string& argument)
+/// Moves the value at the end of the path to the same path in the job. A moved node keeps its
+/// source position; a copied one would lose it.
+void move_value(toml::table& job, toml::table& given, const Path& path, const std::string& argument)
 {
     toml::table* onto = &job;
-    toml::table* from = &laid;
+    toml::table* from = &given;
     for (std::size_t depth = 0;; ++depth) {
         const auto entry = from->begin();
         toml::node* present = onto->get(path[depth]);
@@ -142,8 +142,8 @@ void lay(toml::table& job, toml::table& laid, const Path& path, const std::strin
         }
         if (!present->is_table()) {
             const auto end = path.begin() + std::ptrdiff_t(depth + 1);
-            refuse_argument(argument, fmt::format("{} is not a table in the job: there is nothing "
-                                                  "inside it that could be set.",
+            refuse_argument(argument, fmt::format("{} is not a table in the job, so it has no keys "
+                                                  "to set.",
                                                   fmt::join(path.begin(), end, ".")));
         }
         onto = present->as_table();
@@ -160,7 +160,7 @@ void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys
     }
 }
 
-/// Drops from the job what a new value at this path contradicts.
+/// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
     if (path[0] == "block") {
@@ -186,9 +186,9 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
     }
 }
 
-/// Makes room for a key of an axis that the job gives as a number: the number stays as its list of
-/// values, unless the key gives others.
-void make_room(toml::table& job, toml::table& laid, const Path& path)
+/// Removes an axis that the job gives as a number, before a key of it is set. If the key is `of` or
+/// `spacing`, the number is kept as the list of values.
+void replace_number(toml::table& job, toml::table& given, const Path& path)
 {
     toml::table* plane = job["plane"].as_table();
     toml::node* axis = plane == nullptr ? nullptr : plane->get(path[1]);
@@ -196,38 +196,38 @@ void make_room(toml::table& job, toml::table& laid, const Path& path)
         return;
     }
     if (path[2] == "of" || path[2] == "spacing") {
-        toml::array values; // of moved nodes, which know where they came from
+        toml::array values; // of moved nodes, which keep their source position
         axis->visit([&](auto& number) {
             if constexpr (toml::is_number<decltype(number)>) {
                 values.push_back(std::move(number));
             }
         });
-        laid["plane"][path[1]].as_table()->insert("values", std::move(values));
+        given["plane"][path[1]].as_table()->insert("values", std::move(values));
     }
     plane->erase(path[1]);
 }
 
 } // namespace
 
-void lay_override(toml::table& job, const std::string& argument)
+void apply_override(toml::table& job, const std::string& argument)
 {
     const std::size_t equals = argument.find('=');
     if (equals == argument.npos) {
-        refuse_argument(
-            argument, "there is no '='. Write key.path=value, such as plane.frequency.count=100.");
+        refuse_argument(argument,
+                        "there is no '='. Give key.path=value, such as plane.frequency.count=100.");
     }
     const Path path = path_of(argument, std::string_view(argument).substr(0, equals));
     const std::string_view value = trimmed(std::string_view(argument).substr(equals + 1));
     if (value.empty()) {
         refuse_argument(argument,
-                        "the value is missing. Write it after the '='; an empty string is \"\".");
+                        "the value is missing. Give it after the '='; an empty string is \"\".");
     }
-    toml::table laid = job_of(argument, path, value);
-    drop_contradictions(job, path, value_at(laid, path, argument));
+    toml::table given = job_of(argument, path, value);
+    drop_contradictions(job, path, value_at(given, path, argument));
     if (path[0] == "plane" && path.size() == 3) {
-        make_room(job, laid, path);
+        replace_number(job, given, path);
     }
-    lay(job, laid, path, argument);
+    move_value(job, given, path, argument);
 }
 
 } // namespace overturn

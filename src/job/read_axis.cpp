@@ -32,7 +32,7 @@ AxisList read_list(const Entry& entry, const AxisRule& rule)
         if (i > 0 && !(value > values.back())) {
             refuse(entry_of_value,
                    fmt::format(" = {} {} the value before it, {}. Sort the values in ascending "
-                               "order, each of them once.",
+                               "order, and give each once.",
                                value, value == values.back() ? "repeats" : "is below",
                                values.back()));
         }
@@ -41,13 +41,13 @@ AxisList read_list(const Entry& entry, const AxisRule& rule)
     return values;
 }
 
-/// Whether the computed values surely ascend; otherwise neighbours might coincide. The interval
-/// [first, last] is not negative, so that a value is at most `last`.
+/// Whether the computed values are guaranteed to ascend; otherwise neighbours might coincide. All
+/// values are in [0, last].
 ///
-/// Linear: the roundings of first + (last - first) i / (count - 1) move a value by less than
-/// 1.5 eps last, the last step by another 0.5 eps last: neighbours 4 eps last apart cannot meet.
-/// Logarithmic: with L = log(last / first), those of first pow(last / first, i / (count - 1)) move
-/// the logarithm of a value by less than 0.5 eps (L + 4).
+/// Linear: the rounding error of first + (last - first) i / (count - 1) is below 1.5 eps last, and
+/// the final rounding adds 0.5 eps last, so neighbours 4 eps last apart cannot coincide.
+/// Logarithmic: with L = log(last / first), the rounding error of the logarithm of a value
+/// first pow(last / first, i / (count - 1)) is below 0.5 eps (L + 4).
 bool surely_ascends(const AxisRange& range)
 {
     if (range.count <= 2) {
@@ -59,7 +59,7 @@ bool surely_ascends(const AxisRange& range)
         const double extent = std::log(range.last / range.first);
         return extent / steps >= 4 * epsilon * (1 + extent);
     }
-    // Among subnormal numbers the roundings are absolute.
+    // Rounding errors of subnormal numbers are absolute.
     const double least_step =
         std::fmax(epsilon * range.last, std::numeric_limits<double>::denorm_min());
     return (range.last - range.first) / steps >= 4 * least_step;
@@ -72,7 +72,7 @@ void check_range(const Entry& entry, const AxisRange& range)
     const Entry count_entry = *find(entry, "count");
     if (first > last) {
         refuse(first_entry,
-               fmt::format(" = {} is above last = {}. Axes ascend: swap them.", first, last));
+               fmt::format(" = {} is above last = {}. Axes must ascend: swap them.", first, last));
     }
     if (count == 1 && first != last) {
         refuse(count_entry, fmt::format(" = 1 needs first = last, but first = {} and last = {}. "
@@ -82,22 +82,22 @@ void check_range(const Entry& entry, const AxisRange& range)
     if (count > 1 && first == last) {
         refuse(count_entry,
                fmt::format(" = {} needs first below last, but both are {}. Set count = 1, "
-                           "or move one of them.",
+                           "or change one of them.",
                            count, first));
     }
     if (spacing == Spacing::log && !(first > 0)) {
         refuse(first_entry,
-               fmt::format(" = {} cannot begin a logarithmic range. Raise it above 0, or "
+               fmt::format(" = {} cannot start a logarithmic range. Raise it above 0, or "
                            "use spacing = \"linear\".",
                            first));
     }
-    // The values, or what is computed on the way to them, must not overflow.
+    // The values and intermediate results must not overflow.
     const double widest =
         spacing == Spacing::log ? last / first : (last - first) * double(count - 1);
     if (!std::isfinite(widest)) {
         refuse(first_entry,
-               fmt::format(" = {} is too far from last = {} for double precision. Bring "
-                           "them closer.",
+               fmt::format(" = {} is too far from last = {} for double precision. Move "
+                           "them closer together.",
                            first, last));
     }
     if (!surely_ascends(range)) {
@@ -140,8 +140,8 @@ Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys)
     }
     for (const std::string_view key : {"first", "last", "count", "spacing"}) {
         if (const auto other = find(entry, key)) {
-            refuse(*other,
-                   fmt::format(" cannot stand beside {}.values. Remove one of them.", entry.key));
+            refuse(*other, fmt::format(" cannot be combined with {}.values. Remove one of them.",
+                                       entry.key));
         }
     }
     return Axis(read_list(*values, rule));

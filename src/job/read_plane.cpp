@@ -21,14 +21,14 @@ constexpr std::string_view axis_advice =
 constexpr double right_angle = std::numbers::pi / 2;
 
 const AxisRule frequency_rule{"(0, inf)", [](double value) { return value > 0; },
-                              "A pulse must end, so its frequency is above 0."};
+                              "The frequency of a pulse must be positive."};
 const AxisRule amplitude_rule{"[0, inf)", [](double value) { return value >= 0; },
-                              "It is the size of the peak ground acceleration."};
+                              "It is the magnitude of the peak ground acceleration."};
 const AxisRule restitution_rule{"(0, 1]", [](double value) { return value > 0 && value <= 1; },
                                 "A block cannot gain energy at an impact, nor lose all of it."};
 const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return value > 0; },
                                       "It is a share of the largest restitution (Eq. 17)."};
-// Below, squares of the speed over alpha leave the range of a double.
+// Below 1e-100, squares of velocity over alpha exceed the range of a double.
 const AxisRule slenderness_rule{"[1e-100, pi/2)",
                                 [](double value) { return value >= 1e-100 && value < right_angle; },
                                 "It is arctan(half width / half height) in radians."};
@@ -38,8 +38,7 @@ double read_size(const Entry& block, std::string_view name)
     const Entry entry = require(block, name, "Give half_width and half_height in metres.");
     const double size = number_of(entry);
     if (!(size > 0)) {
-        refuse(entry,
-               fmt::format(" = {} is outside (0, inf). A block has a size, in metres.", size));
+        refuse(entry, fmt::format(" = {} is outside (0, inf). It is a length in metres.", size));
     }
     return size;
 }
@@ -50,23 +49,23 @@ double slenderness_of(const Entry& entry, const BlockSize& block)
     const double slenderness = std::atan(block.half_width / block.half_height);
     if (!slenderness_rule.allows(slenderness)) {
         refuse(entry,
-               fmt::format(" has half_width = {} and half_height = {}: their slenderness {} is "
-                           "outside {}. Bring the two closer.",
+               fmt::format(" has half_width = {} and half_height = {}: its slenderness {} is "
+                           "outside {}. Choose a ratio closer to 1.",
                            block.half_width, block.half_height, slenderness,
                            slenderness_rule.interval));
     }
     return slenderness;
 }
 
-/// The entry that gives the slenderness: plane.slenderness or block, and not both.
+/// The entry that gives the slenderness: either plane.slenderness or block.
 Entry slenderness_entry(const Entry& job, const Entry& plane)
 {
     const auto slenderness = find(plane, "slenderness");
     const auto block = find(job, "block");
     if (slenderness && block) {
         refuse(*slenderness,
-               " cannot stand beside [block], which gives the slenderness too. Remove "
-               "one of them.");
+               " cannot be combined with [block], which also gives the slenderness. Remove one of "
+               "them.");
     }
     if (block) {
         return *block;
@@ -75,24 +74,25 @@ Entry slenderness_entry(const Entry& job, const Entry& plane)
                    fmt::format("{} Or add [block] with half_width and half_height.", axis_advice));
 }
 
-/// With of = "maximum" the slenderness must leave a largest restitution (Eq. 17), which falls as
-/// the slenderness grows, and the product of the two must be in (0, 1]. A share above 1 is allowed:
-/// r_max is the largest value of a block on a flat base, not a bound of nature.
+/// With of = "maximum", r_max (Eq. 17), which decreases with the slenderness, must be positive, and
+/// r must be in (0, 1]. A share above 1 is allowed: r_max is the maximum for a block on a flat
+/// base, not a physical limit.
 void check_restitution(const Entry& slenderness, const Entry& restitution, const Plane& plane)
 {
     const double limit = std::asin(std::sqrt(2.0 / 3.0));
     const double last = plane.slenderness.last();
     if (plane.restitution_of == RestitutionOf::maximum && !(last < limit)) {
-        refuse(slenderness,
-               fmt::format(" reaches {} rad, but plane.restitution.of = \"maximum\" has a meaning "
-                           "below arcsin sqrt(2/3) = {} rad only (Eq. 17). Lower it, or use of "
-                           "= \"absolute\".",
-                           last, limit));
+        refuse(
+            slenderness,
+            fmt::format(" reaches {} rad, but plane.restitution.of = \"maximum\" is defined only "
+                        "below arcsin sqrt(2/3) = {} rad (Eq. 17). Lower it, or use of = "
+                        "\"absolute\".",
+                        last, limit));
     }
     if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {
         refuse(slenderness,
                fmt::format(" reaches {} rad, where plane.restitution[0] = {} times the largest "
-                           "restitution vanishes. Lower it.",
+                           "restitution is 0. Lower it.",
                            last, plane.restitution.first()));
     }
     const double largest = plane.restitution_ratio(0, plane.restitution.size() - 1);

@@ -16,23 +16,23 @@ constexpr std::array<std::string_view, 3> scene_keys{"pulse", "theory", "window"
 constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
 constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
-// At 8 periods the wavelets have fallen below 1e-180 of their peak.
+// At 8 periods the wavelets are below 1e-180 of their peak.
 constexpr double widest_window = 8;
 
-// Below, the round-off of a step is as large as the error that it may have; above, a verdict is
-// hardly more than a guess.
+// Below this range the round-off of a step is as large as the tolerance; above it verdicts are not
+// reliable.
 constexpr double least_tolerance = 1e-14;
 constexpr double largest_tolerance = 1e-2;
 
-// Enough for all but one verdict in some thousand, and the cheapest at which errors are known well.
+// About one verdict in a thousand needs more; at looser tolerances errors are not known well.
 constexpr double tolerance_to_resolve_from = 1e-4;
 
 double read_window(const Entry& entry, PulseKind pulse)
 {
     if (!has_window(pulse)) {
         refuse(entry,
-               fmt::format(" has no meaning for the pulse \"{}\", which ends by itself. Only "
-                           "the Ricker wavelets have a window: remove it.",
+               fmt::format(" has no meaning for the pulse \"{}\". Only the Ricker wavelets have "
+                           "a window: remove it.",
                            name_of(pulse)));
     }
     const double window = number_of(entry);
@@ -81,7 +81,7 @@ Numerics read_numerics(const Entry& job)
         numerics.method = choice_of<Method>(*method, method_names);
     }
     if (const auto resolve = find(*entry, "resolve")) {
-        numerics.resolve = truth_of(*resolve);
+        numerics.resolve = boolean_of(*resolve);
     }
     if (numerics.resolve) {
         numerics.tolerance = tolerance_to_resolve_from;
@@ -91,7 +91,7 @@ Numerics read_numerics(const Entry& job)
         if (!(numerics.tolerance >= least_tolerance && numerics.tolerance <= largest_tolerance)) {
             refuse(*tolerance,
                    fmt::format(" = {} is outside [{}, {}]. It is the local error per step, "
-                               "over the slenderness.",
+                               "relative to the slenderness.",
                                numerics.tolerance, least_tolerance, largest_tolerance));
         }
     }
@@ -104,12 +104,12 @@ void expect_known_errors(const Entry& job, const Numerics& numerics,
     const bool asked =
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && !knows_errors(numerics)) {
-        refuse(
-            *find(*find(job, "numerics"), "tolerance"),
-            fmt::format(" = {} is too loose for {}: at more than {} the steps of \"rk45\" are too "
-                        "long to see their own errors. Lower it, or take method = \"taylor\".",
-                        numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
-                        largest_rk45_tolerance_with_error));
+        refuse(*find(*find(job, "numerics"), "tolerance"),
+               fmt::format(
+                   " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
+                   "reliable error bounds. Lower it, or use method = \"taylor\".",
+                   numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
+                   largest_rk45_tolerance_with_error));
     }
 }
 
@@ -131,8 +131,7 @@ std::vector<Field> read_fields(const Entry& job)
         const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names);
         if (std::find(fields.begin(), fields.end(), field) != fields.end()) {
             refuse(element(*entry, i),
-                   fmt::format(" = \"{}\" stands there already. Name each field once.",
-                               name_of(field)));
+                   fmt::format(" = \"{}\" is listed twice. List each field once.", name_of(field)));
         }
         fields.push_back(field);
     }

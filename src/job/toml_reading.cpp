@@ -13,7 +13,7 @@ namespace overturn {
 
 namespace {
 
-// Enough to recognise a value by, short enough for a line.
+// Sufficient to recognise a value, short enough for one line.
 constexpr std::size_t longest_quotation = 60;
 
 std::string joined(Names names)
@@ -26,14 +26,14 @@ std::string dotted(const std::string& table, std::string_view name)
     return table.empty() ? std::string(name) : fmt::format("{}.{}", table, name);
 }
 
-/// " Did you mean ...?", or nothing if no name of the table is near.
+/// " Did you mean ...?", or empty if no name of the table is near.
 std::string suggestion(const std::string& table, std::string_view word, Names names)
 {
     const std::string_view name = nearest_name(word, names);
     return name.empty() ? "" : fmt::format(" Did you mean \"{}\"?", dotted(table, name));
 }
 
-/// What a node is, in words.
+/// The type and value of a node, for messages.
 std::string description_of(const toml::node& node)
 {
     if (const auto* text = node.as_string()) {
@@ -45,15 +45,15 @@ std::string description_of(const toml::node& node)
     if (const auto* number = node.as_floating_point()) {
         return "the number " + float_text(number->get());
     }
-    if (const auto* truth = node.as_boolean()) {
-        return truth->get() ? "the truth value true" : "the truth value false";
+    if (const auto* boolean = node.as_boolean()) {
+        return boolean->get() ? "the boolean true" : "the boolean false";
     }
     return node.is_array() ? "an array" : node.is_table() ? "a table" : "a date or time";
 }
 
 [[noreturn]] void refuse_type(const Entry& entry, std::string_view wanted)
 {
-    refuse(entry, fmt::format(" is {}, and must be {}.", description_of(*entry.node), wanted));
+    refuse(entry, fmt::format(" is {}, but must be {}.", description_of(*entry.node), wanted));
 }
 
 template <class Value>
@@ -140,7 +140,7 @@ std::int64_t integer_of(const Entry& entry)
     return value_of<std::int64_t>(entry, "an integer, such as 100");
 }
 
-bool truth_of(const Entry& entry)
+bool boolean_of(const Entry& entry)
 {
     return value_of<bool>(entry, "true or false");
 }

@@ -11,7 +11,7 @@ namespace overturn {
 
 namespace {
 
-/// What text_of gives for each of the values.
+/// The list of values in TOML, each formatted by text_of.
 template <class Values, class TextOf>
 std::string list_text(const Values& values, const TextOf& text_of)
 {
@@ -64,7 +64,7 @@ std::string resolved_text(const Job& job)
 {
     std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title),
                                    scene_text(job.scene), plane_text(job.plane));
-    if (job.product == Product::spectrum) { // a boundary is told neither
+    if (job.product == Product::spectrum) { // a boundary ignores both
         text += fmt::format(
             "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
             "[output]\nfields = {}\n",
@@ -103,7 +103,7 @@ std::string shortened(std::string_view text, std::size_t longest)
     if (text.size() <= longest) {
         return std::string(text);
     }
-    // Bytes 10xxxxxx continue a UTF-8 character: do not cut before one.
+    // Do not split a UTF-8 character, whose continuation bytes are 10xxxxxx.
     std::size_t end = longest;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) {
         --end;

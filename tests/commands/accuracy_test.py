@@ -38,7 +38,7 @@ class AnAccuracyStudy(Scratch):
     def test_is_described_by_info(self):
         self.study()
         self.assert_exit(self.overturn("info", "study.h5"), 0, "A small plane",
-                         "holds a study of accuracy", "pulse = \"one_sine\"")
+                         "contains an accuracy study", "pulse = \"one_sine\"")
 
     def test_has_no_wrong_resolved_verdicts_but_wrong_ones_at_the_loosest_tolerance(self):
         self.study()
@@ -61,7 +61,7 @@ class AnAccuracyStudy(Scratch):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         before = checksum(self.folder / "spectrum.h5")
         result = self.overturn("accuracy", "small.toml", "-o", "spectrum.h5", *FEW)
-        self.assert_exit(result, 74, "is no accuracy study")
+        self.assert_exit(result, 74, 'its kind is not "accuracy study"')
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 
     def test_reports_a_missing_folder_before_computing(self):

@@ -72,16 +72,16 @@ class ABoundary(Scratch):
         with h5py.File(self.folder / "both.h5", "r+") as file:
             file["flip_amplitude"][0, 1, :, 4:12] = np.nan
             file["checksum"][34:42] = 0
-        self.assert_exit(self.boundary("both.h5"), 0, "going on, 52 of 60 tiles are there")
+        self.assert_exit(self.boundary("both.h5"), 0, "resuming: 52 of 60 tiles done")
         self.assertEqual(checksum(self.folder / "both.h5"), whole)
-        self.assert_exit(self.boundary("both.h5"), 0, "is complete already")
+        self.assert_exit(self.boundary("both.h5"), 0, "is already complete")
 
     def test_resumes_when_only_settings_of_spectra_change(self):
         self.assert_exit(self.boundary(), 0)
         result = self.overturn("boundary", "small.toml", "-o", "boundary.h5", *FEW,
                                "--set", "numerics.tolerance=1e-5",
                                "--set", "output.fields=[\"region\", \"peak\"]")
-        self.assert_exit(result, 0, "is complete already")
+        self.assert_exit(result, 0, "is already complete")
 
     def test_is_refused_if_too_large_for_any_file(self):
         # 1e18 lines: a spectrum of two amplitudes would be refused for lack of disk space.
@@ -95,14 +95,14 @@ class ABoundary(Scratch):
     def test_and_spectra_do_not_overwrite_each_other(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
         self.assert_exit(self.boundary("spectrum.h5"), 74,
-                         "is an overturning spectrum, and an overturning boundary is to be computed")
+                         "is an overturning spectrum, but the job computes an overturning boundary")
         self.have_boundary()
         result = self.overturn("run", "small.toml", "-o", "boundary.h5", *FEW)
         self.assert_exit(result, 74, "is an overturning boundary")
 
     def test_reports_lines_that_overturn_at_the_first_amplitude(self):
         strong = [*FEW, "--set", "plane.frequency.last=2", "--set", "plane.amplitude.first=6"]
-        words = "60 of 60 lines overturn at the first amplitude looked at"
+        words = "60 of 60 lines overturn at the first amplitude of the job"
         self.assert_exit(self.overturn("boundary", "small.toml", "-o", "strong.h5", *strong), 0,
                          f"strong.h5: {words}")
         self.assert_exit(self.overturn("info", "strong.h5"), 0, f"lines {words}")
@@ -110,10 +110,10 @@ class ABoundary(Scratch):
             self.assertFalse(np.isfinite(file["flip_amplitude"][:]).any())
             first = file["region_below"][:, :, 0]
             self.assertTrue(((first >= 3) & (first <= 8)).all())
-            self.assertIn(b"overturns at the first amplitude looked at",
+            self.assertIn(b"overturns at the first amplitude of the job",
                           file["region_below"].attrs["comment"])
         picture = self.drawn("strong.h5", "--restitution", "0")
-        self.assertIn(">overturns at the first amplitude of the scan<", picture)
+        self.assertIn(">overturns at the first amplitude of the job<", picture)
         self.assertNotIn("minimum overturning amplitude", picture)
         self.assertEqual(self.shades("strong.h5", "--restitution", "0"), {UNSAFE})
 

@@ -69,7 +69,7 @@ class ADiskThatFails(OnFaultyDisk):
             self.assertIn(AGAIN, result.stderr.lower())
             self.assert_exit(self.overturn("verify", "out.h5"), 0)
             resumed = self.overturn("run", "small.toml", "-o", "out.h5")
-            self.assert_exit(resumed, 0, "going on, ")
+            self.assert_exit(resumed, 0, "resuming: ")
             self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
 
     def test_leaves_no_file_if_creation_fails(self):
@@ -110,7 +110,7 @@ class AStopDuringAWrite(OnFaultyDisk):
                                                   KILL_AT_WRITE=1, KILL_BY=int(signal.SIGUSR1))
             self.assert_stopped(result.returncode, result.stderr, ranks)
             self.assertIn("stopped by a signal; 1 of 24 tiles are missing", words(result.stderr))
-        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "1 damaged tile is")
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "1 damaged tile to recompute")
         self.assertEqual(checksum(self.folder / "out.h5"), whole)
 
 
@@ -144,7 +144,7 @@ class AFullDisk(Scratch):
         result = self.on_small_disk("$OVERTURN run small.toml -o $DISK/out.h5; code=$?;"
                                     "[[ -z $(ls $DISK) ]] || exit 1; exit $code")
         size = self.whole.stat().st_size
-        self.assert_exit(result, 74, "it takes 2", "bytes, and", "are available. Free some")
+        self.assert_exit(result, 74, "it takes 2", "bytes, but", "are available. Free some space")
         needed = int(result.stderr.split("it takes ")[1].split()[0])
         self.assertLess(abs(needed - size), 0.03 * size + 32768)
 
@@ -163,7 +163,7 @@ class AFullDisk(Scratch):
             "$OVERTURN run small.toml -o $DISK/out.h5; code=$?; $OVERTURN verify $DISK/out.h5;"
             "[[ ! -e $DISK/out.h5.json ]] || exit 1; exit $code")
         self.assert_exit(result, 74, "out.h5.json", "no space left on device",
-                         "24 of 24 tiles are done, and all of them are as they were written")
+                         "24 of 24 tiles are done; coordinates and checksums match")
 
     def forget_a_tile(self, name):
         shutil.copy(self.whole, self.folder / name)
@@ -207,7 +207,7 @@ class ASlowDisk(OnFaultyDisk):
         for delay in self.DELAYS:
             code, _ = self.end_by(signal.SIGKILL, delay)
             self.assertEqual(code, -signal.SIGKILL)
-            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "complete already")
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "already complete")
             self.assertEqual(self.files(), ["long.toml", "out.h5", "out.h5.json", "small.toml"])
 
     def test_does_not_prevent_stopping_a_run(self):
@@ -249,14 +249,14 @@ class AFileThatChanges(Scratch):
     def test_is_reported_if_it_is_removed(self):
         for ranks in (None, 2):
             said = self.end_of_run_after(lambda path: path.unlink(), ranks)
-            self.assertIn("was removed, moved or replaced while it was written", said)
+            self.assertIn("was removed, moved or replaced during the run", said)
 
     def test_is_reported_if_moved_and_resumes_once_moved_back(self):
         elsewhere = self.folder / "elsewhere.h5"
         said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2, job="long")
         self.assertIn("move it back and run the same command again to resume", said)
         elsewhere.rename(self.folder / "long.h5")
-        self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "going on, ")
+        self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "resuming: ")
         self.assert_exit(self.overturn("verify", "long.h5"), 0, "147 of 147 tiles are done")
 
     def test_is_reported_if_it_is_replaced(self):
@@ -269,7 +269,7 @@ class AFileThatChanges(Scratch):
 
     def test_is_reported_if_it_is_truncated(self):
         said = self.end_of_run_after(lambda path: os.truncate(path, 100_000), 2)
-        self.assertIn("was cut from", said)
+        self.assertIn("was truncated from", said)
         self.assert_exit(self.overturn("run", "longer.toml"), 74, "longer.h5")
 
     def test_is_refused_if_an_axis_differs_from_its_job(self):
@@ -281,7 +281,7 @@ class AFileThatChanges(Scratch):
                 file[name][...] = (kept * (1 + 1e-12) if name == "restitution_ratio"
                                    else np.nextafter(kept, np.inf))
             self.assert_exit(self.overturn("verify", "small.h5"), 74,
-                             f"damaged: of its coordinates {name} are not its job's")
+                             f"damaged: its coordinates do not match its job: {name}.")
             self.assert_exit(self.overturn("run", "small.toml"), 74, name)
             with h5py.File(self.folder / "small.h5", "r+") as file:
                 file[name][...] = kept

@@ -29,10 +29,10 @@ class ADamagedFile(Scratch):
 
     def test_is_reported_by_verify_with_the_numbers_of_its_tiles(self):
         self.assert_exit(self.overturn("verify", "whole.h5"), 0,
-                         "24 of 24 tiles are done, and all of them are as they were written")
+                         "24 of 24 tiles are done; coordinates and checksums match")
         self.damage("whole.h5", (0, 7, 23))
         self.assert_exit(self.overturn("verify", "whole.h5"), 74,
-                         "3 of 24 tiles are not as they were written, by number 0, 7, 23",
+                         "3 of 24 tiles do not match their checksums (tile numbers: 0, 7, 23)",
                          "overturn run JOB.toml -o whole.h5")
 
     def test_is_not_complete_if_the_repairing_run_is_stopped(self):
@@ -41,7 +41,7 @@ class ADamagedFile(Scratch):
             file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
         with subprocess.Popen([OVERTURN, "run", "long.toml"], cwd=self.folder, env=ENVIRONMENT,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
-            self.assertIn("147 damaged tiles are computed again", process.stdout.readline())
+            self.assertIn("147 damaged tiles to recompute", process.stdout.readline())
             process.send_signal(signal.SIGUSR1)
             process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 85)
@@ -60,22 +60,22 @@ class ADamagedFile(Scratch):
     def test_is_reported_if_a_checksum_is_damaged(self):
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][11] += np.uint64(1)
-        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "by number 11")
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "tile numbers: 11")
 
     def test_is_repaired_by_the_same_run_even_if_it_was_complete(self):
         for ranks in (None, 2):
             self.damage("whole.h5", (3, 12))
             result = self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks)
-            self.assert_exit(result, 0, "22 of 24 tiles are there, 2 damaged tiles are computed again")
+            self.assert_exit(result, 0, "22 of 24 tiles done, 2 damaged tiles to recompute")
             self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
     def test_is_repaired_together_with_missing_tiles(self):
         self.damage("whole.h5", (5, 6))
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][6:9] = 0
-        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 tiles", "by number 5")
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 tiles", "tile numbers: 5")
         result = self.overturn("run", "small.toml", "-o", "whole.h5")
-        self.assert_exit(result, 0, "20 of 24 tiles are there, 1 damaged tile is")
+        self.assert_exit(result, 0, "20 of 24 tiles done, 1 damaged tile to recompute")
         self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
     def test_is_repaired_if_a_killed_run_has_left_its_random_number(self):

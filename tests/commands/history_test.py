@@ -49,9 +49,9 @@ class AHistory(Scratch):
     def test_is_described_by_info(self):
         self.history(AT)
         self.assert_exit(self.overturn("info", "history.h5"), 0, "A small plane",
-                         "holds the history of one block", "made by overturn",
+                         "contains the history of one block", "made by overturn",
                          "amplitude = { values = [1.3] }")
-        self.assert_exit(self.overturn("verify", "history.h5"), 74, "it is a \"rocking history\"")
+        self.assert_exit(self.overturn("verify", "history.h5"), 74, "its kind is \"rocking history\"")
 
     def test_of_a_job_with_many_points_requires_at(self):
         result = self.history("--at", "frequency=3")
@@ -66,7 +66,7 @@ class AHistory(Scratch):
 
     def test_refuses_an_unknown_or_invalid_coordinate(self):
         for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
-            self.assert_exit(self.history("--at", words), 2, "a coordinate is one of frequency")
+            self.assert_exit(self.history("--at", words), 2, "where AXIS is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
 
     def test_refuses_a_motion_beyond_the_range_of_numbers(self):
@@ -89,7 +89,7 @@ class AHistory(Scratch):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         before = checksum(self.folder / "spectrum.h5")
         result = self.overturn("history", "small.toml", "-o", "spectrum.h5", AT)
-        self.assert_exit(result, 74, "is no rocking history")
+        self.assert_exit(result, 74, 'its kind is not "rocking history"')
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 
     def test_is_plotted_with_its_point_and_events(self):

@@ -92,7 +92,7 @@ class AHostileResultFile(Scratch):
             h5py.h5d.create(file.id, b"region", h5py.h5t.STD_U8LE, space, creation)
 
         self.replace_region(add)
-        self.assert_refused_by_all("lie in another file")
+        self.assert_refused_by_all("stored in another file")
 
     def test_does_not_make_a_run_write_to_a_linked_file(self):
         with h5py.File(self.folder / "elsewhere", "w") as file:
@@ -102,7 +102,7 @@ class AHostileResultFile(Scratch):
             file["region"] = h5py.ExternalLink("elsewhere", "/region")
 
         self.replace_region(add)
-        self.assert_refused_by_all("a link to elsewhere")
+        self.assert_refused_by_all("a link to another object")
 
     def test_does_not_make_a_run_write_two_fields_into_one(self):
         (self.folder / "tiny.h5").unlink()

@@ -66,7 +66,7 @@ class AFinishedFile(Scratch):
         before = checksum(self.folder / "small.h5")
         for ranks in (None, 3):
             result = self.overturn("run", "small.toml", ranks=ranks)
-            self.assert_exit(result, 0, "small.h5 is complete already")
+            self.assert_exit(result, 0, "small.h5 is already complete")
             self.assertEqual(checksum(self.folder / "small.h5"), before)
 
     def test_of_one_point_is_described_in_the_singular(self):
@@ -138,7 +138,7 @@ class EqualJobs(Scratch):
                 output = f"{method}_{kernel}.h5"
                 result = self.overturn(*run, output, "--kernel", kernel)
                 if result.returncode == 2:  # this machine does not support it
-                    self.assert_exit(result, 2, "does not run on this processor")
+                    self.assert_exit(result, 2, "this processor does not support it")
                     self.assertEqual(kernel, "avx512")
                     continue
                 self.assert_exit(result, 0, f"kernel {kernel}")
@@ -225,7 +225,7 @@ class AnInterruptedRun(Scratch):
         info = self.overturn("info", "long.h5")
         self.assert_exit(info, 0, f"{done} of 147 done", "overturn run JOB.toml -o long.h5")
         result = self.overturn("run", "long.toml", ranks=ranks)
-        self.assert_exit(result, 0, f"going on, {done} of 147 tiles are there")
+        self.assert_exit(result, 0, f"resuming: {done} of 147 tiles done")
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
 
     def test_is_not_affected_by_a_second_run_of_the_same_job(self):
@@ -292,18 +292,18 @@ class AnInterruptedRun(Scratch):
                     env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                     text=True) as process:
                 self.addCleanup(process.kill)
-                self.assertIn("making a file of 1", process.stdout.readline())
+                self.assertIn("creating a file of 1", process.stdout.readline())
                 time.sleep(0.5)  # creation takes one to two seconds
                 process.send_signal(signal.SIGUSR1)
                 sent = time.monotonic()
                 said = process.stdout.readline()
-                while said and "before the file was made" not in said:
+                while said and "before the file was created" not in said:
                     said = process.stdout.readline()
                 # MPI takes another second or two to finalize.
                 self.assertLess(time.monotonic() - sent, 2, said)
                 output, _ = process.communicate(timeout=PATIENCE / 2)
             self.assert_stopped(process.returncode, said + output, ranks)
-            self.assertIn("before the file was made", said)
+            self.assertIn("before the file was created", said)
             self.assertEqual(self.files(), before)
 
     def test_abandons_a_tile_that_would_take_minutes(self):

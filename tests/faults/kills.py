@@ -164,7 +164,7 @@ class Runs:
     def note_torn_checksums(self, verdict):
         """A partly written checksum must be reported by verify. It remains until a run has
         verified the tile."""
-        found = re.search(r"by number ([\d, ]+)\.", verdict.stderr)
+        found = re.search(r"tile numbers: ([\d, ]+)\)", verdict.stderr)
         damaged = set(map(int, found[1].split(","))) if found else set()
         new = damaged - self.torn_checksums
         if verdict.returncode and (not damaged or len(new) > self.torn):

@@ -137,7 +137,7 @@ TEST(CreateSpectrumFile, DoesNotRemoveAForeignPart)
     write_bytes(folder / "a.h5.part", "somebody else's");
     const Job job = sample_job();
     EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job, sample_tiling(job)); }),
-                HasSubstr("a.h5.part\" exists, was not made by overturn"));
+                HasSubstr("a.h5.part\" exists but is not an overturn part file"));
     EXPECT_EQ(bytes_of(folder / "a.h5.part"), "somebody else's");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
 }

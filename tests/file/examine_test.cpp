@@ -90,7 +90,7 @@ TEST_F(Examine, ShowsTheLineInWhichAnotherJobDiffers)
     create();
     job.resolved = "pulse = \"symmetric_ricker\"\nwindow = 1.5\ntolerance = 1e-09\n";
     EXPECT_THAT(refusal(path, job),
-                AllOf(HasSubstr("holds another job"), HasSubstr("line 2"),
+                AllOf(HasSubstr("belongs to another job"), HasSubstr("line 2"),
                       HasSubstr("window = 1.25\n"), HasSubstr("window = 1.5\n"), HasSubstr("-o")));
 }
 
@@ -149,7 +149,7 @@ TEST_F(Examine, RefusesAnEmptyFile)
 
 TEST_F(Examine, RefusesAFolder)
 {
-    EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a file"));
+    EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a regular file"));
 }
 
 TEST_F(Examine, RefusesATruncatedFile)
@@ -200,7 +200,8 @@ TEST_F(ExamineExternalReferences, RefusesValuesInAnotherFile)
     store_region([&](hid_t creation, hid_t) {
         H5Pset_external(creation, elsewhere.c_str(), 0, H5F_UNLIMITED);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
+    EXPECT_THAT(refusal(path, job),
+                HasSubstr("the values of a dataset are stored in another file"));
 }
 
 TEST_F(ExamineExternalReferences, RefusesAViewOfAnotherFile)
@@ -208,7 +209,8 @@ TEST_F(ExamineExternalReferences, RefusesAViewOfAnotherFile)
     store_region([&](hid_t creation, hid_t space) {
         H5Pset_virtual(creation, space, elsewhere.c_str(), "region", space);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("the values of a dataset lie in another file"));
+    EXPECT_THAT(refusal(path, job),
+                HasSubstr("the values of a dataset are stored in another file"));
 }
 
 TEST_F(ExamineExternalReferences, RefusesALinkToAnotherFile)
@@ -217,7 +219,7 @@ TEST_F(ExamineExternalReferences, RefusesALinkToAnotherFile)
         return H5Lcreate_external(elsewhere.c_str(), "region", file, "region", H5P_DEFAULT,
                                   H5P_DEFAULT);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
+    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to another object"));
 }
 
 TEST_F(ExamineExternalReferences, RefusesALinkByName)
@@ -225,7 +227,7 @@ TEST_F(ExamineExternalReferences, RefusesALinkByName)
     replace_region([&](hid_t file, hid_t) {
         return H5Lcreate_soft("moved", file, "region", H5P_DEFAULT, H5P_DEFAULT);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to elsewhere"));
+    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to another object"));
 }
 
 TEST_F(Examine, RefusesAFileWithOtherTiles)

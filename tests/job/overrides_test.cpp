@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::
     {"WithoutEquals", "plane.frequency.count", {"no '='", "key.path=value"}},
     {"WithoutKey", "=3", {"\"\" is empty"}},
     {"WithAGapInTheKey", "plane..count=3", {"\"\" is empty"}},
-    {"WithAnUnusableKey", "plane.frequency.values[0]=3", {"\"values[0]\" is not usable"}},
+    {"WithAnUnusableKey", "plane.frequency.values[0]=3", {"\"values[0]\" is invalid"}},
     {"WithoutValue", "title=", {"value is missing"}},
     {"WithABrokenValue", "plane.frequency.values=[1,", {"not valid TOML"}},
     {"WithAMalformedNumber", "numerics.tolerance=1e-6x", {"not valid TOML"}},

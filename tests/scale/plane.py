@@ -250,7 +250,7 @@ class Command:
 
 def verify(plane):
     return Command(plane.folder, ["verify", plane.file]).must_end_with(0).must_say(
-        f"{plane.tiles} of {plane.tiles} tiles are done, and all of them are as they were written")
+        f"{plane.tiles} of {plane.tiles} tiles are done; coordinates and checksums match")
 
 
 def resume(plane, ranks):
@@ -258,7 +258,7 @@ def resume(plane, ranks):
     there = plane.done()
     command = plane.run(ranks)
     command.wait_for_words("kernel")
-    return command.must_say(f"going on, {there} of {plane.tiles} tiles are there; ")
+    return command.must_say(f"resuming: {there} of {plane.tiles} tiles done; ")
 
 
 def demand_little_memory(plane, *commands):

@@ -120,7 +120,7 @@ class TestTheWhole(Spectra):
         self.assert_joins("0.1.h5", "0.2.h5")
         run = self.run_here(OVERTURN, "run", "job.toml", "-o", "joined.h5",
                             "--set=plane.slenderness={ values = [0.1, 0.2] }")
-        self.assertIn("is complete already", run.stdout)
+        self.assertIn("is already complete", run.stdout)
         run = self.run_here(OVERTURN, "info", "joined.h5")
         self.assertIn("24 of 24 done", run.stdout)
         run = run_tool("to_csv", "joined.h5", "--slenderness=1", "--restitution=0",

@@ -1,11 +1,11 @@
-// What goes wrong with the output: disk, permission, a file of another job, damage.
+// Errors of result files: disk, permission, a file of another job, a damaged file.
 #pragma once
 
 #include <stdexcept>
 
 namespace overturn {
 
-/// Says what was to be done with which file, what stood in the way, and what to do about it.
+/// The message names the file, the failed operation, the reason, and what to do.
 class FileError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

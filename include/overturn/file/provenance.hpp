@@ -1,5 +1,5 @@
-// Where a result comes from. What decides the bits (program version and commit) stands in the
-// result file; what varies from run to run goes into a sidecar beside it, OUT.h5.json.
+// The provenance of a result. Program version and commit, which determine its bits, are stored in
+// the result file; what varies from run to run is stored next to it, in the sidecar OUT.h5.json.
 #pragma once
 
 #include "overturn/file/file_error.hpp"
@@ -12,14 +12,14 @@
 
 namespace overturn {
 
-/// As in "0.1.0".
+/// Such as "0.1.0".
 std::string_view program_version();
 
-/// The commit that the program was built from, with "-dirty" if the sources differed from it;
+/// The commit from which the program was built, with "-dirty" if the sources differed from it;
 /// "unknown" if they were not in a git repository.
 std::string_view program_commit();
 
-/// Of the HDF5 library in use, as in "1.10.8".
+/// The version of the HDF5 library in use, such as "1.10.8".
 std::string hdf5_version();
 
 /// One rank's share of a run.
@@ -30,22 +30,22 @@ struct RankRecord {
     double write_seconds = 0;
 };
 
-/// One run, or the part of it since it was last resumed.
+/// One run, since it was started or resumed.
 struct RunRecord {
     std::chrono::system_clock::time_point start;
     double wall_seconds = 0; ///< from the program's start
     std::string kernel;
     std::int64_t requests = 0;     ///< for tiles, from the other ranks to rank 0
-    double dealing_seconds = 0;    ///< that rank 0 took to answer them
+    double dealing_seconds = 0;    ///< spent by rank 0 on the answers
     std::vector<RankRecord> ranks; ///< by rank number
 };
 
-/// Throws FileError if something else than a sidecar stands in the place of this spectrum's, or if
-/// its name is too long. To be called before anything is computed.
+/// Throws FileError if the sidecar cannot be written, because another kind of file has its name or
+/// the name is too long. To be called before the computation.
 void demand_place_for_sidecar(const std::string& spectrum_path);
 
 /// Writes the record to spectrum_path + ".json", together with the compiler and the versions of
-/// HDF5 and MPI. Replaces an older sidecar in one step. Throws FileError.
+/// HDF5 and MPI. Replaces an older sidecar atomically. Throws FileError.
 void write_sidecar(const std::string& spectrum_path, const RunRecord& record);
 
 } // namespace overturn

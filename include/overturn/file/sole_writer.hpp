@@ -1,4 +1,5 @@
-// One run at a time writes a result file: two would make it at once, or compute everything twice.
+// The lock of a result file. Without it, two runs could create the same file, or compute every tile
+// twice.
 #pragma once
 
 #include "overturn/file/file_error.hpp"
@@ -7,12 +8,12 @@
 
 namespace overturn {
 
-/// Held by rank 0 while a run lasts. The lock is on OUT.h5.lock, not on the file: over NFS a lock
-/// on the file would keep the other ranks from writing. It goes with the process, however that
-/// ends.
+/// Held by rank 0 during a run. The file OUT.h5.lock is locked, not the result file: over NFS, a
+/// lock on the latter would prevent the other ranks from writing. The lock is released when the
+/// process ends, even if it is killed.
 class SoleWriter {
 public:
-    /// Throws FileError if another run holds it. Where files cannot be locked there is no lock.
+    /// Throws FileError if another run holds the lock. Does nothing where files cannot be locked.
     explicit SoleWriter(const std::string& path);
     ~SoleWriter();
     SoleWriter(const SoleWriter&) = delete;

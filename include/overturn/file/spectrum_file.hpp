@@ -1,7 +1,7 @@
 // The result file of a run, a spectrum or a boundary: HDF5 that is also valid netCDF-4, one chunk
-// per tile. Rank 0 makes the whole file first, then all ranks write tiles into it, in any order;
-// equal jobs give equal bytes.
-// A tile's checksum is written after its values: it marks the tile as done.
+// per tile. Rank 0 creates the whole file first, then all ranks write tiles in any order; equal
+// jobs give equal bytes. The checksum of a tile is written after its values and marks the tile as
+// done.
 #pragma once
 
 #include "overturn/file/file_error.hpp"
@@ -19,47 +19,48 @@
 
 namespace overturn {
 
-/// To be called before MPI_Init. HDF5 started later closes its files when MPI ends, and crashes on
-/// one that a full disk has left half made.
+/// To be called before MPI_Init. If HDF5 is initialised later, it closes its files in MPI_Finalize,
+/// and crashes on a file that is incomplete because the disk was full.
 void start_hdf5();
 
-/// What stands at the output path before a run.
+/// The state of the output file before a run.
 enum class Existing { nothing, unfinished, complete };
 
-/// Whether the job can start, resume or has ended already. Throws FileError if something stands at
-/// the path that this program, with this job and tiling, must not touch. Serial.
+/// Whether the job starts, resumes or is complete. Throws FileError if the path exists and is not a
+/// result file of this program version, job and tiling. Serial.
 Existing examine(const std::string& path, const Job& job, const Tiling& tiling);
 
-/// Size of the job's result file [byte], rounded up: the file itself is at most 3 % + 32 KiB
+/// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
 /// smaller. In floating point, which cannot overflow here.
 long double spectrum_file_bytes(const Job& job, const Tiling& tiling);
 
-/// Called between tiles; what it throws ends the work on all of them.
+/// Called between tiles; an exception from it stops the work.
 using BetweenTiles = std::function<void()>;
 
-/// Makes the file of which no tile is computed yet, under a name of its own, and renames it into
-/// place when it is safe on the disk. For one rank alone. Throws FileError, and leaves nothing
-/// behind, if the folder is missing or not writable, or if the file does not fit.
+/// Creates the file, with no tile computed, under a temporary name, and renames it once it is
+/// synced to the disk. To be called by one rank. Throws FileError, and leaves no file behind, if
+/// the folder is missing or not writable, or if there is not enough space.
 void create_spectrum_file(
     const std::string& path, const Job& job, const Tiling& tiling,
     const BetweenTiles& between_tiles = [] {});
 
-/// Throws FileError if MPI would not open the file of this absolute path.
+/// Throws FileError if MPI cannot open files of this absolute path.
 void demand_path_for_mpi(const std::string& path);
 
-/// The first rank for which the path names another file than for rank 0, or none; the same on all
-/// ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, which
-/// all ranks read, and then 0 as before. Throws FileError on rank 0 if it cannot.
+/// The first rank on which the path names another file than on rank 0, or nullopt; returned on all
+/// ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, all
+/// ranks read it, and rank 0 resets it to 0. Throws FileError on rank 0 if that fails.
 std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator);
 
-/// When a tile counts as done: once its values are in the file, which outlasts the death of any
-/// process; or once they are on the disk, which outlasts a loss of power as well.
+/// When a tile is marked as done: once its values are written, so that they survive if a process is
+/// killed; or once they are synced to the disk, so that they also survive a power failure.
 enum class Durability { written, on_disk };
 
-/// The file while it is written, opened by all ranks of a communicator.
+/// A result file opened for writing by all ranks of a communicator.
 ///
-/// Opening and closing are collective. For that reason the destructor does not close: a rank that
-/// unwinds alone would wait for the others forever. Who leaves without close() ends all ranks.
+/// Opening and closing are collective. The destructor therefore does not close the file: a rank
+/// that throws would wait for the others forever. A rank that does not call close() must abort all
+/// ranks.
 class SpectrumFile {
 public:
     /// The file must have been examined or created for the same job. Throws FileError.
@@ -69,16 +70,16 @@ public:
     SpectrumFile(const SpectrumFile&) = delete;
     SpectrumFile& operator=(const SpectrumFile&) = delete;
 
-    /// Numbers of the tiles that are not computed yet, ascending. For any rank.
+    /// Numbers of the tiles that are not computed yet, ascending. Not collective.
     std::vector<std::int64_t> missing_tiles();
 
-    /// Makes a damaged tile one that is not computed, its values first. For one rank.
+    /// Resets a damaged tile to "not computed", its values first. To be called by one rank.
     void forget(const Tile& tile);
 
-    /// Stores a tile, its checksum last. Each rank at its own time.
+    /// Stores a tile, its checksum last. Not collective.
     void write(const Tile& tile, const TileFields& fields);
 
-    /// Collective. Returns when everything is in the file, or on the disk.
+    /// Collective. Returns when everything is written, or synced to the disk.
     void close();
 
 private:

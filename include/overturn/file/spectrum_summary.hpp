@@ -1,4 +1,4 @@
-// Reading a result file back, knowing nothing but its path: what it holds and whether it is whole.
+// Reads a result file, given only its path: a summary of its content, and what is damaged.
 #pragma once
 
 #include "overturn/file/file_error.hpp"
@@ -25,10 +25,10 @@ struct FieldSummary {
     std::string type; ///< "uint8", "uint16", "uint32" or "float64"
 };
 
-/// The first two as in Product.
+/// The first two correspond to Product.
 enum class FileKind { spectrum, boundary, history, accuracy };
 
-/// What a result file of any kind says of itself.
+/// The metadata that every kind of result file contains.
 struct FileOrigin {
     FileKind kind = FileKind::spectrum;
     std::int64_t format = 1; ///< version of the layout
@@ -39,10 +39,10 @@ struct FileOrigin {
     std::uint64_t bytes = 0; ///< of the file
 };
 
-/// Throws FileError if the file is missing, not a result of ours, or damaged.
+/// Throws FileError if the file is missing, not a result file of overturn, or damaged.
 FileOrigin origin_of(const std::string& path);
 
-/// What a spectrum or a boundary says of itself.
+/// The metadata of a spectrum or a boundary.
 struct SpectrumSummary : FileOrigin {
     Product product = Product::spectrum;
     std::vector<AxisSummary> axes;    ///< slowest first: the dimensions of every field
@@ -52,26 +52,26 @@ struct SpectrumSummary : FileOrigin {
     std::int64_t tiles_done = 0;
 };
 
-/// Throws FileError if the file is missing, not a spectrum or boundary of ours, or damaged.
+/// Throws FileError if the file is missing, not a spectrum or boundary of overturn, or damaged.
 SpectrumSummary summarize(const std::string& path);
 
-/// The computed lines of a boundary, and those among them without a minimum overturning amplitude.
+/// The number of computed lines of a boundary, and of those with a peculiarity.
 struct BoundaryLines {
     std::int64_t computed = 0;
-    std::int64_t unsafe_at_first = 0; ///< overturn at the first amplitude looked at
-    std::int64_t undecided = 0;       ///< somewhere, or beyond the last crossing
+    std::int64_t unsafe_at_first = 0; ///< overturn at the first amplitude of the job
+    std::int64_t undecided = 0;       ///< at some amplitude, or beyond the last crossing
 };
 
 /// Throws FileError as summarize() does.
 BoundaryLines count_lines(const std::string& path);
 
-/// Names of the coordinates whose size or values are not those of the job that the file says it is
-/// of. Throws FileError as summarize() does, and if that job cannot be read.
+/// Names of the coordinates whose size or values do not match the job stored in the file. Throws
+/// FileError as summarize() does, and if that job cannot be read.
 std::vector<std::string> damaged_coordinates(const std::string& path);
 
-/// Numbers of the tiles whose stored values do not match their checksum, ascending; tiles that are
-/// not computed yet are not among them. Reads all data, and calls `between_tiles`, which may end it
-/// by an exception. Throws FileError as summarize() does.
+/// Numbers of the computed tiles whose values do not match their checksum, ascending. Reads all
+/// data, and calls `between_tiles`, which may throw to stop it. Throws FileError as summarize()
+/// does.
 std::vector<std::int64_t> damaged_tiles(
     const std::string& path, const std::function<void()>& between_tiles = [] {});
 

@@ -1,5 +1,5 @@
-// The results of `overturn history` and `overturn accuracy`: HDF5 that is valid netCDF-4 as well,
-// written in one step when everything is computed.
+// The result files of `overturn history` and `overturn accuracy`: HDF5 that is also valid netCDF-4,
+// written as a whole at the end of the computation.
 #pragma once
 
 #include "overturn/file/spectrum_summary.hpp"
@@ -12,18 +12,17 @@
 
 namespace overturn {
 
-/// What the writer of this kind would refuse, but for a full disk, before anything is computed: a
-/// folder that is missing or not writable, a file of another kind in the way. Throws FileError.
+/// Throws FileError if a file of this kind cannot be written: the folder is missing or not
+/// writable, or a file of another kind has the name. To be called before the computation.
 void expect_room_for(const std::string& path, FileKind kind);
 
-/// Writes over an older history if there is one. Variables have the dimension `sample` or `event`;
-/// the job is that of the one point. Throws FileError; also where something else than a history
-/// stands in the way.
+/// Replaces an existing history. Variables have the dimension `sample` or `event`; the job has a
+/// single point. Throws FileError, also if the path exists and is not a history.
 void write_history_file(const std::string& path, const Job& job, const History& history);
 
-/// Writes over an older accuracy file if there is one. Variables have the dimension setting (a
-/// method at a tolerance), and quantile, region or distance. Throws FileError; also where something
-/// else than an accuracy file stands in the way.
+/// Replaces an existing accuracy study. Variables have the dimension `setting` (a method at a
+/// tolerance), and quantile, region or distance. Throws FileError, also if the path exists and is
+/// not an accuracy study.
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows);
 

@@ -1,4 +1,4 @@
-// The name that a misspelt one was probably meant to be.
+// Suggests a name for a misspelt one.
 #pragma once
 
 #include <span>
@@ -6,8 +6,8 @@
 
 namespace overturn {
 
-/// The name nearest to `word` by edit distance, capital letters aside, or nothing if none is near:
-/// a third of the longer of the two may differ. The first of several equally near ones.
+/// The name nearest to `word` by edit distance, ignoring case; the first of several equally near
+/// ones. Empty if none is near: at most a third of the longer of the two may differ.
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names);
 
 } // namespace overturn
