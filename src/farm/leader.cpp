@@ -12,7 +12,7 @@ namespace {
 /// messages takes a thousandth of it.
 constexpr std::chrono::milliseconds answer_interval{10};
 
-/// An answer that seems to take longer does not: rank 0 was not running, or MPI opened a
+/// A longer measured time is not the cost of an answer: rank 0 was not running, or MPI opened a
 /// connection.
 constexpr double longest_answer = 1e-4; // [s]
 

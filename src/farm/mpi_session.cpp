@@ -48,7 +48,7 @@ void prepare_for_one_rank()
 /// OUT.h5.locktest.0, OUT.h5.data.0, ... even where these are other files, and the first one
 /// overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file can be
 /// opened.
-void leave_files_of_others_alone()
+void limit_shared_file_pointers()
 {
     constexpr int replace = 1;
     setenv("OMPI_MCA_sharedfp", "^lockedfile,individual", replace);
@@ -73,8 +73,8 @@ void prepare_for_one_host()
 #endif
 }
 
-/// A message if the launcher belongs to another MPI: each process would be the only rank, and
-/// compute everything.
+/// A message if the launcher belongs to another MPI, else empty: each process would be the only
+/// rank, and compute everything.
 std::string launch_fault(int size)
 {
     const char* started = first_of(size_variables);
@@ -107,7 +107,7 @@ MpiSession::MpiSession()
     MPI_Initialized(&initialized);
     finalizes_ = initialized == 0;
     if (finalizes_) {
-        leave_files_of_others_alone();
+        limit_shared_file_pointers();
         if (first_of(rank_variables) == nullptr) {
             prepare_for_one_rank();
         } else if (all_ranks_are_here()) {

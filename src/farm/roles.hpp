@@ -1,8 +1,8 @@
-// What the ranks of a farm do, and their messages: rank 0 leads, all others work, and both compute
-// tiles. A worker requests its next range while it computes the current one, and rank 0 answers at
-// once while tiles are left. Then rank 0 keeps the request. At intervals it answers with an empty
-// range, after which the worker repeats its request, which shows that it is alive; the last answer
-// is `end_of_work`.
+// The roles of the ranks in a farm, and their messages: rank 0 leads, all others work, and both
+// compute tiles. A worker requests its next range while it computes the current one, and rank 0
+// answers at once while tiles are left. Then rank 0 keeps the request. At intervals it answers with
+// an empty range, after which the worker repeats its request, which shows that it is alive; the
+// last answer is `end_of_work`.
 #pragma once
 
 #include "overturn/farm/farm.hpp"
@@ -26,18 +26,18 @@ inline constexpr int range_length = 2;
 static_assert(sizeof(WorkerMessage) == worker_message_length * sizeof(std::int64_t));
 static_assert(sizeof(TileRange) == range_length * sizeof(std::int64_t));
 
-/// From rank 0: every tile is done, or left because of a stop.
+/// From rank 0: all tiles are done, or the run is to stop.
 inline constexpr TileRange end_of_work{-1, -1};
 
-/// Rank 0: answers every request that has arrived, then computes one tile, until no tile is left
-/// and all workers are done. Returns its own share and the cost of dealing. Throws SilentRank.
+/// For rank 0: answers every request that has arrived, then computes one tile, until no tile is
+/// left and all workers are done. Returns its own share and the cost of dealing. Throws SilentRank.
 FarmReport lead(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                 const TileWork& tile_work,
                 const std::function<void(std::int64_t done)>& on_progress, const StopRequest& stop,
                 std::chrono::seconds patience);
 
-/// The other ranks: request ranges of tiles and compute them, until rank 0 has sent `end_of_work`.
-/// Throws SilentRank.
+/// For the other ranks: requests ranges of tiles and computes them, until rank 0 has sent
+/// `end_of_work`. Throws SilentRank.
 RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
                std::chrono::seconds patience);
 

@@ -52,7 +52,7 @@ StopSignals::StopSignals()
 StopSignals::~StopSignals()
 {
     for (const int signal : stop_signals) {
-        // A warning that comes as a complete run ends must not make it look killed.
+        // A SIGUSR1 that arrives when a run is complete must not kill it.
         handle(signal, signal == SIGUSR1 ? SIG_IGN : SIG_DFL, 0);
     }
 }

@@ -43,7 +43,7 @@ Description description_of(Field field)
             std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
             regions + " undecided not_computed"};
     case Field::status:
-        return {"status of the integration, until the end of the pulse", "",
+        return {"flags set during the integration of the pulse", "",
                 "0: no flag is set; 255: not computed yet",
                 std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
                                           status::not_finite, status::unresolved},

@@ -37,7 +37,7 @@ class AConfiguration(unittest.TestCase):
             self.assertIn("HDF5 was accepted", self.with_hdf5(version))
 
     def test_refuses_unknown_kernels(self):
-        self.assertIn('OVERTURN_KERNELS is "avx2", and may be all or native.',
+        self.assertIn('OVERTURN_KERNELS is "avx2", but must be all or native.',
                       self.with_hdf5("1.14.3", "-DOVERTURN_KERNELS=avx2"))
 
 

@@ -14,7 +14,7 @@
 
 namespace overturn {
 
-/// What a rank does with a tile, given its number.
+/// Computes and writes a tile, given its number.
 struct TileWork {
     /// Calls drop_requested every second or more often, since messages are handled there, and drops
     /// the tile if that is true. Returns false if it was dropped.
@@ -22,7 +22,7 @@ struct TileWork {
     std::function<void(std::int64_t number)> write;
 };
 
-/// How a rank learns that it is to stop. Both stay true once they are.
+/// Whether a rank is asked to stop. Once true, both remain true.
 struct StopRequest {
     std::function<bool()> requested; ///< finish the current tile, and leave
     std::function<bool()> overdue;   ///< drop the current tile
@@ -40,7 +40,7 @@ public:
     std::chrono::seconds silence;
 };
 
-/// What one rank did. It spent the rest of its time on messages and waiting.
+/// The work of one rank. It spent the rest of its time on messages and waiting.
 struct RankShare {
     std::int64_t tiles = 0;
     double compute_seconds = 0;
@@ -64,7 +64,7 @@ struct FarmReport {
 ///
 /// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done) is
 /// called on rank 0 at intervals. A rank that is asked to stop finishes or drops its current tile;
-/// the others finish the ranges that they were given before rank 0 learnt of the stop. An exception
+/// the others finish the ranges that they were given before rank 0 received the stop. An exception
 /// leaves farm_out on one rank only, so the caller must abort the session. It is SilentRank if
 /// rank 0 receives nothing from a worker for `patience`, or a worker nothing from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,

@@ -23,9 +23,9 @@ struct RangeLimits {
     std::size_t most = 16;
 };
 
-/// With many ranks and quick tiles, rank 0 could do nothing but answer requests: ranges are made so
-/// long that answers take half of its time. While many tiles are left, a range takes a tenth of a
-/// second: longer ones save nothing, and delay a stop that a worker learns of from rank 0.
+/// With many ranks and quick tiles, answering requests could occupy rank 0 completely: ranges are
+/// long enough that it takes at most half of the time. While many tiles are left, a range takes a
+/// tenth of a second: longer ones save nothing, and delay a stop, because workers finish them.
 RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile);
 
 class TileDealer {
