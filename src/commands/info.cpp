@@ -42,7 +42,7 @@ void print_plane_and_tiles(const std::string& path)
                    axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units)));
     }
     if (!damaged.empty()) {
-        print_row("damaged", fmt::format("{}: does not match the job", fmt::join(damaged, ", ")));
+        print_row("damaged", fmt::format("{}: mismatch with the job", fmt::join(damaged, ", ")));
     }
     for (const FieldSummary& field : summary.fields) {
         print_row("field", fmt::format("{}, {}", field.name, field.type));
