@@ -81,7 +81,7 @@ def run(what, *command):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="check_docs", description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--python", default="/usr/bin/python3", help="what runs the Python blocks")
     arguments = parser.parse_args()
     BUILT.mkdir(exist_ok=True)
