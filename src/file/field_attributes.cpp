@@ -38,8 +38,8 @@ Description description_of(Field field)
         return {
             "region of the block's state at the end of the pulse", "",
             "S: safe within the separatrix; S_plus, S_minus: safe due to the loss at the next "
-            "impact; U0: overturns without impact; U1: overturns after one impact; F: overturns "
-            "during the pulse",
+            "impact; U0: overturns without another impact; U1: overturns after one more impact; "
+            "F: overturns during the pulse",
             std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
             regions + " undecided not_computed"};
     case Field::status:

@@ -155,7 +155,7 @@ class TestTheWords(Picture):
         words = self.words()
         legend = [word for word in words if "safe" in word or "overturns" in word
                   or "undecided" in word or "not computed" in word]
-        self.assertEqual(legend, ["S  safe, no impact needed", "S+  safe after one impact",
+        self.assertEqual(legend, ["S  safe, no more impacts needed", "S+  safe after one more impact",
                                   "undecided: see field status"])
 
     def test_an_unfinished_file_is_plotted_and_labelled(self):

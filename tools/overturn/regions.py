@@ -8,13 +8,13 @@ from matplotlib.patches import Patch
 # 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
 # readers. The minus of a pair is the darker one.
 REGIONS = {
-    0: ("S", "safe, no impact needed", "#8bc77f"),
-    1: ("S+", "safe after one impact", "#0b5530"),
-    2: ("S−", "safe after one impact", "#073a2c"),
-    3: ("U0+", "overturns without impact", "#fff6bd"),
-    4: ("U0−", "overturns without impact", "#ffe27a"),
-    5: ("U1+", "overturns after one impact", "#c9961a"),
-    6: ("U1−", "overturns after one impact", "#b6801e"),
+    0: ("S", "safe, no more impacts needed", "#8bc77f"),
+    1: ("S+", "safe after one more impact", "#0b5530"),
+    2: ("S−", "safe after one more impact", "#073a2c"),
+    3: ("U0+", "overturns, no more impacts", "#fff6bd"),
+    4: ("U0−", "overturns, no more impacts", "#ffe27a"),
+    5: ("U1+", "overturns, one more impact", "#c9961a"),
+    6: ("U1−", "overturns, one more impact", "#b6801e"),
     7: ("F+", "overturns during the pulse", "#73737a"),
     8: ("F−", "overturns during the pulse", "#5e5e66"),
     254: ("", "undecided: see field status", "#e6007e"),
