@@ -1,20 +1,16 @@
-"""Output of overturn: equal bytes from equal jobs, and no tile lost when it is stopped."""
+"""Output of finished runs: what is stored, and equal bytes from equal jobs."""
 
 import json
-import os
 import pathlib
-import signal
 import subprocess
 import sys
-import time
 import unittest
 
 import h5py
 import numpy as np
 import xarray
 
-from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, SMALL, Scratch, checksum, is_mpich,
-                     ranks_of, under_mpi, words)
+from program import ENVIRONMENT, OVERTURN, PATIENCE, SMALL, Scratch, checksum, words
 
 TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
 
@@ -180,183 +176,6 @@ class SideBySide(Scratch):
         # A folder created and removed by each run would be a race; here none can be created.
         self.assert_exit(
             self.overturn("run", "small.toml", shell_setup="export TMPDIR=/dev/null"), 0)
-
-
-class AnInterruptedRun(Scratch):
-    whole = None  # checksum of the uninterrupted file
-
-    def setUp(self):
-        super().setUp()
-        if AnInterruptedRun.whole is None:
-            self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
-            AnInterruptedRun.whole = checksum(self.folder / "whole.h5")
-
-    def tiles_done(self):
-        text = words(self.overturn("info", "long.h5").stdout)
-        return int(text.split(" tiles ")[1].split(" of ")[0])
-
-    def start(self, ranks=None):
-        """Starts the long job, and returns when some of its tiles are done."""
-        command = [OVERTURN, "run", "long.toml"]
-        before = self.tiles_done() if "long.h5" in self.files() else 0
-        process = subprocess.Popen(
-            (under_mpi(ranks) if ranks else []) + command, cwd=self.folder, env=ENVIRONMENT,
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        )  # fmt: skip
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
-        deadline = time.monotonic() + PATIENCE
-        while "long.h5" not in self.files() or self.tiles_done() < before + 3:
-            self.assertLess(time.monotonic(), deadline, "no tiles were computed")
-            self.assertIsNone(process.poll(), "the run ended before it could be interrupted")
-        return process
-
-    def wait_for_end(self, pids):
-        deadline = time.monotonic() + PATIENCE
-        while any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids):
-            self.assertLess(time.monotonic(), deadline, "ranks outlived their launcher")
-            time.sleep(0.05)
-
-    def assert_resumes(self, ranks):
-        """Resumes with this number of ranks; the file must equal that of an uninterrupted run."""
-        done = self.tiles_done()
-        self.assertGreaterEqual(done, 3)
-        self.assertLess(done, 147, "the run was interrupted too late")
-        info = self.overturn("info", "long.h5")
-        self.assert_exit(info, 0, f"{done} of 147 done", "overturn run JOB.toml -o long.h5")
-        result = self.overturn("run", "long.toml", ranks=ranks)
-        self.assert_exit(result, 0, f"resuming: {done} of 147 tiles done")
-        self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
-
-    def test_is_not_affected_by_a_second_run_of_the_same_job(self):
-        process = self.start()
-        (self.folder / "link.h5").symlink_to("long.h5")
-        for name in ("long.h5", "link.h5"):
-            result = self.overturn("run", "long.toml", "-o", name)
-            self.assert_exit(result, 74, "being written by another run")
-        process.communicate(timeout=PATIENCE)
-        self.assertEqual(process.returncode, 0)
-        self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
-        self.assertNotIn("long.h5.lock", self.files())
-
-    def test_resumes_after_sigusr1_to_mpirun(self):
-        process = self.start(ranks=3)
-        process.send_signal(signal.SIGUSR1)
-        output, _ = process.communicate(timeout=PATIENCE)
-        self.assert_stopped(process.returncode, output, ranks=3)
-        self.assertIn("stopped by a signal", output)
-        self.assertIn("Run the same command again to resume", output)
-        self.assert_resumes(ranks=2)
-
-    def test_resumes_after_a_signal_to_one_rank_only(self):
-        process = self.start(ranks=3)
-        os.kill(ranks_of(process.pid)[-1], signal.SIGUSR1)
-        output, _ = process.communicate(timeout=PATIENCE)
-        self.assert_stopped(process.returncode, output, ranks=3)
-        self.assert_resumes(ranks=5)
-
-    def test_stops_without_mpirun_on_each_handled_signal(self):
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may have been started by nohup
-        for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            process = self.start()
-            process.send_signal(polite)
-            output, _ = process.communicate(timeout=PATIENCE)
-            self.assertEqual(process.returncode, 85, output)
-        self.assert_resumes(ranks=None)
-
-    @unittest.skipIf(is_mpich(), "its UCX handles SIGHUP before main() begins")
-    def test_continues_without_a_terminal_if_sighup_is_ignored(self):
-        ignored = "trap '' HUP; (sleep 1; kill -HUP $$) & true"
-        self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
-
-    def test_continues_when_its_output_is_closed(self):
-        for ranks in (None,) if is_mpich() else (None, 2):  # its launcher is terminated by SIGPIPE
-            with subprocess.Popen(
-                    [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "small.toml"],
-                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT) as process:
-                process.stdout.close()
-                self.assertEqual(process.wait(timeout=PATIENCE), 0)
-            (self.folder / "small.h5.json").unlink()
-            self.assert_exit(self.overturn("verify", "small.h5"), 0)
-            (self.folder / "small.h5").unlink()
-
-    def test_stops_at_once_while_its_file_is_created(self):
-        command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
-                   "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
-                   "--set=plane.amplitude.count=32000"]
-        for ranks in (None, 2):
-            before = self.files()
-            with subprocess.Popen(
-                    command if ranks is None else under_mpi(ranks) + command, cwd=self.folder,
-                    env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                    text=True) as process:
-                self.addCleanup(process.kill)
-                self.assertIn("creating a file of 1", process.stdout.readline())
-                time.sleep(0.5)  # creation takes one to two seconds
-                process.send_signal(signal.SIGUSR1)
-                sent = time.monotonic()
-                said = process.stdout.readline()
-                while said and "before the file was created" not in said:
-                    said = process.stdout.readline()
-                # MPI takes another second or two to finalize.
-                self.assertLess(time.monotonic() - sent, 2, said)
-                output, _ = process.communicate(timeout=PATIENCE / 2)
-            self.assert_stopped(process.returncode, said + output, ranks)
-            self.assertIn("before the file was created", said)
-            self.assertEqual(self.files(), before)
-
-    def test_abandons_a_tile_that_would_take_minutes(self):
-        # Without loss, these blocks bounce until the limit of steps. One point of the scan of a
-        # boundary takes a second or two because it is resolved.
-        slow = ("--set", "plane.restitution.values=[1.0]", "--set=plane.restitution.of=absolute",
-                *(f"--set=plane.{axis}.{end}={value}"
-                  for axis, first, last in (("frequency", 0.003, 0.0031),
-                                            ("amplitude", 1.000001, 1.000002))
-                  for end, value in (("first", first), ("last", last), ("count", 64))))
-        for product in ("run", "boundary"):
-            for ranks in (None, 2):
-                command = [OVERTURN, product, "long.toml", "-o", f"slow_{product}.h5", *slow]
-                with subprocess.Popen(
-                        command if ranks is None else under_mpi(ranks) + command, cwd=self.folder,
-                        env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                        text=True) as process:
-                    self.addCleanup(process.kill)
-                    beginning = process.stdout.readline()
-                    self.assertRegex(beginning, "in (1 tile|[0-9]+ tiles);")
-                    process.send_signal(signal.SIGUSR1)
-                    output, _ = process.communicate(timeout=PATIENCE / 2)
-                    self.assert_stopped(process.returncode, output, ranks)
-                    self.assertRegex(output, "stopped by a signal; ([0-9]+) of \\1 tiles are missing")
-
-    def test_resumes_after_the_death_of_mpirun(self):
-        process = self.start(ranks=2)
-        ranks = ranks_of(process.pid)
-        process.kill()
-        process.communicate(timeout=PATIENCE)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=3)
-
-    def test_resumes_after_the_death_of_a_rank(self):
-        process = self.start(ranks=3)
-        ranks = ranks_of(process.pid)
-        os.kill(ranks[1], signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        self.assertNotEqual(process.returncode, 0)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=None)
-
-    def test_resumes_after_a_rank_could_not_write(self):
-        process = self.start(ranks=2)
-        process.send_signal(signal.SIGUSR1)
-        process.communicate(timeout=PATIENCE)
-        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
-        for ranks in (None, 3):
-            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
-            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
-            if ranks is not None:
-                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
-        self.assert_resumes(ranks=2)
 
 
 if __name__ == "__main__":
