@@ -13,7 +13,7 @@ inline constexpr int usage = 2;     ///< the command line is wrong
 inline constexpr int job = 65;      ///< the job is wrong
 inline constexpr int internal = 70; ///< an internal error of overturn
 inline constexpr int output = 74;   ///< disk, permission, a file of another job, a damaged file
-inline constexpr int stopped = 85;  ///< stopped by a signal, resumable
+inline constexpr int stopped = 85;  ///< by a signal or a silent rank; resumable
 } // namespace exit_code
 
 /// The command line is wrong, or asks for something that this machine does not support.

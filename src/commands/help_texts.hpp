@@ -13,14 +13,16 @@ inline constexpr const char* overview = R"(Examples:
   overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
   overturn boundary jobs/smoke.toml
 
-Exit codes: 0 complete, 2 usage, 65 the job is wrong, 70 an internal error of overturn,
-74 anything about the output, 85 stopped, resumable.)";
+Exit codes: 0 complete, 2 wrong command line, 65 wrong job, 70 internal error of overturn,
+74 the output file cannot be read or written, is damaged or belongs to another job, 85 stopped by a
+signal or a silent rank, resumable.)";
 
 inline constexpr const char* run = R"(Example:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
 
 The same command resumes an unfinished run, on any number of ranks. SIGUSR1, SIGTERM, SIGINT and
-SIGHUP stop a run cleanly within about two seconds, with exit code 85.)";
+SIGHUP stop a run cleanly within about two seconds, with exit code 85. Under mpirun, send SIGUSR1:
+mpirun itself acts on the other signals and may kill the ranks before they have stopped.)";
 
 inline constexpr const char* boundary = R"(Example:
   mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200
@@ -45,7 +47,7 @@ job's plane, on one core. [numerics] and the fields of the job are ignored. OUT.
 columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if only one of the two falls
-  wrong verdicts   share of the points whose true verdict is known
+  wrong verdicts   share of wrong verdicts among the points whose true verdict is known
   undecided        number of points without a verdict
   error > bound    share of the points whose error exceeds the field "error"
   bound / error    median of this ratio)";

@@ -95,7 +95,7 @@ void print_events(const History& history)
 {
     constexpr std::size_t most_lines = 24;
     fmt::print("\n{:>10}  {:<13}{:>10}{:>11}{:>11}{:>12}\n", "time [1/p]", "event", "angle",
-               "velocity", "after", "q after");
+               "vel. before", "vel. after", "q after");
     const std::size_t shown = std::min(most_lines, history.events.size());
     for (std::size_t i = 0; i < shown; ++i) {
         print_event(history.events[i]);

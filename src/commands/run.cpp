@@ -182,9 +182,10 @@ std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
     const SpectrumSummary stored = summarize(task.path);
     const std::int64_t missing = stored.tiles - stored.tiles_done;
     if (missing > 0 && !report.stopped) {
-        throw FileError(fmt::format("all tiles were computed, but \"{}\" lacks {} of {}: another "
-                                    "program wrote to it. Run the same command again to resume.",
-                                    task.path, missing, stored.tiles));
+        throw FileError(fmt::format("all tiles were computed, but {} of {} tiles are missing from "
+                                    "\"{}\": another program wrote to it. Run the same command "
+                                    "again to resume.",
+                                    missing, stored.tiles, task.path));
     }
     return missing;
 }
@@ -192,7 +193,7 @@ std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
 int compute_missing_tiles(const Task& task)
 {
     const std::vector<std::string> hosts = task.session.host_names();
-    // The path on rank 0, because other ranks may have been started in other folders.
+    // The path on rank 0, because other ranks may have been started in other working directories.
     const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {

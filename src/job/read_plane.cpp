@@ -85,14 +85,14 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
         refuse(
             slenderness,
             fmt::format(" reaches {} rad, but plane.restitution.of = \"maximum\" is defined only "
-                        "below arcsin sqrt(2/3) = {} rad (Eq. 17). Lower it, or use of = "
-                        "\"absolute\".",
+                        "below arcsin sqrt(2/3) = {} rad (Eq. 17). Choose a more slender "
+                        "block, or use of = \"absolute\".",
                         last, limit));
     }
     if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {
         refuse(slenderness,
                fmt::format(" reaches {} rad, where plane.restitution[0] = {} times the largest "
-                           "restitution is 0. Lower it.",
+                           "restitution is 0. Choose a more slender block.",
                            last, plane.restitution.first()));
     }
     const double largest = plane.restitution_ratio(0, plane.restitution.size() - 1);

@@ -1,5 +1,5 @@
 // Strict reading of a TOML tree: each function returns the requested value, or throws a JobError
-// that tells where, what was found, what is allowed, what to do.
+// that names the place, what was found, what is allowed and what to do.
 #pragma once
 
 #include <toml++/toml.h>
@@ -38,11 +38,11 @@ void expect_table(const Entry& entry, Names allowed, std::string_view or_else = 
 /// The entry of a table with this name; nullopt if there is none.
 std::optional<Entry> find(const Entry& table, std::string_view name);
 
-/// The same for a required entry; `advice` tells what to do if it is missing.
+/// The same for a required entry; `advice` says what to do if it is missing.
 Entry require(const Entry& table, std::string_view name, std::string_view advice);
 
 /// The number of elements of an array, which must not be empty. For the messages, `wanted` names
-/// the required type, and `advice` tells what to do if the array is empty.
+/// the required type, and `advice` says what to do if the array is empty.
 std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_view advice);
 
 Entry element(const Entry& array, std::size_t i);

@@ -104,7 +104,7 @@ class ADamagedFile(Scratch):
                     os.pwrite(file.fileno(), bytes(8), place)
                 output, _ = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 74, output)
-            self.assertIn('"long.h5" lacks 1 of 147', output)
+            self.assertIn('1 of 147 tiles are missing from "long.h5"', output)
             self.assertNotIn("computed 602", output)
 
     def test_is_refused_by_verify_if_truncated(self):

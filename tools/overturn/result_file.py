@@ -70,7 +70,7 @@ def open_result(path, kind, wanted):
 
 def add_picture_argument(parser, default="FILE.png"):
     parser.add_argument("-o", "--output", metavar="OUT",
-                        help=f"picture: .png, .pdf or .svg (default: {default} in this folder)")
+                        help=f"picture: .png, .pdf or .svg (default: {default} in the working directory)")
 
 
 def name_picture(parser, arguments, default=None):

@@ -55,7 +55,7 @@ struct SpectrumSummary : FileOrigin {
 /// Throws FileError if the file is missing, not a spectrum or boundary of overturn, or damaged.
 SpectrumSummary summarize(const std::string& path);
 
-/// The number of computed lines of a boundary, and of those with a peculiarity.
+/// The number of computed lines of a boundary, and of those that need a remark.
 struct BoundaryLines {
     std::int64_t computed = 0;
     std::int64_t unsafe_at_first = 0; ///< overturn at the first amplitude of the job

@@ -12,7 +12,7 @@
 
 namespace overturn {
 
-/// An error in a job. The message tells where, what was found, what is allowed, what to do.
+/// An error in a job. The message names the place, what was found, what is allowed and what to do.
 class JobError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

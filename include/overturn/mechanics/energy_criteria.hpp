@@ -26,8 +26,8 @@ T separatrix_rate(const T& tilt, const T& slenderness)
 /// outward rate u satisfies -inward <= u <= outward.
 template <Number T>
 struct SafeRates {
-    T outward; ///< c: if u > outward, the block overturns on its side, without impact
-    T inward;  ///< sqrt(c^2 - q_min): if u < -inward, on the other side, after one impact
+    T outward; ///< c: if u > outward, the block overturns to the side of its tilt, without impact
+    T inward;  ///< sqrt(c^2 - q_min): if u < -inward, to the other side, after one impact
     T largest; ///< sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16)
     T minus_q_min; ///< [rad^2]
 };

@@ -79,8 +79,8 @@ inline std::size_t bytes_per_point(Field field)
 /// Flags of the field status; 0 for a point that was computed without incident.
 namespace status {
 inline constexpr std::uint8_t came_to_rest = 1; ///< came to rest during the pulse
-inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps or impacts: undecided
-inline constexpr std::uint8_t not_finite = 4;   ///< a number overflowed: undecided
+inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps: undecided
+inline constexpr std::uint8_t not_finite = 4;   ///< an infinity or NaN occurred: undecided
 inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle the verdict
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status

@@ -51,8 +51,9 @@ struct Scene {
 
 struct Numerics {
     Method method = Method::rk45;
-    double tolerance = 1e-9; ///< local error per step of tilt and rate, over the slenderness [1]
-    bool resolve = false;    ///< settle verdicts in doubt with more digits
+    double tolerance =
+        1e-9;             ///< local error per step, over the size of the motion, at most alpha [1]
+    bool resolve = false; ///< settle verdicts in doubt with more digits
 };
 
 /// The error estimate of longer Runge-Kutta steps is not reliable.
