@@ -166,14 +166,14 @@ Command read_command_line(int argc, const char* const* argv)
     add_job_arguments(*history_command, history_options.job);
     history_command
         ->add_option("--at", history_options.at,
-                     "Value of each axis with several in the job; need not be one of them")
+                     "Value on each axis for which the job has several; need not be one of them")
         ->type_name("AXIS=VALUE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     add_result_file(*history_command, "-o,--output", history_options.output)->type_name("OUT.h5");
     history_command
         ->add_option("--until", history_options.until,
-                     "Last time [1/p]; default: until it comes to rest or overturns,\n"
+                     "Last time [1/p]; default: until the block comes to rest or overturns,\n"
                      "at most 60/p after the pulse")
         ->check(CLI::PositiveNumber);
     history_command

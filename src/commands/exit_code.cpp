@@ -39,7 +39,7 @@ int exit_code_of(const std::exception& error)
 std::string message_of(const std::exception& error)
 {
     if (is<std::bad_alloc>(error)) {
-        return "out of memory. Each rank stores the values of the axes, and rank 0 some bytes for "
+        return "out of memory. Each rank stores the values of the axes, and rank 0 a few bytes for "
                "each tile. Give the axes fewer points, or use a machine with more memory.";
     }
     return printable(error.what());

@@ -9,7 +9,7 @@ namespace overturn {
 
 namespace exit_code {
 inline constexpr int complete = 0;
-inline constexpr int usage = 2;     ///< the command line is wrong
+inline constexpr int usage = 2;     ///< the command line; an unsupported processor or launcher
 inline constexpr int job = 65;      ///< the job is wrong
 inline constexpr int internal = 70; ///< an internal error of overturn
 inline constexpr int output = 74;   ///< disk, permission, a file of another job, a damaged file

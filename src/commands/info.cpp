@@ -71,7 +71,7 @@ void print_summary(const std::string& path)
     } else {
         print_origin(path, origin);
     }
-    fmt::print("\nThe job as resolved:\n\n{}", printable(origin.resolved_job));
+    fmt::print("\nThe job with all defaults:\n\n{}", printable(origin.resolved_job));
 }
 
 } // namespace

@@ -75,7 +75,8 @@ private:
     }
 
     // In Open MPI 4.1 a probe that finds nothing fetches what has arrived, and only the next probe
-    // reports it. With single probes, workers on tiles as long as rank 0's waited half of the time.
+    // reports it. With single probes, workers whose tiles took as long as rank 0's waited half of
+    // the time.
     void receive_all()
     {
         for (int empty_probes = 0; empty_probes < 2; ++empty_probes) {

@@ -94,7 +94,7 @@ std::vector<Dimension> dimensions_of(const Job& job)
              "1"},
             rows,
             {"frequency", &plane.frequency,
-             "pulse frequency, over the block's frequency parameter p", "1"}};
+             "angular frequency of the pulse, over the block's frequency parameter p", "1"}};
 }
 
 std::vector<Coordinate> coordinates_of(const Job& job)

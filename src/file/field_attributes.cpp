@@ -75,11 +75,12 @@ Description description_of(Field field)
             "last flip",
             "1",
             "each flip lies between two amplitudes with settled verdicts, at most `width` apart "
-            "relative to their size. If a region next to it is undecided, it is not a flip but "
-            "the last settled amplitude. Between neighbours of scan_amplitude the steps were "
-            "halved where margins bend or impacts change, down to `finest_step` of the "
-            "amplitude. Thinner strips may be missed, and strips of which the two neighbours "
-            "give no sign"};
+            "relative to their size. If region_below or region_above is undecided, the value is "
+            "not "
+            "a flip but the settled amplitude next to the undecided range. Between neighbours of "
+            "scan_amplitude the steps were halved where margins bend or impacts change, down to "
+            "`finest_step` of the amplitude. Strips that are thinner, or that the neighbouring "
+            "amplitudes do not indicate, may be missed"};
     case Field::region_below:
         return {
             "region just below the flip", "",

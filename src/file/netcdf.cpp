@@ -75,7 +75,7 @@ void add_job(hid_t file, const Job& job)
     add_text(file, "job_given", job.given, "job file as given");
     add_text(file, "job_overrides", fmt::format("{}", fmt::join(job.overrides, "\n")),
              "overrides of the job file, one per line");
-    add_text(file, layout::job_resolved, job.resolved, "job as resolved, including all defaults");
+    add_text(file, layout::job_resolved, job.resolved, "job with all defaults");
 }
 
 /// Makes the dataset a dimension if it has the name of one, else attaches its dimensions.

@@ -91,7 +91,7 @@ Numerics read_numerics(const Entry& job)
         if (!(numerics.tolerance >= least_tolerance && numerics.tolerance <= largest_tolerance)) {
             refuse(*tolerance,
                    fmt::format(" = {} is outside [{}, {}]. It is the local error per step, "
-                               "relative to the slenderness.",
+                               "relative to the size of the motion.",
                                numerics.tolerance, least_tolerance, largest_tolerance));
         }
     }

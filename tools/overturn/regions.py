@@ -4,8 +4,8 @@ import matplotlib
 import numpy as np
 from matplotlib.patches import Patch
 
-# The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) over S (75), U1 (65,
-# 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
+# The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) through S (75), U1
+# (65, 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
 # readers. The minus of a pair is the darker one.
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),

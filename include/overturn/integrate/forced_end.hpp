@@ -15,9 +15,9 @@ struct ForcedEnd {
     mask_t<T> rested;     ///< came to rest after a bounce series
     mask_t<T> capped;     ///< stopped after too many steps: the state is meaningless
     mask_t<T> not_finite; ///< stopped at a non-finite number: the state is meaningless
-    T impacts;            ///< without a bounce series that died out; only if recorded
+    T impacts;            ///< not those of a bounce series that died out; only if recorded
     T steps;              ///< steps tried
-    T phase;              ///< of the pulse: its end, or that of the fall [rad]
+    T phase;              ///< at the end of the pulse, or at the fall [rad]
     /// Only if recorded:
     T error;            ///< bound of the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin

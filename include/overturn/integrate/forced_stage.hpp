@@ -16,8 +16,9 @@
 namespace overturn {
 
 /// The largest number of trial steps of a point. It allows half a million impacts, or a tolerance
-/// of 1e-14 over thousands of periods of 1/p. A block lifted by less than 1e-4 of the threshold
-/// makes more impacts if it loses little energy (r within 1e-5 of 1), and remains undecided.
+/// of 1e-14 over thousands of periods of 1/p. An amplitude less than 1e-4 above the uplift
+/// threshold causes more impacts if the block loses little energy (r within 1e-5 of 1); the point
+/// remains undecided.
 inline constexpr double most_steps = 1 << 20;
 
 /// A block just after an event. Until the next event, it rocks on its side or rests.

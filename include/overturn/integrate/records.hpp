@@ -15,7 +15,7 @@ struct Records {
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false; ///< of the pulse: its end, or that of the fall
+    bool phase = false; ///< at the end of the pulse, or at the fall
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

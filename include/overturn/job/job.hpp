@@ -1,4 +1,4 @@
-// A job: what a run computes and stores. The only module that knows TOML.
+// A job: what a run computes and stores. The only module that uses TOML.
 #pragma once
 
 #include "overturn/sweep/fields.hpp"

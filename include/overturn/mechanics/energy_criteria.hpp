@@ -89,7 +89,7 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
     const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
     const T beyond_impact = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
     const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
-    // From here on, -inward <= u <= c. Beyond the top, c < 0, so u <= c implies a blade region.
+    // From here on, -inward <= u <= c. Beyond the top, c < 0, so u <= c implies S+ or S-.
     const T safely = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
     const T standing = select<T>(state.rate < -safe.inward, beyond_impact, safely);
     return select<T>(state.rate > safe.outward, beyond_top, standing);

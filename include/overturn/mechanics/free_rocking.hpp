@@ -227,9 +227,10 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
     if (!(q > 0) || !(r < 1)) {
         return never;
     }
-    // Each bounce followed shortens the series. About as many are followed as terms remain, so the
-    // work is proportional to 1 / sqrt(1 - r). If that is too much, r is so close to 1 that the sum
-    // is an integral over the rate, whose logarithm decreases by half of -log r per bounce.
+    // Each bounce that is followed individually shortens the series. About as many are followed as
+    // terms remain, so the work is proportional to 1 / sqrt(1 - r). If that is too much, r is so
+    // close to 1 that the sum is an integral over the rate, whose logarithm decreases by half of
+    // -log r per bounce.
     const T at_rest(conserved_q<theory>({T(0), T(0), T(1)}, block.slenderness));
     const int digits = std::numeric_limits<T>::digits;
     constexpr int most_bounces = 200'000;

@@ -18,7 +18,8 @@ namespace overturn {
 /// The quantiles of the error distributions.
 inline constexpr std::array<double, 5> error_quantiles{0.5, 0.9, 0.99, 0.999, 1};
 
-/// Upper limits of the classes of |margin| by which flips are counted; the last one is unlimited.
+/// Upper limits of the classes of |margin| by which wrong verdicts are counted; the last one is
+/// unlimited.
 inline constexpr std::array<double, 6> distance_limits{
     1e-8, 1e-6, 1e-4, 1e-2, 1, std::numeric_limits<double>::infinity()};
 

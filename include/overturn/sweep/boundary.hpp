@@ -50,8 +50,8 @@ struct Boundary {
 /// amplitudes, all of which are computed.
 /// Steps are halved where the margin bends or the number of impacts changes, down to finest_step.
 /// If the verdicts of two neighbours differ, there is a flip between them. If both overturn to
-/// different sides, there is a safe strip between them, however thin. If the margin has a minimum
-/// distance from 0, there may be two flips, and its extremum is searched for them. Only a strip
+/// different sides, there is a safe strip between them, however thin. If |margin| has a local
+/// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
 /// thinner than two steps of the scan that satisfies none of these criteria can be missed.
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
