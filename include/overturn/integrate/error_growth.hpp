@@ -21,7 +21,7 @@ struct StepErrors {
     T tilt;                 ///< bound of the local error of the tilt [rad]
     T rate;                 ///< bound of the local error of the rate [rad]
     T acceleration;         ///< at the end [rad]
-    T turning_tilt;         ///< the tilt where the rate changes its sign, if it does [rad]
+    T turning_tilt;         ///< the tilt where the rate changes its sign, see turning_tilt() [rad]
 };
 
 template <Number T>
@@ -30,7 +30,8 @@ class ErrorGrowth {
     using Mask = mask_t<T>;
 
 public:
-    /// Resets the errors: earlier errors do not affect a block at rest, and mean nothing in doubt.
+    /// Resets the errors: earlier errors do not affect a block at rest, and are meaningless once it
+    /// is uncertain whether an event happened.
     void forget(const Mask& lanes)
     {
         tilt_tilt_ = select<T>(lanes, zero_, tilt_tilt_);

@@ -40,11 +40,13 @@ public:
                               step.rate, step.errors.acceleration, lanes);
 
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
-        const Mask inward = lanes && now.rate < zero_ && step.rate > zero_ && !step.falls;
+        const T turn = step.errors.turning_tilt;
+        const Mask dips = !(turn >= lesser<T>(now.tilt, step.tilt));
+        const Mask inward =
+            lanes && ((now.rate < zero_ && step.rate > zero_) || dips) && !step.falls;
         const Mask outward = lanes && now.rate > zero_ && step.rate < zero_ && !step.strikes;
         if (any<T>(inward || outward)) {
             const T radius = growth_.bound(T(S(1)), zero_);
-            const T turn = step.errors.turning_tilt;
             const Mask met =
                 (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
             doubtful_ = doubtful_ || met;
@@ -96,13 +98,13 @@ public:
         const T lying = (growth_.bound(T(pull + pull), T(now.rate + now.rate)) +
                          roundings() * now.rate * now.rate) /
                         (largest * largest);
-        // It is uncertain whether the block falls before the pulse ends.
+        // Whether it is uncertain that the block falls before the pulse ends.
         const T left = (excitation.motion.end - now.phase) / excitation.frequency;
         const Mask either =
             (fell && left * now.rate < radius) || (!fell && T(pi<S>() / 2) - now.tilt < radius);
         // It is also uncertain whether the block falls at all, unless it falls with some energy.
-        // That energy is bounded away from zero; the distance from the separatrix is not. It has
-        // grown like its error, which must be a small share of it.
+        // That energy is bounded away from zero; the distance from the separatrix is not. That
+        // distance has grown in proportion to its error, which must be a small share of it.
         const Mask barely = fell && !(T(S(4)) * standing.error < abs(standing.margin) &&
                                       lying * largest * largest < now.rate * now.rate);
         const T error = select<T>(fell, lying, standing.error + near_impact);

@@ -16,7 +16,7 @@ struct Rocking {
     T side;  ///< +1 or -1: the sign of theta
 };
 
-/// The end of a step: after the step size chosen by the stepper, or at the first event before.
+/// The end of a step: after the step size chosen by the stepper, or at the first event before that.
 template <Number T>
 struct StepEnd {
     T phase;           ///< exactly the end of the pulse if that is reached [rad]
@@ -82,21 +82,44 @@ T highest_tilt(const T& start, const T& end, const T& most, const SampleAt& samp
     return greater<T>(sample_at(share).tilt, highest);
 }
 
-/// The tilt where the rate changes its sign within a step, if it may be near the ground or pi/2;
-/// otherwise a tilt nearer to them. lowest, highest: bounds of the tilt within the step [rad];
-/// tilt_at_turn(lanes) computes it in the lanes in which the block turns.
+/// The motion at the start or at the end of a step, in any unit of time.
+template <Number T>
+struct StepPoint {
+    T rate;
+    T acceleration;
+};
+
+/// The tilt where the rate changes its sign within a step of length h, if it may be near the ground
+/// or pi/2; otherwise a tilt that is nearer to them than the turn. If the rate has the same sign at
+/// both ends, the block may have turned twice: then this is the lower turn. lowest, highest: bounds
+/// of the tilt within the step [rad]; tilt_at_turn(lanes, share) finds it in these lanes, starting
+/// from an estimate of its share of the step.
 template <Number T, class Find>
-T turning_tilt(const T& slenderness, const T& start_rate, const T& end_rate, const T& lowest,
-               const T& highest, const Find& tilt_at_turn)
+T turning_tilt(const T& slenderness, const StepPoint<T>& start, const StepPoint<T>& end, const T& h,
+               const T& lowest, const T& highest, const Find& tilt_at_turn)
 {
     using S = scalar_t<T>;
     const T zero(S(0));
+    const T one(S(1));
     const T near_ground = slenderness * T(S(1) / 16);
     const T near_flat(pi<S>() / 2 - S(1) / 16);
-    const mask_t<T> turns = start_rate * end_rate < zero;
-    const mask_t<T> suspect = turns && (lowest < near_ground || highest > near_flat);
-    const T nearer = select<T>(start_rate < zero, near_ground, near_flat);
-    return any<T>(suspect) ? select<T>(suspect, tilt_at_turn(turns), nearer) : nearer;
+    const mask_t<T> inward = start.rate < zero;
+    const mask_t<T> turns = start.rate * end.rate < zero;
+    // A second turn, after the start of a step that begins inward or before the end of one that
+    // ends outward, where an outward acceleration would stop the block.
+    const T speed = select<T>(inward, -start.rate, end.rate);
+    const T stop = select<T>(inward, start.acceleration, end.acceleration) * h;
+    const mask_t<T> dips = start.rate * end.rate > zero && speed < stop;
+    const mask_t<T> suspect =
+        (turns && (lowest < near_ground || highest > near_flat)) || (dips && lowest < near_ground);
+    const T nearer = select<T>(turns && inward, near_ground, near_flat);
+    if (!any<T>(suspect)) {
+        return nearer;
+    }
+    const T stopped = speed / select<T>(dips, stop, one);
+    const T share = select<T>(turns, start.rate / select<T>(turns, start.rate - end.rate, one),
+                              select<T>(inward, stopped, one - stopped));
+    return select<T>(suspect, tilt_at_turn(suspect, share), nearer);
 }
 
 } // namespace overturn

@@ -243,7 +243,7 @@ private:
                                     start.rate);
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
-        // Where the push is linear or negligible, the length is measured in the time of the block.
+        // Where the push is linear or negligible, the length is measured in units of 1/p.
         T length = traits_of(excitation_.motion.pulse).is_linear ? h : phase_step;
         if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
@@ -254,10 +254,9 @@ private:
             select<T>(length > longest_length || h > longest, T(unknown_error<S>), zero_);
         const T two(S(2));
         const T one(S(1));
-        const auto tilt_at_turn = [&](const Mask& turns) -> T {
-            T s =
-                select<T>(turns, start.rate, zero_) / select<T>(turns, start.rate - end.rate, one);
-            for (int i = 0; i < 3; ++i) { // Newton's method; the secant alone would be too rough
+        const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
+            T s = select<T>(turns, share, zero_);
+            for (int i = 0; i < 3; ++i) { // Newton's method; the estimate alone would be too rough
                 const Quintic<T> after = restricted(tilt, s, one);
                 const T slope = after[1] - after[0];
                 const T bend = T(S(4)) * (after[2] - after[1] - slope);
@@ -272,7 +271,8 @@ private:
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
                 .turning_tilt =
-                    turning_tilt<T>(block_.slenderness, start.rate, end.rate, lower_bound(tilt),
+                    turning_tilt<T>(block_.slenderness, {start.rate, start.acceleration},
+                                    {end.rate, end.acceleration}, h, lower_bound(tilt),
                                     upper_bound(tilt), tilt_at_turn)};
     }
 
