@@ -89,9 +89,9 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
     return {low, high};
 }
 
-/// Bisects between two amplitudes that overturn to different sides. Returns a safe amplitude, or
-/// the two closest ones if a verdict cannot be settled or the safe strip is thinner than
-/// flip_width.
+/// Bisects between two amplitudes at which the block overturns to different sides. Returns a safe
+/// amplitude, or the two closest ones if a verdict cannot be settled or the safe strip is thinner
+/// than flip_width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
     while (!is_narrow(below.amplitude, above.amplitude)) {

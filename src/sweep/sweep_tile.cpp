@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 namespace overturn {
 
 namespace {
@@ -91,6 +95,15 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
         }
     }
     return result;
+}
+
+void keep_freed_memory()
+{
+#if defined(__GLIBC__)
+    constexpr int most = 256 << 20; // bytes
+    mallopt(M_TRIM_THRESHOLD, most);
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest value that is allowed
+#endif
 }
 
 } // namespace overturn

@@ -197,6 +197,7 @@ int run(const std::vector<std::string>& words)
 int main(int count, char** words)
 {
     using namespace overturn::benchmarks;
+    overturn::keep_freed_memory(); // as in the program
     try {
         return run({words + 1, words + count});
     } catch (const UsageError& error) {

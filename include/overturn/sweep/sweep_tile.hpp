@@ -22,4 +22,8 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested = nullptr);
 
+/// Makes the allocator of this process keep freed memory. By default, the C library of GNU returns
+/// the memory of a tile to the system; new pages for the next tile then take a fifth of the time.
+void keep_freed_memory();
+
 } // namespace overturn
