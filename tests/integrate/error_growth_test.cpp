@@ -136,6 +136,49 @@ TEST(ErrorGrowth, IsInfiniteForNaN)
     EXPECT_FALSE(growth.bound(1, 1) < 1e300);
 }
 
+/// Whether it is uncertain that an event happened in a step with an error of the tilt of 1e-6.
+bool is_doubtful_after(const Rocking<double>& start, double end_tilt, double end_rate,
+                       double turning_tilt)
+{
+    const Block<double> block{0.2, 0.9};
+    const auto excitation =
+        excitation_of<Theory::linear>(ground_motion(PulseKind::one_sine, 1.0), 0.2, 2.0, 3.0);
+    StepEndWithErrors<double> step{};
+    step.phase = start.phase + 1;
+    step.tilt = end_tilt;
+    step.rate = end_rate;
+    step.moved = true;
+    step.strikes = end_tilt == 0;
+    step.falls = end_tilt == pi<double>() / 2;
+    step.errors = {.variation = {1, 0, 0, 1},
+                   .tilt = 1e-6,
+                   .rate = 0,
+                   .acceleration = 0,
+                   .turning_tilt = turning_tilt};
+    MarginError<Theory::linear, double> error;
+    error.pass_step(block, excitation, start, step, true);
+    return error.is_doubtful();
+}
+
+TEST(MarginError, IsUnknownIfABlockTurnedCloserToAnEventThanItsError)
+{
+    const double flat = pi<double>() / 2;
+    const Rocking<double> outward{.phase = 1, .tilt = 0.5, .rate = 0.4, .side = 1};
+    const Rocking<double> inward{.phase = 1, .tilt = 0.5, .rate = -0.4, .side = 1};
+    for (const double end : {0.3, 0.0}) { // also if the step ends at an impact
+        EXPECT_TRUE(is_doubtful_after(outward, end, -0.4, flat - 5e-7));
+        EXPECT_FALSE(is_doubtful_after(outward, end, -0.4, flat - 5e-6));
+    }
+    for (const double end : {0.3, flat}) { // also if it ends with a fall
+        EXPECT_TRUE(is_doubtful_after(inward, end, 0.4, 5e-7));
+        EXPECT_FALSE(is_doubtful_after(inward, end, 0.4, 5e-6));
+    }
+    // Also if the block turned twice.
+    EXPECT_TRUE(is_doubtful_after(inward, 0.3, -0.4, 5e-7));
+    EXPECT_FALSE(is_doubtful_after(inward, 0.3, -0.4, 5e-6));
+    EXPECT_TRUE(is_doubtful_after(outward, 0.7, 0.4, 5e-7));
+}
+
 TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
 {
     // A bound of first order may be exceeded once in 10^5 points; here are 300, four times each.

@@ -42,9 +42,8 @@ public:
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;
         const Mask dips = !(turn >= lesser<T>(now.tilt, step.tilt));
-        const Mask inward =
-            lanes && ((now.rate < zero_ && step.rate > zero_) || dips) && !step.falls;
-        const Mask outward = lanes && now.rate > zero_ && step.rate < zero_ && !step.strikes;
+        const Mask inward = lanes && ((now.rate < zero_ && step.rate > zero_) || dips);
+        const Mask outward = lanes && now.rate > zero_ && step.rate < zero_;
         if (any<T>(inward || outward)) {
             const T radius = growth_.bound(T(S(1)), zero_);
             const Mask met =
