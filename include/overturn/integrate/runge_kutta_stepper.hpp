@@ -244,7 +244,7 @@ private:
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
         // Where the push is linear or negligible, the length is measured in units of 1/p.
-        T length = traits_of(excitation_.motion.pulse).is_linear ? h : phase_step;
+        T length = traits_of(excitation_.motion.pulse).form == PulseForm::linear ? h : phase_step;
         if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
         }

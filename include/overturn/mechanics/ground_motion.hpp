@@ -83,7 +83,7 @@ GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
                            .begin = has_window(pulse) ? S(-end) : S(0),
                            .end = end,
                            .kink = has_window(pulse) ? S(-end) : S(0),
-                           .bends = S(traits_of(pulse).is_linear ? 0 : 1),
+                           .bends = S(traits_of(pulse).form == PulseForm::linear ? 0 : 1),
                            .peaks = {}};
     motion.peaks.fill(std::numeric_limits<S>::infinity());
     with_pulse(pulse, [&]<class Pulse>() {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace overturn {
 
@@ -193,6 +194,9 @@ struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
                  {S(3), outer}}};
     }
 };
+
+template <class Pulse>
+inline constexpr bool is_wavelet = std::is_base_of_v<RickerWavelet<Pulse>, Pulse>;
 
 /// Calls `visit.template operator()<Wavelet>()` for the formula of this kind of wavelet.
 template <class Visitor>

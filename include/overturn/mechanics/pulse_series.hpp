@@ -72,7 +72,8 @@ Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate
         const auto [sine, cosine] = sine_and_cosine_of_period(phase);
         if constexpr (std::same_as<Pulse, OneCosine>) {
             return {scale * cosine, -(scale * rate * sine)};
-        } else {
+        } else { // a wavelet is instantiated, too, but never called
+            static_assert(std::same_as<Pulse, OneSine> || is_wavelet<Pulse>);
             return {scale * sine, scale * rate * cosine};
         }
     }
@@ -85,6 +86,7 @@ Coefficients<count, T> wavelet_series(const T& scale, const T& phase, const T& r
     using arithmetic::fma;
     using std::sqrt;
     using S = scalar_t<T>;
+    static_assert(is_wavelet<Wavelet>);
     if constexpr (std::same_as<Wavelet, SymmetricRicker>) {
         // With z = phase / sqrt 2, x^2 = z^2 / 2 and 1 - 2 x^2 = 1 - z^2.
         const T to_z(sqrt(S(2)) / 2);
