@@ -6,11 +6,11 @@ namespace overturn {
 
 #define OVERTURN_DECLARE(isa)                                                                      \
     SweepKernel kernel_##isa##_runge_kutta(Theory, const Records&);                                \
-    SweepKernel kernel_##isa##_taylor_12(Theory, const Records&);                                  \
-    SweepKernel kernel_##isa##_taylor_18(Theory, const Records&);
+    SweepKernel kernel_##isa##_taylor_14(Theory, const Records&);                                  \
+    SweepKernel kernel_##isa##_taylor_20(Theory, const Records&);
 #define OVERTURN_LIST(isa)                                                                         \
     {                                                                                              \
-        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_12, kernel_##isa##_taylor_18             \
+        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20             \
     }
 
 OVERTURN_DECLARE(double)

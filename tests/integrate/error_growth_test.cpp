@@ -197,8 +197,8 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
             };
             check.template operator()<RungeKutta>(1e-6);
             check.template operator()<RungeKutta>(1e-10);
-            check.template operator()<Taylor<12>>(1e-4);
-            check.template operator()<Taylor<18>>(1e-9);
+            check.template operator()<Taylor<14>>(1e-4);
+            check.template operator()<Taylor<20>>(1e-9);
         }
     });
 }
@@ -216,8 +216,8 @@ TEST(ForcedStage, HasTheSameEndWithAndWithoutItsError)
             EXPECT_EQ(plain.steps, watched.steps);
         };
         check.template operator()<RungeKutta>();
-        check.template operator()<Taylor<12>>();
-        check.template operator()<Taylor<18>>();
+        check.template operator()<Taylor<14>>();
+        check.template operator()<Taylor<20>>();
     });
 }
 

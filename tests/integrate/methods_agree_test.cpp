@@ -68,8 +68,8 @@ TEST(Methods, AgreeWithFiftyDigitsWithinTheirTolerances)
                 }
             };
             check.template operator()<RungeKutta>({1e-6, 1e-9, 1e-12});
-            check.template operator()<Taylor<12>>({1e-6, 1e-7});
-            check.template operator()<Taylor<18>>({1e-9, 1e-12, 1e-14});
+            check.template operator()<Taylor<14>>({1e-6, 1e-7});
+            check.template operator()<Taylor<20>>({1e-9, 1e-12, 1e-14});
         }
     });
 }
@@ -101,7 +101,7 @@ TEST(TaylorMethod, ErrorDecreasesWithTheTolerance)
                                                          reference_tolerance);
         const auto error = [&](double tolerance) {
             const auto end =
-                forced_end<Theory::nonlinear, Taylor<18>>(PulseKind::one_sine, point, tolerance);
+                forced_end<Theory::nonlinear, Taylor<20>>(PulseKind::one_sine, point, tolerance);
             return double(difference(exact, end)) + 1e-16;
         };
         log_ratio += std::log10(error(1e-7) / error(1e-11)) / points;
@@ -128,7 +128,7 @@ std::vector<Graze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size
         Point<double> point = random_point(generator);
         const auto impacts_at = [&](double amplitude) {
             point.amplitude = amplitude;
-            const auto end = forced_end<theory, Taylor<18>>(pulse, point, 1e-13);
+            const auto end = forced_end<theory, Taylor<20>>(pulse, point, 1e-13);
             return end.rested || end.fell ? -1 : end.impacts;
         };
         double low = 1.02;
@@ -177,9 +177,9 @@ TEST(Methods, MissNoImpactNextToAGraze)
                     // The graze itself moves by the error of a run: far less than the offset.
                     expect_impacts_of_fifty_digits<theory, RungeKutta>(pulse, point, exact,
                                                                        1e-4 * offset);
-                    expect_impacts_of_fifty_digits<theory, Taylor<12>>(pulse, point, exact,
+                    expect_impacts_of_fifty_digits<theory, Taylor<14>>(pulse, point, exact,
                                                                        1e-4 * offset);
-                    expect_impacts_of_fifty_digits<theory, Taylor<18>>(pulse, point, exact,
+                    expect_impacts_of_fifty_digits<theory, Taylor<20>>(pulse, point, exact,
                                                                        1e-4 * offset);
                 }
             }

@@ -9,7 +9,7 @@
 
 namespace overturn {
 
-using EveryMethod = testing::Types<RungeKutta, Taylor<12>, Taylor<18>>;
+using EveryMethod = testing::Types<RungeKutta, Taylor<14>, Taylor<20>>;
 
 struct MethodName {
     template <class Method>
@@ -18,7 +18,7 @@ struct MethodName {
         if constexpr (std::same_as<Method, RungeKutta>) {
             return "RungeKutta";
         } else {
-            return std::same_as<Method, Taylor<12>> ? "Taylor12" : "Taylor18";
+            return std::same_as<Method, Taylor<14>> ? "Taylor14" : "Taylor20";
         }
     }
 };

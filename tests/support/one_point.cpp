@@ -19,7 +19,7 @@ ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<do
     OVERTURN_INSTANTIATE(method, Theory::linear, false)                                            \
     OVERTURN_INSTANTIATE(method, Theory::linear, true)
 OVERTURN_INSTANTIATE_METHOD(RungeKutta)
-OVERTURN_INSTANTIATE_METHOD(Taylor<12>)
-OVERTURN_INSTANTIATE_METHOD(Taylor<18>)
+OVERTURN_INSTANTIATE_METHOD(Taylor<14>)
+OVERTURN_INSTANTIATE_METHOD(Taylor<20>)
 
 } // namespace overturn

@@ -25,7 +25,7 @@ sys.path.insert(0, os.environ["BENCHMARKS"])
 import effects  # noqa: E402
 
 SIDE = 24
-# Method: a loose and a fine tolerance. Both tolerances of Taylor are within the range of order 18,
+# Method: a loose and a fine tolerance. Both tolerances of Taylor are within the range of order 20,
 # which the benchmark program uses when it calls the kernel directly.
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
 # Per point: the heap also holds the few numbers of a row, and lists of fields.

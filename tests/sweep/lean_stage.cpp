@@ -14,6 +14,6 @@ ForcedEnd<T> lean_stage(const Block<T>& block, const Excitation<T>& excitation, 
 }
 
 template ForcedEnd<T> lean_stage<RungeKutta>(const Block<T>&, const Excitation<T>&, double);
-template ForcedEnd<T> lean_stage<Taylor<12>>(const Block<T>&, const Excitation<T>&, double);
+template ForcedEnd<T> lean_stage<Taylor<14>>(const Block<T>&, const Excitation<T>&, double);
 
 } // namespace overturn

@@ -100,7 +100,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                          .phase = nullptr,
                          .peak = nullptr};
     const Integrator integrator =
-        work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_18;
+        work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
     sweep_kernel(work.kernel, integrator, Theory::nonlinear, records)(task, ends);
     return regions;
 }

@@ -41,7 +41,8 @@ public:
 
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;
-        const Mask dips = !(turn >= lesser<T>(now.tilt, step.tilt));
+        const T lower = lesser<T>(now.tilt, step.tilt);
+        const Mask dips = now.rate * step.rate > zero_ && lower > zero_ && !(turn >= lower);
         const Mask inward = lanes && ((now.rate < zero_ && step.rate > zero_) || dips);
         const Mask outward = lanes && now.rate > zero_ && step.rate < zero_;
         if (any<T>(inward || outward)) {
