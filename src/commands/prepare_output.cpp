@@ -79,6 +79,7 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
         damaged = find_damaged_tiles(path);
     }
     if (existing == Existing::complete && damaged.empty()) {
+        clear_open_mark(path);
         say(path + " is already complete.");
         return std::nullopt;
     }

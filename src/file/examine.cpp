@@ -1,5 +1,6 @@
 // Whether the file at the output path belongs to the job.
 
+#include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "stored_spectrum.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace overturn {
 
@@ -109,6 +111,19 @@ Existing examine(const std::string& path, const Job& job, const Tiling& tiling)
             path, fmt::join(foreign, ", ")));
     }
     return stored.tiles_done < stored.tiles ? Existing::unfinished : Existing::complete;
+}
+
+void clear_open_mark(const std::string& path)
+{
+    constexpr std::streamoff place = 20; // in a superblock of version 0
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(place);
+    if (file.get() != 0) {
+        const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDWR, hdf5::file_access());
+        if (opened >= 0) {
+            H5Fclose(opened);
+        }
+    }
 }
 
 } // namespace overturn

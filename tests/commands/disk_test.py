@@ -98,6 +98,23 @@ class ADiskThatFails(OnFaultyDisk):
             file["checksum"][:] = 0
 
 
+class AKillAtTheLastWrite(OnFaultyDisk):
+    def test_leaves_a_file_that_the_next_run_makes_equal_to_that_of_an_undisturbed_run(self):
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
+        whole = checksum(self.folder / "out.h5")
+        (self.folder / "out.h5").unlink()
+        count = self.folder / "count"
+        self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", COUNT_WRITES_IN=count)
+        writes = int(count.read_text().split()[0])
+        (self.folder / "out.h5").unlink()
+        result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5",
+                                              KILL_AT_WRITE=writes)
+        self.assertEqual(result.returncode, -signal.SIGKILL)
+        self.assertNotEqual(checksum(self.folder / "out.h5"), whole)
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "already complete")
+        self.assertEqual(checksum(self.folder / "out.h5"), whole)
+
+
 class AStopDuringAWrite(OnFaultyDisk):
     def test_before_a_damaged_tile_is_cleared_leaves_the_file_incomplete(self):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
