@@ -13,9 +13,9 @@ inline constexpr const char* overview = R"(Examples:
   overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
   overturn boundary jobs/smoke.toml
 
-Exit codes: 0 complete, 2 error in the command line, or an unsupported processor or launcher, 65
-error in the job, 70 internal error of overturn, 74 the output file cannot be read or written, is
-damaged or belongs to another job, 85 stopped by a signal or a silent rank, resumable.)";
+Exit codes: 0 complete; 2 error in the command line, or an unsupported processor or launcher; 65
+error in the job; 70 internal error of overturn; 74 a result file cannot be read or written, is
+damaged or belongs to another job; 85 stopped by a signal or a silent rank, resumable.)";
 
 inline constexpr const char* run = R"(Example:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
@@ -46,7 +46,8 @@ Runs both methods at tolerances from 1e-2 to 1e-14, and with resolved verdicts, 
 job's plane, on one core. [numerics] and the fields of the job are ignored. OUT.h5 contains these
 columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
-  error            error of the margin, against 50 digits; inf if the block falls in only one of the two computations
+  error            error of the margin, against 50 digits; inf if the block falls in only one of
+                   the two computations
   wrong verdicts   share of wrong verdicts among the points whose true verdict is known
   undecided        number of points without a verdict
   error > bound    share of the points whose error exceeds the field "error"
@@ -56,10 +57,10 @@ inline constexpr const char* history = R"(Example:
   overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
   tools/plot_history history.h5
 
-Prints the region, and the events with the velocity before and after each and q after it (Eq. 12).
-Angles are in rad, times are tau = p t. OUT.h5 contains angle, velocity, acceleration, q and the
-ground acceleration over time. The pulse is integrated as accurately as doubles allow, whatever
-[numerics] says.)";
+Prints the region and the events; for each event, the velocity before and after it, and q
+(Eq. 12) after it. Angles are in rad, times are tau = p t. OUT.h5 contains angle, velocity,
+acceleration, q and the ground acceleration over time. The pulse is integrated as accurately as
+doubles allow, whatever [numerics] says.)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";
@@ -87,7 +88,7 @@ which h5py and xarray read without conversion. A job file in TOML specifies the 
 inline constexpr const char* files = R"(Relative to the folder of the program:
 
   ../share/overturn/jobs        example jobs
-  ../share/overturn/jobs/slurm  batch scripts that resubmit themselves until a file is complete
+  ../share/overturn/jobs/slurm  batch scripts that requeue themselves until a file is complete
   ../share/overturn/tools       the Python tools
   ../share/doc/overturn         documentation: job files, result files, accuracy
   ../include/overturn           the physics for C++ programs: find_package(overturn)

@@ -182,10 +182,10 @@ std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
     const SpectrumSummary stored = summarize(task.path);
     const std::int64_t missing = stored.tiles - stored.tiles_done;
     if (missing > 0 && !report.stopped) {
-        throw FileError(fmt::format("all tiles were computed, but {} of {} tiles are missing from "
-                                    "\"{}\": another program wrote to it. Run the same command "
+        throw FileError(fmt::format("another program has written to \"{}\"; all tiles were "
+                                    "computed, but the file lacks {} of {}. Run the same command "
                                     "again to resume.",
-                                    missing, stored.tiles, task.path));
+                                    task.path, missing, stored.tiles));
     }
     return missing;
 }
@@ -230,7 +230,7 @@ int compute_missing_tiles(const Task& task)
         say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
         if (still_missing > 0) {
             code = complain(Stopped(
-                fmt::format("; {} of {} tiles are missing", still_missing, task.tiling.size())));
+                fmt::format("; tiles missing: {} of {}", still_missing, task.tiling.size())));
         } else if (task.job.product == Product::boundary) {
             if (const std::string lines = lines_text(count_lines(task.path)); !lines.empty()) {
                 say(fmt::format("{}: {}", task.path, lines));

@@ -33,8 +33,9 @@ void check_file(const std::string& path)
     }
     if (const auto damaged = damaged_tiles(path); !damaged.empty()) {
         throw FileError(fmt::format(
-            "\"{}\" is damaged: {} of {} tiles do not match their checksums (tile numbers: {}). "
-            "Recompute them with overturn {} JOB.toml -o {}, with the job file and the --set "
+            "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match (tile "
+            "numbers: {}). Recompute them with overturn {} JOB.toml -o {}, with the job file and "
+            "the --set "
             "arguments of the first run.",
             path, damaged.size(), summary.tiles_done, list_text(damaged),
             summary.product == Product::boundary ? "boundary" : "run", path));

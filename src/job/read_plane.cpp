@@ -90,15 +90,14 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
                         last, limit));
     }
     if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {
-        refuse(slenderness,
-               fmt::format(" reaches {} rad, where plane.restitution[0] = {} times the largest "
-                           "restitution is 0. Choose a more slender block.",
-                           last, plane.restitution.first()));
+        refuse(slenderness, fmt::format(" reaches {} rad, where the largest restitution times {} "
+                                        "(plane.restitution[0]) is 0. Choose a more slender block.",
+                                        last, plane.restitution.first()));
     }
     const double largest = plane.restitution_ratio(0, plane.restitution.size() - 1);
     if (!(largest <= 1)) {
         refuse(restitution,
-               fmt::format(" reaches r = {} at the slenderness {} rad, which is outside (0, 1]. A "
+               fmt::format(" reaches r = {}, which is outside (0, 1], at the slenderness {} rad. A "
                            "block cannot gain energy at an impact.",
                            largest, plane.slenderness.first()));
     }

@@ -79,8 +79,8 @@ Kernel widest_kernel()
         }
     }
     if (processor_runs(Kernel::one_lane)) {
-        throw ProcessorError("this processor cannot run any kernel of this build. Configure it "
-                             "with -DOVERTURN_KERNELS=all, or build it on this machine.");
+        throw ProcessorError("this processor cannot run any kernel of this build. Configure "
+                             "overturn with -DOVERTURN_KERNELS=all, or build it on this machine.");
     }
     throw ProcessorError("this processor supports neither AVX2 with FMA nor AVX-512. Overturn "
                          "requires one of them (Intel processors since 2013, AMD since 2015).");

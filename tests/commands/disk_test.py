@@ -126,7 +126,7 @@ class AStopDuringAWrite(OnFaultyDisk):
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   KILL_AT_WRITE=1, KILL_BY=int(signal.SIGUSR1))
             self.assert_stopped(result.returncode, result.stderr, ranks)
-            self.assertIn("stopped by a signal; 1 of 24 tiles are missing", words(result.stderr))
+            self.assertIn("stopped by a signal; tiles missing: 1 of 24", words(result.stderr))
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "1 damaged tile to recompute")
         self.assertEqual(checksum(self.folder / "out.h5"), whole)
 

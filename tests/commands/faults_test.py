@@ -32,7 +32,7 @@ class ADamagedFile(Scratch):
                          "24 of 24 tiles are done; coordinates and checksums match")
         self.damage("whole.h5", (0, 7, 23))
         self.assert_exit(self.overturn("verify", "whole.h5"), 74,
-                         "3 of 24 tiles do not match their checksums (tile numbers: 0, 7, 23)",
+                         "the checksums of 3 of 24 finished tiles do not match (tile numbers: 0, 7, 23)",
                          "overturn run JOB.toml -o whole.h5")
 
     def test_is_not_complete_if_the_repairing_run_is_stopped(self):
@@ -73,7 +73,7 @@ class ADamagedFile(Scratch):
         self.damage("whole.h5", (5, 6))
         with h5py.File(self.folder / "whole.h5", "r+") as file:
             file["checksum"][6:9] = 0
-        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 tiles", "tile numbers: 5")
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 finished tiles", "tile numbers: 5")
         result = self.overturn("run", "small.toml", "-o", "whole.h5")
         self.assert_exit(result, 0, "20 of 24 tiles done, 1 damaged tile to recompute")
         self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
@@ -104,7 +104,7 @@ class ADamagedFile(Scratch):
                     os.pwrite(file.fileno(), bytes(8), place)
                 output, _ = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 74, output)
-            self.assertIn('1 of 147 tiles are missing from "long.h5"', output)
+            self.assertIn("the file lacks 1 of 147", output)
             self.assertNotIn("computed 602", output)
 
     def test_is_refused_by_verify_if_truncated(self):

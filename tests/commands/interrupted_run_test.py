@@ -156,7 +156,7 @@ class AnInterruptedRun(Scratch):
                     process.send_signal(signal.SIGUSR1)
                     output, _ = process.communicate(timeout=PATIENCE / 2)
                     self.assert_stopped(process.returncode, output, ranks)
-                    self.assertRegex(output, "stopped by a signal; ([0-9]+) of \\1 tiles are missing")
+                    self.assertRegex(output, "stopped by a signal; tiles missing: ([0-9]+) of \\1")
 
     def test_resumes_after_the_death_of_mpirun(self):
         process = self.start(ranks=2)

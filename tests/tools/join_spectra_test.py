@@ -181,7 +181,7 @@ class TestAJoinRefused(Spectra):
         def damage(file):
             file["angle"][0, 0, 5, 5] += 1e-9
         self.change("altered.h5", damage)
-        self.refuses(74, ("\"altered.h5\" is damaged: 1 of 12 tiles",),
+        self.refuses(74, ("\"altered.h5\" is damaged: the checksums of 1 of 12 finished tiles",),
                      "altered.h5", "-o", "joined.h5")
 
     def test_of_another_build(self):

@@ -6,7 +6,7 @@
 namespace overturn {
 
 /// Handles the signals from construction to destruction, but not SIGHUP if the process was started
-/// with SIGHUP ignored, as by nohup. After that SIGUSR1 is ignored. One object at a time.
+/// with SIGHUP ignored, as by nohup. After destruction, SIGUSR1 is ignored. One object at a time.
 class StopSignals {
 public:
     StopSignals();

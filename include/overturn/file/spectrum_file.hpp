@@ -30,8 +30,9 @@ enum class Existing { nothing, unfinished, complete };
 /// result file of this program version, job and tiling. Serial.
 Existing examine(const std::string& path, const Job& job, const Tiling& tiling);
 
-/// Clears the mark of a file that is open for writing. HDF5 clears it on closing the file, so a run
-/// that is killed after its last tile leaves it. A file that cannot be written is left as it is.
+/// Clears the mark that says that a file is open for writing. HDF5 clears it on closing the file,
+/// so a run that is killed after its last tile leaves it set. A file that cannot be written is left
+/// as it is.
 void clear_open_mark(const std::string& path);
 
 /// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB

@@ -27,7 +27,7 @@ struct Flank {
 
 /// A formula without a kink.
 struct SmoothPulse {
-    /// The phase of the kink [rad].
+    /// Infinite: there is no kink [rad].
     template <class S>
     static S kink()
     {

@@ -69,10 +69,11 @@ constexpr bool knows_errors(const Numerics& numerics)
 /// The methods for which kernels are compiled, with the order of a Taylor series.
 enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 
-/// Order 14 takes less time than 20 for errors above 1e-8 under the one-sine pulse, 1e-10 to 1e-12
-/// under the others. For an error of 1e-9 under the one-sine pulse, order 20 needs 2e-7. Orders 12
-/// and 18 save up to 5 %, but every third term is large after an uplift by a linear pulse: if the
-/// last one is not of order 3 n - 1, the error may exceed its bound.
+/// Order 14 takes less time than 20 for errors above 1e-8 under the one-sine pulse, and above 1e-10
+/// to 1e-12 under the others. For an error of 1e-9 under the one-sine pulse, order 20 needs a
+/// tolerance of 2e-7. Orders 12 and 18 save up to 5 %, but every third term is large after an
+/// uplift by a linear pulse: if the last one is not of order 3 n - 1, the error may exceed its
+/// bound.
 inline constexpr double loosest_tolerance_of_order_20 = 2e-7;
 
 constexpr Integrator integrator_of(const Numerics& numerics)
