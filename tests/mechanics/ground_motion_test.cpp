@@ -48,6 +48,25 @@ TEST_P(EveryPulse, HasNoExtremumExceptItsPeaks)
     }
 }
 
+TEST_P(EveryPulse, HasASecondDerivativeBelowTwoOnEachSmoothPiece)
+{
+    // The bound of low_bounces.hpp. A second difference is the mean of f'' over the two steps; its
+    // rounding error is 4 epsilon / step^2, at most 1e-8.
+    const GroundMotion<double> pulse = motion(1.0);
+    const double step = phase_number(1, pulse) - pulse.begin;
+    for (int i = 0; i + 2 <= samples; ++i) {
+        const double first = phase_number(i, pulse);
+        const double last = phase_number(i + 2, pulse);
+        if (first < pulse.kink && pulse.kink < last) {
+            continue;
+        }
+        const double difference = value_of_pulse(pulse, first) -
+                                  2 * value_of_pulse(pulse, phase_number(i + 1, pulse)) +
+                                  value_of_pulse(pulse, last);
+        ASSERT_LT(std::abs(difference), 2 * step * step) << "phase " << first;
+    }
+}
+
 /// The first phase of each interval with amplitude |f| > 1, by sampling the whole pulse.
 std::vector<double> spells(const GroundMotion<double>& pulse, double amplitude)
 {

@@ -87,6 +87,7 @@ GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
                            .peaks = {}};
     motion.peaks.fill(std::numeric_limits<S>::infinity());
     with_pulse(pulse, [&]<class Pulse>() {
+        static_assert(Pulse::lobes <= most_lobes);
         if (Pulse::template kink<S>() < end) {
             motion.kink = Pulse::template kink<S>();
         }
