@@ -3,13 +3,13 @@
 import pathlib
 import subprocess
 import sys
-import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 import xarray
 
-from program import Scratch, checksum
+from program import ENVIRONMENT, Scratch, checksum
 
 PLOT_HISTORY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_history"
 AT = "--at=frequency=3,amplitude=1.3,restitution=1"
@@ -69,6 +69,7 @@ class AHistory(Scratch):
             self.assert_exit(self.history("--at", words), 2, "where AXIS is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "outside (0, inf)")
 
+    @unittest.mock.patch.dict(ENVIRONMENT, OVERTURN_UNTRAPPED="1")  # this motion overflows
     def test_refuses_a_motion_beyond_the_range_of_numbers(self):
         result = self.history("--at", "frequency=3,amplitude=1e300,restitution=1")
         self.assert_exit(result, 65, "plane.amplitude = 1e+300", "beyond the range")

@@ -1,8 +1,10 @@
 // Linked into a program, stops it at a floating-point operation that is invalid, divides by zero or
 // overflows: with select() instead of if, such an operation may be on the side not taken and leave
-// no trace in any result. See OVERTURN_TRAP; UntrappedFloatingPoint makes exceptions.
+// no trace in any result. See OVERTURN_TRAP. UntrappedFloatingPoint makes exceptions, as does the
+// environment variable OVERTURN_UNTRAPPED for a whole program.
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include <execinfo.h>
@@ -39,6 +41,9 @@ void report(int, siginfo_t* signal, void*)
 }
 
 [[maybe_unused]] const bool trapped = [] {
+    if (std::getenv("OVERTURN_UNTRAPPED") != nullptr) {
+        return false;
+    }
     std::array<void*, 1> frame;
     backtrace(frame.data(), int(frame.size())); // the first call loads a library, which allocates
     struct sigaction action = {};
