@@ -120,8 +120,8 @@ int run_in_child(const std::string& path, const std::function<void()>& read,
     }
     throw FileError(fmt::format(
         "\"{}\" is damaged: the HDF5 library {}.", path,
-        signal == SIGXCPU ? "does not finish reading it"
-                          : fmt::format("crashes when it reads it ({})", strsignal(signal))));
+        signal == SIGXCPU ? "does not finish reading it in time"
+                          : fmt::format("crashes while reading it ({})", strsignal(signal))));
 }
 
 } // namespace overturn

@@ -31,9 +31,9 @@ inline constexpr const char* boundary = R"(Example:
 Finds, for every slenderness, restitution and frequency, all amplitudes between the first and the
 last of the job at which the verdict flips from safe to unsafe or back, with the regions on both
 sides. The amplitudes of the job are computed first; where they indicate more flips between them,
-the steps are halved. Each flip lies between two settled verdicts whose amplitudes are 1e-12 apart,
-whatever [numerics] says. If a block already overturns at the first amplitude, info says so. The
-same command resumes an unfinished run.)";
+the steps are halved. Each flip lies between two settled verdicts whose amplitudes differ by at
+most 1e-12 of their size, regardless of [numerics]. If a block already overturns at the first
+amplitude, overturn info reports it. The same command resumes an unfinished run.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
@@ -60,7 +60,7 @@ inline constexpr const char* history = R"(Example:
 Prints the region and the events; for each event, the velocity before and after it, and q
 (Eq. 12) after it. Angles are in rad, times are tau = p t. OUT.h5 contains angle, velocity,
 acceleration, q and the ground acceleration over time. The pulse is integrated as accurately as
-doubles allow, whatever [numerics] says.)";
+doubles allow, regardless of [numerics].)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";

@@ -86,7 +86,7 @@ void print_event(const HistoryEvent& event)
 {
     // A tiny negative angle would print as -0.
     const auto shown = [](double angle) { return std::abs(angle) < 5e-6 ? 0 : angle; };
-    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>11.5f}{:>11.5f}{:>12.3e}\n", event.after.time,
+    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>13.5f}{:>12.5f}{:>12.3e}\n", event.after.time,
                event_names[std::size_t(event.kind)], shown(event.after.angle),
                shown(event.before.velocity), shown(event.after.velocity), event.after.q);
 }
@@ -94,7 +94,7 @@ void print_event(const HistoryEvent& event)
 void print_events(const History& history)
 {
     constexpr std::size_t most_lines = 24;
-    fmt::print("\n{:>10}  {:<13}{:>10}{:>11}{:>11}{:>12}\n", "time [1/p]", "event", "angle",
+    fmt::print("\n{:>10}  {:<13}{:>10}{:>13}{:>12}{:>12}\n", "time [1/p]", "event", "angle",
                "vel. before", "vel. after", "q after");
     const std::size_t shown = std::min(most_lines, history.events.size());
     for (std::size_t i = 0; i < shown; ++i) {

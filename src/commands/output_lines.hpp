@@ -41,12 +41,12 @@ inline std::string lines_text(const BoundaryLines& lines)
     std::string text;
     const auto add = [&](std::int64_t count, const char* what) {
         if (count > 0) {
-            text +=
-                fmt::format("{}{} of {} {}", text.empty() ? "" : "; ", count, lines.computed, what);
+            text += fmt::format("{}{}: {} of {} lines", text.empty() ? "" : "; ", what, count,
+                                lines.computed);
         }
     };
-    add(lines.unsafe_at_first, "lines overturn at the first amplitude of the job");
-    add(lines.undecided, "lines have undecided amplitudes or more flips than are stored");
+    add(lines.unsafe_at_first, "overturning at the first amplitude of the job");
+    add(lines.undecided, "with undecided amplitudes or more flips than are stored");
     return text;
 }
 

@@ -291,7 +291,9 @@ int run(const RunOptions& options)
             job = read_job_of(options);
         }
         if (session.from_rank_0(job->resolved) != job->resolved) {
-            throw JobError(options.job.path + " is not the job of rank 0. Use a shared folder.");
+            throw JobError(fmt::format("\"{}\" differs from the job that rank 0 read. Put the job "
+                                       "file in a folder that all hosts share.",
+                                       options.job.path));
         }
         return compute_missing_tiles({session, *job, tiling_of(*job), path, options,
                                       kernel_called(options.kernel), start,

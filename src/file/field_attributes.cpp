@@ -39,7 +39,7 @@ Description description_of(Field field)
             "region of the block's state at the end of the pulse", "",
             "S: safe within the separatrix; S_plus, S_minus: safe due to the loss at the next "
             "impact; U0: overturns without another impact; U1: overturns after one more impact; "
-            "F: overturns during the pulse",
+            "F: falls during the pulse",
             std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
             regions + " undecided not_computed"};
     case Field::status:
@@ -59,7 +59,8 @@ Description description_of(Field field)
     case Field::error:
         return {"bound of the error of the margin", "1",
                 "to first order; infinite where it is unknown: an impact or a fall may or may "
-                "not have happened, or was close; a verdict is certain where |margin| is larger"};
+                "not have happened, or was only just avoided; a verdict is certain where |margin| "
+                "is larger"};
     case Field::peak:
         return {"largest |theta| / alpha during the pulse and after it", "1",
                 "infinite where the block overturns"};

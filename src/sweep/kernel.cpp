@@ -82,8 +82,8 @@ Kernel widest_kernel()
         throw ProcessorError("this processor cannot run any kernel of this build. Configure "
                              "overturn with -DOVERTURN_KERNELS=all, or build it on this machine.");
     }
-    throw ProcessorError("this processor supports neither AVX2 with FMA nor AVX-512. Overturn "
-                         "requires one of them (Intel processors since 2013, AMD since 2015).");
+    throw ProcessorError("this processor supports neither AVX2 with FMA nor AVX-512, of which "
+                         "overturn requires one (Intel processors since 2013, AMD since 2015).");
 }
 
 } // namespace overturn

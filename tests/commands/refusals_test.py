@@ -256,7 +256,7 @@ class UnderMpirun(Scratch):
         # As with a folder not shared between two hosts: one copy of the job is older.
         setup = 'if [ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 1 ]; then set -- "$1" run long.toml -o out.h5; fi'
         result = self.overturn("run", "small.toml", "-o", "out.h5", ranks=2, shell_setup=setup)
-        self.assert_exit(result, 65, "rank 1: long.toml is not the job of rank 0")
+        self.assert_exit(result, 65, 'rank 1: "long.toml" differs from the job that rank 0 read')
 
 
 class RanksInDifferentFolders(Scratch):
