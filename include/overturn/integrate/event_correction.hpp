@@ -40,7 +40,7 @@ EventCorrection<T> event_correction(const T& gap, const T& rate, const T& accele
 /// delay of the end, which may be negative [1/p].
 template <Number T>
 T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
-                const T& acceleration, const Excitation<T>& excitation)
+                const T& acceleration, const auto& excitation)
 {
     using S = scalar_t<T>;
     const T zero(S(0));

@@ -18,7 +18,7 @@ namespace overturn {
 /// The largest number of trial steps of a point. It allows half a million impacts, or a tolerance
 /// of 1e-14 over thousands of periods of 1/p. An amplitude less than 1e-4 above the uplift
 /// threshold causes more impacts if the block loses little energy (r within 1e-5 of 1); the point
-/// remains undecided.
+/// remains undecided. One step per interval of a record is added.
 inline constexpr double most_steps = 1 << 20;
 
 /// A block just after an event. Until the next event, it rocks on its side or rests.
@@ -28,17 +28,18 @@ struct Event {
     Rocking<T> rocking;
 };
 
-/// Integrates one block per lane. Method: RungeKutta or Taylor<order>.
-template <class Method, Theory theory, Records records, Number T>
+/// Integrates one block per lane. Method: RungeKutta or Taylor<order>. GroundOf: see Excitation.
+template <class Method, Theory theory, Records records, Number T, class GroundOf = Excitation<T>>
 class ForcedStage {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
 
 public:
     /// on_unknown_error: used only if errors are recorded.
-    ForcedStage(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance,
+    ForcedStage(const Block<T>& block, const GroundOf& excitation, const S& tolerance,
                 OnUnknownError on_unknown_error = OnUnknownError::go_on)
         : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
+          step_limit_(S(most_steps) + excitation.motion.pieces()),
           stepper_(block, excitation, tolerance),
           now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
           lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
@@ -123,18 +124,13 @@ private:
     /// Sets the lanes to rest until the next uplift. Lanes without another uplift are finished.
     void wait_for_uplift(const Mask& lanes)
     {
-        const T never(std::numeric_limits<S>::infinity());
-        T next = never;
-        for (const T& uplift : excitation_.uplifts) {
-            next =
-                select<T>(uplift >= now_.phase && uplift > lifted_ && uplift < next, uplift, next);
-        }
+        const T next = excitation_.next_uplift(lanes, now_.phase, lifted_);
         const Mask lifted = lanes && next < end_;
         now_.tilt = select<T>(lanes, zero_, now_.tilt);
         now_.rate = select<T>(lanes, zero_, now_.rate);
         now_.phase = select<T>(lifted, next, now_.phase);
         lifted_ = select<T>(lifted, next, lifted_);
-        const auto pushed_to_plus = excitation_.ground(now_.phase) < zero_;
+        const Mask pushed_to_plus = horizontal_of(excitation_.ground(now_.phase)) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
         record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
@@ -155,7 +151,7 @@ private:
     void count_step(const Mask& broken)
     {
         end_of_run_.steps = select<T>(active_, end_of_run_.steps + T(S(1)), end_of_run_.steps);
-        const Mask too_many = active_ && end_of_run_.steps >= T(S(most_steps));
+        const Mask too_many = active_ && end_of_run_.steps >= step_limit_;
         const Mask not_finite = active_ && broken;
         if (any<T>(too_many || not_finite)) {
             end_of_run_.capped = end_of_run_.capped || too_many;
@@ -200,13 +196,14 @@ private:
     }
 
     const Block<T> block_;
-    const Excitation<T> excitation_;
+    const GroundOf excitation_;
     const T end_;
     const T zero_;
+    const T step_limit_;
     T sqrt_restitution_;
 
-    typename Method::template Stepper<theory, T,
-                                      Records{.error = records.error, .peak = records.peak}>
+    typename Method::template Stepper<
+        theory, T, Records{.error = records.error, .peak = records.peak}, GroundOf>
         stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift; the flank of a lobe lifts a block only once
@@ -242,11 +239,12 @@ bool run_in_turns(std::array<Stage, count>& stages, int& turns)
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step
 /// of tilt and rate, over the size of the motion, at most alpha [1].
-template <class Method, Theory theory, Records records = Records{.impacts = true}, Number T>
-ForcedEnd<T> run_forced_stage(const Block<T>& block, const Excitation<T>& excitation,
+template <class Method, Theory theory, Records records = Records{.impacts = true}, Number T,
+          class GroundOf>
+ForcedEnd<T> run_forced_stage(const Block<T>& block, const GroundOf& excitation,
                               const scalar_t<T>& tolerance)
 {
-    ForcedStage<Method, theory, records, T> stage(block, excitation, tolerance);
+    ForcedStage<Method, theory, records, T, GroundOf> stage(block, excitation, tolerance);
     while (stage.is_active()) {
         stage.advance();
     }

@@ -21,14 +21,14 @@ public:
     void forget(const Mask& lanes) { growth_.forget(lanes); }
 
     /// Propagates the errors over a step and adds its local errors.
-    void pass_step(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
+    void pass_step(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
                    const StepEndWithErrors<T>& step, const Mask& lanes)
     {
         using arithmetic::fma;
         using std::abs;
         const T rounding(std::numeric_limits<S>::epsilon());
         const T rate = abs(now.rate) + abs(step.rate);
-        const T acceleration = abs(excitation.acceleration) + block.slenderness; // upper bound
+        const T acceleration = excitation.largest_acceleration() + block.slenderness;
         // A constant rounding error, e.g. that of the peak of the pulse, adds up; those of the
         // phase and the state are random.
         const T duration = (step.phase - now.phase) / excitation.frequency;
@@ -57,13 +57,13 @@ public:
     /// below 1/64 where a series of bounces dies out. A block that stood on its edge for a long
     /// time before it came back may also have overturned: its distance from the top has grown since
     /// then, as has its error, which must still be small compared with alpha.
-    void pass_impact(const Block<T>& block, const Excitation<T>& excitation, const Rocking<T>& now,
+    void pass_impact(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
                      const Mask& lanes, const Mask& rests)
     {
         using std::sqrt;
-        const T push = now.side * excitation.ground(now.phase);
+        const auto push = now.side * excitation.ground(now.phase);
         const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
-        const T after = rocking_acceleration<theory>(zero_, block.slenderness, T(-push));
+        const T after = rocking_acceleration<theory>(zero_, block.slenderness, mirrored(push));
         const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
         const T square_error = growth_.bound(T(before + before), T(speed + speed));
         const T share = select<T>(rests, T(S(64)), T(S(4)));
@@ -77,8 +77,8 @@ public:
     }
 
     /// The end of the lanes, at `now`, with its error and whether its verdict is in doubt.
-    ForcedEnd<T> at_end(const Block<T>& block, const Excitation<T>& excitation,
-                        const Rocking<T>& now, ForcedEnd<T> end) const
+    ForcedEnd<T> at_end(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
+                        ForcedEnd<T> end) const
     {
         const Mask& fell = end.fell;
         using std::abs;
@@ -93,7 +93,7 @@ public:
 
         // For a fall at the speed v with the acceleration a, v^2 changes by
         // 2 v d(rate) - 2 a d(tilt).
-        const T push = now.side * excitation.ground(now.phase);
+        const auto push = now.side * excitation.ground(now.phase);
         const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
         const T lying = (growth_.bound(T(pull + pull), T(now.rate + now.rate)) +
                          roundings() * now.rate * now.rate) /

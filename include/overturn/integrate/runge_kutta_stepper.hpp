@@ -323,7 +323,8 @@ private:
 
 /// Selects Dormand-Prince 5(4).
 struct RungeKutta {
-    template <Theory theory, Number T, Records records>
+    template <Theory theory, Number T, Records records, class GroundOf>
+        requires std::same_as<GroundOf, Excitation<T>>
     using Stepper = RungeKuttaStepper<theory, T, records>;
 };
 

@@ -14,7 +14,8 @@ namespace overturn {
 
 /// order: of the series of the rate. tolerance: bound of its last terms at the end of a step, over
 /// the size of the motion [1].
-template <int order, Theory theory, Number T, Records records = Records{}>
+template <int order, Theory theory, Number T, Records records = Records{},
+          class GroundOf = Excitation<T>>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -24,6 +25,7 @@ class TaylorStepper {
     /// With four terms, errors are up to ten times smaller at the same tolerance; two and four take
     /// the same time for the same largest error.
     static constexpr int last_terms = 4;
+    static constexpr bool may_be_wavelet = decltype(GroundOf::motion)::may_be_wavelet;
     /// The order to which the series is known if errors are recorded. In the linear theory, a term
     /// is almost free.
     static constexpr int known_order =
@@ -31,9 +33,9 @@ class TaylorStepper {
     using KnownSeries = RockingSeries<known_order, T>;
 
 public:
-    TaylorStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
+    TaylorStepper(const Block<T>& block, const GroundOf& excitation, const S& tolerance)
         : slenderness_(block.slenderness), excitation_(excitation),
-          is_wavelet_(has_window(excitation.motion.pulse))
+          is_wavelet_(excitation.motion.is_wavelet())
     {
         using std::abs;
         const T one(S(1));
@@ -44,12 +46,6 @@ public:
         tolerance_ = T(tolerance);
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
-        if (is_wavelet_) {
-            const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
-            lost_ =
-                end_of_tail(excitation.motion.pulse,
-                            T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
-        }
         if constexpr (records.error) {
             unrolled<last_terms>([&]<int i>() {
                 constexpr int k = order + 1 - last_terms + i;
@@ -62,6 +58,15 @@ public:
                     [&]<int>() { following_per_[i] = following_per_[i] * ratio; });
             });
         }
+        if constexpr (may_be_wavelet) {
+            if (!is_wavelet_) {
+                return;
+            }
+            const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
+            lost_ =
+                end_of_tail(excitation.motion.pulse,
+                            T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
+        }
     }
 
     void lift(const Rocking<T>&, const Mask&) {}
@@ -70,8 +75,8 @@ public:
     /// One step in every lane; the results of inactive lanes are meaningless.
     auto step(const Rocking<T>& now, const Mask& active) const
     {
-        const auto push = excitation_.motion.template series<known_order>(
-            acceleration(now), now.phase, phase_per_unit_);
+        const auto push =
+            excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
                                                                slenderness_, push, unit_);
         const Series series = leading<order>(known);
@@ -158,14 +163,17 @@ private:
         unrolled<last_terms - 1>([&]<int i>() {
             longest = lesser<T>(longest, log2_longest.template operator()<order - 1 - i>());
         });
-        if (!is_wavelet_) {
-            return rough_power_of_two(longest);
+        if constexpr (may_be_wavelet) {
+            if (is_wavelet_) {
+                // In the tail of a wavelet, the terms are small but grow; each must decrease by a
+                // quarter.
+                const T ratio =
+                    following_ratio<order>(excitation_.motion.pulse, now.phase, phase_per_unit_);
+                const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
+                return lesser<T>(rough_power_of_two(longest), falling);
+            }
         }
-        // In the tail of a wavelet, the terms are small but grow; each must decrease by a quarter.
-        const T ratio =
-            following_ratio<order>(excitation_.motion.pulse, now.phase, phase_per_unit_);
-        const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
-        return lesser<T>(rough_power_of_two(longest), falling);
+        return rough_power_of_two(longest);
     }
 
     /// The truncation error: the next terms, which are known, and all that follow. The latter
@@ -179,9 +187,8 @@ private:
     /// follow are not. In the linear theory, the terms of the motion decrease faster than any
     /// geometric series; after the known terms, the ratio is at most a third. The push of a wavelet
     /// is added. The bound is twice the sum; in one of 10^7 points it was too small.
-    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known,
-                         const Coefficients<known_order, T>& push, const Enclosure<T>& bounds,
-                         const StepEnd<T>& end, const T& h) const
+    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known, const auto& push,
+                         const Enclosure<T>& bounds, const StepEnd<T>& end, const T& h) const
     {
         using arithmetic::fma;
         using std::abs;
@@ -189,8 +196,10 @@ private:
         T following(S(0));
         T power = h;
         unrolled<order - last_terms>([&]<int>() { power = power * h; });
-        if (is_wavelet_) {
-            next = left_out_of(push, now.phase, h, power);
+        if constexpr (may_be_wavelet) {
+            if (is_wavelet_) {
+                next = left_out_of(push, now.phase, h, power);
+            }
         }
         unrolled<last_terms + known_order - order>([&]<int i>() {
             constexpr int k = order + 1 - last_terms + i;
@@ -207,10 +216,9 @@ private:
 
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
-        const auto ground = excitation_.ground(
-            std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end.phase});
-        const auto stiffness = [&](const T& tilt, const T& ground_there) -> T {
-            return rocking_stiffness<theory>(tilt, slenderness_, T(now.side * ground_there));
+        const auto pushes = pushes_at(now, push, middle, h, end.phase);
+        const auto stiffness = [&](const T& tilt, const auto& push_there) -> T {
+            return rocking_stiffness<theory>(tilt, slenderness_, push_there);
         };
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
             const T zero(S(0));
@@ -229,9 +237,9 @@ private:
         const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
         const T acceleration = slope_of_series(series.rate, h);
         return {.variation =
-                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, ground[0]),
-                                      stiffness(value_of_series(series.tilt, middle), ground[1]),
-                                      stiffness(end.tilt, ground[2])),
+                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
+                                      stiffness(value_of_series(series.tilt, middle), pushes[1]),
+                                      stiffness(end.tilt, pushes[2])),
                 .tilt = left_out * h * T(S(1) / (order + 2)),
                 .rate = fma(left_out, fastest_, unknown),
                 .acceleration = acceleration * (fastest_ * fastest_),
@@ -239,6 +247,22 @@ private:
                                                 {end.rate * unit_, acceleration}, h,
                                                 lower_bound(bounds.lower()),
                                                 upper_bound(bounds.upper()), tilt_at_turn)};
+    }
+
+    /// The push at the beginning, in the middle and at the end of a step.
+    auto pushes_at(const Rocking<T>& now, const auto& push, const T& middle, const T& h,
+                   const T& end) const
+    {
+        if constexpr (std::same_as<GroundOf, Excitation<T>>) {
+            std::array<T, 3> pushes = excitation_.ground(
+                std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end});
+            for (T& value : pushes) {
+                value = now.side * value;
+            }
+            return pushes;
+        } else {
+            return std::array{push.at(T(S(0))), push.at(middle), push.at(h)};
+        }
     }
 
     /// The contribution of the push of a wavelet to the rate beyond the known series: the term
@@ -328,7 +352,7 @@ private:
     }
 
     const T slenderness_;
-    const Excitation<T> excitation_;
+    const GroundOf excitation_;
     const bool is_wavelet_;
     T unit_;           // of time: 1/p, or 1/omega_p if that is shorter [1/p]
     T fastest_;        // its reciprocal
@@ -343,8 +367,8 @@ private:
 /// Selects Taylor series of this order.
 template <int order>
 struct Taylor {
-    template <Theory theory, Number T, Records records>
-    using Stepper = TaylorStepper<order, theory, T, records>;
+    template <Theory theory, Number T, Records records, class GroundOf>
+    using Stepper = TaylorStepper<order, theory, T, records, GroundOf>;
 };
 
 } // namespace overturn

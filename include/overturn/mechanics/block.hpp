@@ -2,6 +2,7 @@
 // tau = p t; the ground acceleration is in units of g; the tilt |theta| is never negative.
 #pragma once
 
+#include "overturn/mechanics/ground.hpp"
 #include "overturn/mechanics/theory.hpp"
 #include "overturn/number/elementary.hpp"
 #include "overturn/number/number.hpp"
@@ -62,6 +63,20 @@ T rocking_acceleration(const T& tilt, const T& slenderness, const T& push)
     } else {
         const auto [sine, cosine] = sine_and_cosine(y);
         return -fma(push, cosine, sine);
+    }
+}
+
+/// With a vertical motion, sin y (linear theory: y) is multiplied by the gravity.
+template <Theory theory, Number T>
+T rocking_acceleration(const T& tilt, const T& slenderness, const Ground<T>& push)
+{
+    using arithmetic::fma;
+    const T y = slenderness - tilt;
+    if constexpr (theory == Theory::linear) {
+        return -fma(push.gravity, y, push.horizontal);
+    } else {
+        const auto [sine, cosine] = sine_and_cosine(y);
+        return -fma(push.horizontal, cosine, push.gravity * sine);
     }
 }
 

@@ -25,6 +25,31 @@ struct Excitation {
         return ground;
     }
     T ground(const T& phase) const { return ground(std::array{phase})[0]; }
+
+    /// The Taylor coefficients of the push from the phase on, see GroundMotion::series().
+    template <int count>
+    Coefficients<count, T> series(const T& towards, const T& phase, const T& rate) const
+    {
+        return motion.template series<count>(towards, phase, rate);
+    }
+
+    /// An upper bound of |ground acceleration| over g [1].
+    T largest_acceleration() const
+    {
+        using std::abs;
+        return abs(acceleration);
+    }
+
+    /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
+    /// uplift `latest` [rad]; infinite if there is none.
+    T next_uplift(const mask_t<T>&, const T& phase, const T& latest) const
+    {
+        T next(std::numeric_limits<scalar_t<T>>::infinity());
+        for (const T& uplift : uplifts) {
+            next = select<T>(uplift >= phase && uplift > latest && uplift < next, uplift, next);
+        }
+        return next;
+    }
 };
 
 /// The excitation of a block of this slenderness [rad]. amplitude: a = a_p / (g tan alpha), linear

@@ -59,6 +59,21 @@ struct GroundMotion {
         return series<count>(scale, phase, rate, phase);
     }
 
+    /// Per lane: whether f has no extremum between these phases.
+    template <Number T>
+    mask_t<T> is_monotone(const T& first, const T& last) const
+    {
+        mask_t<T> monotone = first == first;
+        for (const S& peak : peaks) {
+            monotone = monotone && !(first < T(peak) && T(peak) < last);
+        }
+        return monotone;
+    }
+
+    static constexpr bool may_be_wavelet = true;
+    bool is_wavelet() const { return has_window(pulse); }
+    S pieces() const { return S(0); } ///< not worth counting
+
     bool has_kink() const { return kink != begin; }
 
 private:

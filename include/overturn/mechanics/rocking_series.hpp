@@ -28,6 +28,34 @@ constexpr void newest_last(const Body& body)
     });
 }
 
+/// The k-th coefficient of a push, or of a ramp.
+template <int k, Number T, std::size_t count>
+T coefficient(const std::array<T, count>& push)
+{
+    return push[k];
+}
+template <int k, Number T>
+T coefficient(const Ramp<T>& ramp)
+{
+    return k == 0 ? ramp.start : k == 1 ? ramp.slope : T(scalar_t<T>(0));
+}
+
+/// The k-th coefficient of the product of a push, or a ramp, with a series; k > 0.
+template <int k, Number T, std::size_t count, std::size_t terms>
+T coefficient_of_product(const std::array<T, count>& push, const std::array<T, terms>& c)
+{
+    using arithmetic::fma;
+    T sum = push[k] * c[0];
+    unrolled<k - 1>([&]<int j>() { sum = fma(push[k - 1 - j], c[j + 1], sum); });
+    return fma(push[0], c[k], sum);
+}
+template <int k, Number T, std::size_t terms>
+T coefficient_of_product(const Ramp<T>& ramp, const std::array<T, terms>& c)
+{
+    using arithmetic::fma;
+    return fma(ramp.start, c[k], ramp.slope * c[k - 1]);
+}
+
 /// The series of the motion with this tilt [rad] and rate [rad per unit] at t = 0. push: the series
 /// of side * ground acceleration / g. unit: one unit of t [1/p].
 ///
@@ -35,16 +63,18 @@ constexpr void newest_last(const Body& body)
 ///
 ///     v' = unit^2 (s - B c),   s' = c v,   c' = -s v         linear theory: v' = unit^2 (y - B),
 ///
-/// y = tilt - alpha. Products become sums over coefficients; s and c include the factor unit^2.
+/// y = tilt - alpha; with a vertical motion, s and y are multiplied by the gravity. Products become
+/// sums over coefficients; s and c include the factor unit^2.
 /// The newest terms of each sum are added last, which shortens the dependency chain.
-template <Theory theory, int order, Number T, std::size_t count>
-    requires(count >= order)
+template <Theory theory, int order, Number T, class Push>
 RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& slenderness,
-                                       const std::array<T, count>& push, const T& unit)
+                                       const Push& push, const T& unit)
 {
     using arithmetic::fma;
     using S = scalar_t<T>;
     const T square = unit * unit;
+    const auto& horizontal = horizontal_of(push);
+    const T push_0 = coefficient<0>(horizontal);
     RockingSeries<order, T> series;
     auto& x = series.tilt;
     auto& v = series.rate;
@@ -52,18 +82,31 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
     v[0] = rate;
     x[1] = rate;
     if constexpr (theory == Theory::linear) {
-        v[1] = square * ((tilt - slenderness) - push[0]);
+        const T y = tilt - slenderness;
+        if constexpr (has_gravity<Push>) {
+            v[1] = square * fma(push.gravity.start, y, -push_0);
+        } else {
+            v[1] = square * (y - push_0);
+        }
         x[2] = v[1] * T(S(0.5));
         unrolled<order - 1>([&]<int i>() {
             constexpr int k = i + 1;
-            v[k + 1] = (x[k] - push[k]) * (square * T(S(1) / (k + 1)));
+            T pull = x[k];
+            if constexpr (has_gravity<Push>) {
+                pull = fma(push.gravity.start, x[k], push.gravity.slope * (k == 1 ? y : x[k - 1]));
+            }
+            v[k + 1] = (pull - coefficient<k>(horizontal)) * (square * T(S(1) / (k + 1)));
             x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
         });
     } else {
         const auto [sine, cosine] = sine_and_cosine(T(tilt - slenderness));
         Coefficients<order, T> s{square * sine};
         Coefficients<order, T> c{square * cosine};
-        v[1] = fma(-push[0], c[0], s[0]);
+        T s_0 = s[0];
+        if constexpr (has_gravity<Push>) {
+            s_0 = push.gravity.start * s[0];
+        }
+        v[1] = fma(-push_0, c[0], s_0);
         x[2] = v[1] * T(S(0.5));
         unrolled<order - 1>([&]<int i>() {
             constexpr int k = i + 1;
@@ -78,12 +121,14 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
                     s_v = fma(v[j], s[k - 1 - j], s_v);
                 }
             });
-            T push_c = push[k] * c[0];
-            unrolled<k - 1>([&]<int j>() { push_c = fma(push[k - 1 - j], c[j + 1], push_c); });
             s[k] = c_v * T(S(1) / k);
             c[k] = s_v * T(S(-1) / k);
-            push_c = fma(push[0], c[k], push_c);
-            v[k + 1] = fma(s[k], T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
+            T s_k = s[k];
+            if constexpr (has_gravity<Push>) {
+                s_k = coefficient_of_product<k>(push.gravity, s);
+            }
+            const T push_c = coefficient_of_product<k>(horizontal, c);
+            v[k + 1] = fma(s_k, T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
             x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
         });
     }

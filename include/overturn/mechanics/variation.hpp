@@ -35,6 +35,18 @@ T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
     }
 }
 
+template <Theory theory, Number T>
+T rocking_stiffness(const T& tilt, const T& slenderness, const Ground<T>& push)
+{
+    using arithmetic::fma;
+    if constexpr (theory == Theory::linear) {
+        return push.gravity;
+    } else {
+        const auto [sine, cosine] = sine_and_cosine(T(slenderness - tilt));
+        return fma(-push.horizontal, sine, push.gravity * cosine);
+    }
+}
+
 /// The longest time for which variation_over() is valid [1/p].
 inline constexpr double longest_variation = 12;
 

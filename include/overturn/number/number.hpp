@@ -42,6 +42,7 @@ struct scalar_number_traits {
     static bool all(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
+    static T gathered(const double* from, const T& index) { return T(from[std::size_t(index)]); }
     template <class Body>
     static auto straight_line(const Body& body)
     {
@@ -122,6 +123,13 @@ std::array<scalar_t<T>, lanes_v<T>> lanes_of(const T& number)
     std::array<scalar_t<T>, lanes_v<T>> lanes;
     number_traits<T>::store(lanes.data(), number);
     return lanes;
+}
+
+/// Lane by lane: from[index]; the index is a whole number.
+template <Number T>
+T gathered(const double* from, const T& index)
+{
+    return number_traits<T>::gathered(from, index);
 }
 
 /// Lane by lane: `yes` where the mask is true, `no` elsewhere.

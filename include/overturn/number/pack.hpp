@@ -63,6 +63,14 @@ struct number_traits<xsimd::batch<double, Architecture>> {
     }
     static pack load(const double* from) { return pack::load_unaligned(from); }
     static void store(double* to, const pack& number) { number.store_unaligned(to); }
+    /// index: from 0 to 2^52.
+    static pack gathered(const double* from, const pack& index)
+    {
+        using Signed = xsimd::batch<std::int64_t, Architecture>;
+        const integers bits = xsimd::bitwise_cast<integers>(index + pack(0x1p+52)) ^
+                              integers(number_traits<double>::two_to_52_bits);
+        return pack::gather(from, xsimd::bitwise_cast<Signed>(bits));
+    }
     static bool any(const mask& condition) { return xsimd::any(condition); }
     static bool all(const mask& condition) { return xsimd::all(condition); }
 };

@@ -1,0 +1,43 @@
+// A recorded ground motion: accelerations at even times, linear in between. The first is at t = 0;
+// the ground is at rest before and after.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace overturn {
+
+class Accelerogram {
+public:
+    /// Accelerations over g [1], at least two; upwards: of the same number, or empty if there is no
+    /// vertical motion. time_step > 0 [s].
+    Accelerogram(std::vector<double> horizontal, std::vector<double> upwards, double time_step);
+
+    const std::vector<double>& horizontal() const { return horizontal_; }
+    const std::vector<double>& upwards() const { return upwards_; }
+    double time_step() const { return time_step_; }
+    std::int64_t samples() const { return std::int64_t(horizontal_.size()); }
+
+    /// The largest |horizontal| and |upwards| acceleration [1].
+    double peak() const { return later_peak_.front(); }
+    double upwards_peak() const { return upwards_peak_; }
+
+    /// The largest factor on the record at which gravity stays positive at every time: 1 / -min of
+    /// the upwards acceleration; infinite if that is not negative [1].
+    double largest_scale() const;
+
+    /// The first sample from `first` on that, multiplied by `scale`, lifts a block which the
+    /// acceleration `threshold` lifts without vertical motion [1]; samples() if there is none:
+    ///
+    ///     scale |a| > (1 + scale v) threshold
+    std::int64_t first_lifting(std::int64_t first, double scale, double threshold) const;
+
+private:
+    std::vector<double> horizontal_, upwards_;
+    double time_step_;
+    double upwards_peak_ = 0;
+    // Suffix maxima of |horizontal| and of -upwards.
+    std::vector<double> later_peak_, later_fall_;
+};
+
+} // namespace overturn

@@ -1,0 +1,155 @@
+// The excitation of one block by a recorded ground motion, dimensionless. The phase is the time in
+// samples of the record; each interval between two samples is a smooth piece.
+#pragma once
+
+#include "overturn/mechanics/accelerogram.hpp"
+#include "overturn/mechanics/ground.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+/// A record over its phase. The record must outlive it. S: the type of one lane.
+template <class S>
+struct RecordMotion {
+    const Accelerogram* record;
+    S begin; ///< phases at which the ground motion begins and ends [samples]
+    S end;
+
+    static constexpr bool may_be_wavelet = false;
+    static constexpr bool is_wavelet() { return false; }
+
+    /// The number of smooth pieces.
+    S pieces() const { return end; }
+
+    /// The number of the sample at or before the phase; never the last one. 0 for NaN.
+    template <Number T>
+    T sample_before(const T& phase) const
+    {
+        using std::floor;
+        const T last(end - S(1));
+        return lesser<T>(greater<T>(T(floor(phase)), T(begin)), last);
+    }
+
+    /// The end of the interval that contains the phase [samples]. No step may cross it.
+    template <Number T>
+    T end_of_piece(const T& phase) const
+    {
+        return sample_before(phase) + T(S(1));
+    }
+
+    /// Per lane: whether the accelerations have no extremum between these phases.
+    template <Number T>
+    mask_t<T> is_monotone(const T& first, const T& last) const
+    {
+        return last <= end_of_piece(first);
+    }
+};
+
+template <class S>
+RecordMotion<S> record_motion(const Accelerogram& record)
+{
+    return {.record = &record, .begin = S(0), .end = S(record.samples() - 1)};
+}
+
+/// upwards: whether the record has a vertical motion.
+template <Number T, bool upwards>
+struct RecordExcitation {
+    using S = scalar_t<T>;
+    using Push = std::conditional_t<upwards, LinearPushAndGravity<T>, LinearPush<T>>;
+
+    RecordMotion<S> motion;
+    T acceleration; ///< the factor on the record [1]; negative: mirrored
+    T frequency;    ///< samples per time unit 1/p: 1 / (p time_step) [1]
+    T threshold;    ///< uplift_acceleration() of the block [1]
+
+    /// What the ground does at this phase: T, or Ground<T> with a vertical motion.
+    auto ground(const T& phase) const
+    {
+        return series<1>(acceleration, phase, T(S(1))).at(T(S(0)));
+    }
+
+    /// The push on the interval that contains or begins at the phase: the horizontal acceleration
+    /// times `towards`, the factor on the record with the sign of the side, over time from the
+    /// phase on; rate [samples per unit of time].
+    template <int>
+    Push series(const T& towards, const T& phase, const T& rate) const
+    {
+        const T before = motion.sample_before(phase);
+        const T since = phase - before;
+        const auto ramp_of = [&](const std::vector<double>& samples, const T& factor) -> Ramp<T> {
+            const T here = gathered<T>(samples.data(), before);
+            const T rise = gathered<T>(samples.data() + 1, before) - here;
+            return {factor * Ramp<T>{here, rise}.at(since), factor * rise * rate};
+        };
+        const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
+        if constexpr (upwards) {
+            using std::abs;
+            Ramp<T> gravity = ramp_of(motion.record->upwards(), T(abs(acceleration)));
+            gravity.start = T(S(1)) + gravity.start;
+            return {horizontal, gravity};
+        } else {
+            return {horizontal};
+        }
+    }
+
+    /// An upper bound of the acceleration of the ground over g, in both directions [1].
+    T largest_acceleration() const
+    {
+        using std::abs;
+        return abs(acceleration) * T(S(motion.record->peak()) + S(motion.record->upwards_peak()));
+    }
+
+    /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
+    /// uplift `latest` [samples]; infinite if there is none.
+    T next_uplift(const mask_t<T>& lanes, const T& phase, const T& latest) const
+    {
+        using std::abs;
+        using std::ceil;
+        const T zero(S(0));
+        const T one(S(1));
+        const T scale = abs(acceleration);
+        const auto resting = lanes_of(select<T>(lanes, one, zero));
+        const auto first = lanes_of(T(ceil(phase)));
+        const auto scales = lanes_of(scale);
+        const auto thresholds = lanes_of(threshold);
+        std::array<S, lanes_v<T>> lifting;
+        for (std::size_t i = 0; i < lifting.size(); ++i) {
+            lifting[i] = motion.end + S(1);
+            if (resting[i] != 0) {
+                lifting[i] = S(motion.record->first_lifting(
+                    std::int64_t(first[i]), double(scales[i]), double(thresholds[i])));
+            }
+        }
+        const T sample = load<T>(lifting.data());
+        const mask_t<T> lifts = lanes && sample <= T(motion.end);
+        // The excess over the threshold, which is linear on the interval before the sample.
+        const T before = greater<T>(select<T>(lifts, sample, one) - one, zero);
+        const T there = select<T>(lifts, sample, one);
+        const T peak = gathered<T>(motion.record->horizontal().data(), there);
+        const T towards = select<T>(peak < zero, -scale, scale);
+        const auto excess = [&](const T& number) -> T {
+            T lifting_down = threshold;
+            if constexpr (upwards) {
+                lifting_down = threshold *
+                               (one + scale * gathered<T>(motion.record->upwards().data(), number));
+            }
+            return towards * gathered<T>(motion.record->horizontal().data(), number) - lifting_down;
+        };
+        const T low = excess(before);
+        const T high = excess(there);
+        const mask_t<T> crosses = low < zero && high > low;
+        const T share = select<T>(crosses, -low, zero) / select<T>(crosses, high - low, one);
+        const T crossing = select<T>(sample == zero, zero, before + lesser<T>(share, one));
+        const T latest_possible = greater<T>(crossing, phase);
+        // Rounding must not lift the block at the same phase again.
+        const T earlier = greater<T>(latest, -one);
+        const T after_latest =
+            earlier + T(std::numeric_limits<S>::epsilon()) * (one + abs(earlier));
+        const T uplift = select<T>(latest_possible > latest, latest_possible, after_latest);
+        return select<T>(lifts, uplift, T(std::numeric_limits<S>::infinity()));
+    }
+};
+
+} // namespace overturn

@@ -1,0 +1,58 @@
+#include "overturn/mechanics/accelerogram.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+namespace {
+
+/// For every i, the largest of value(values[j]) over j >= i.
+template <class Value>
+std::vector<double> suffix_maxima(const std::vector<double>& values, const Value& value)
+{
+    std::vector<double> maxima(values.size());
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = values.size(); i-- > 0;) {
+        largest = std::max(largest, value(values[i]));
+        maxima[i] = largest;
+    }
+    return maxima;
+}
+
+} // namespace
+
+Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> upwards,
+                           double time_step)
+    : horizontal_(std::move(horizontal)), upwards_(std::move(upwards)), time_step_(time_step),
+      later_peak_(suffix_maxima(horizontal_, [](double a) { return std::abs(a); })),
+      later_fall_(suffix_maxima(upwards_, [](double v) { return -v; }))
+{
+    for (const double v : upwards_) {
+        upwards_peak_ = std::max(upwards_peak_, std::abs(v));
+    }
+}
+
+double Accelerogram::largest_scale() const
+{
+    const double deepest = upwards_.empty() ? 0 : later_fall_.front();
+    return deepest > 0 ? 1 / deepest : std::numeric_limits<double>::infinity();
+}
+
+std::int64_t Accelerogram::first_lifting(std::int64_t first, double scale, double threshold) const
+{
+    for (std::int64_t i = first; i < samples(); ++i) {
+        const double fall = upwards_.empty() ? 0 : later_fall_[std::size_t(i)];
+        if (!(scale * later_peak_[std::size_t(i)] > (1 - scale * fall) * threshold)) {
+            break; // no later sample does
+        }
+        const double upwards = upwards_.empty() ? 0 : upwards_[std::size_t(i)];
+        if (scale * std::abs(horizontal_[std::size_t(i)]) > (1 + scale * upwards) * threshold) {
+            return i;
+        }
+    }
+    return samples();
+}
+
+} // namespace overturn
