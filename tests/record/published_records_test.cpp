@@ -1,5 +1,5 @@
-// Records as they were published, where they are available; they are not part of the sources. The
-// numbers are those of the records' headers.
+// The records in jobs/, and records as they were published where these are available: they are not
+// part of the sources. The numbers are those of the records' headers.
 #include "reading.hpp"
 
 #include <algorithm>
@@ -28,6 +28,19 @@ double peak_of(const RecordComponent& component)
         peak = std::abs(a) > std::abs(peak) ? a : peak;
     }
     return peak;
+}
+
+TEST(AShippedRecord, HasTwentySecondsAndItsPeak)
+{
+    const std::vector<std::pair<std::string, double>> peaks{{"synthetic.AT2", 0.4},
+                                                            {"synthetic_vertical.AT2", 0.2}};
+    for (const auto& [name, peak] : peaks) {
+        const RecordFile file = read_record(OVERTURN_JOBS_DIRECTORY "/" + name);
+        EXPECT_EQ(file.format, "AT2");
+        EXPECT_EQ(file.components.at(0).acceleration.size(), 2001) << name;
+        EXPECT_EQ(file.components.at(0).time_step, 0.01) << name;
+        EXPECT_EQ(std::abs(peak_of(file.components.at(0))), peak) << name;
+    }
 }
 
 TEST(ARecordOfGeoNet, HasThreeComponentsWithThePeaksOfTheirHeaders)
