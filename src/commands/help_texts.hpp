@@ -107,7 +107,9 @@ and so on. All tools have --help.
   overturn-plot-phase      draws the regions in phase space
   overturn-join-spectra    joins spectra that differ in slenderness
   overturn-to-csv          writes a spectrum as a table
-  overturn-to-xdmf         writes the file through which ParaView opens a result file)";
+  overturn-to-xdmf         writes the file through which ParaView opens a result file
+  overturn-synthetic-record
+                           writes a synthetic recorded motion)";
 
 inline constexpr const char* environment =
     R"(As root, Open MPI requires OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1. The

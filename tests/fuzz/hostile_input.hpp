@@ -14,6 +14,10 @@ enum class Verdict { accepted, refused };
 /// the resolved text of an accepted job must give the same job.
 Verdict use_as_job(std::string_view bytes, const std::string& path);
 
+/// The input may begin with lines "unit NAME" and "time_step NUMBER"; the rest becomes a recorded
+/// motion at `path`. An accepted one must be as the header of the reader promises.
+Verdict use_as_record(std::string_view bytes, const std::string& path);
+
 /// Reads any file at `path` as a result file, like overturn info, verify and run.
 Verdict use_as_result_file(const std::string& path);
 

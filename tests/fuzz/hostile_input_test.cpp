@@ -1,6 +1,6 @@
-// Any job, result file or command line is accepted or refused; nothing else happens, and nothing is
-// written. The inputs are the seeds of the fuzz targets and as many alterations of them as a few
-// seconds allow, the same in every run.
+// Any job, recorded motion, result file or command line is accepted or refused; nothing else
+// happens, and nothing is written. The inputs are the seeds of the fuzz targets and as many
+// alterations of them as a few seconds allow, the same in every run.
 #include "altered_result_file.hpp"
 #include "hostile_input.hpp"
 #include "support/scratch_folder.hpp"
@@ -116,6 +116,15 @@ TEST(AnyBytes, AreAcceptedOrRefusedAsAJob)
     expect_no_harm(Alterations("job", 2000),
                    [&](const std::string& bytes) { use_as_job(bytes, path); }, folder,
                    {"job.toml"});
+}
+
+TEST(AnyBytes, AreAcceptedOrRefusedAsARecord)
+{
+    const ScratchFolder folder;
+    const std::string path = folder / "record.txt";
+    expect_no_harm(Alterations("record", 4000),
+                   [&](const std::string& bytes) { use_as_record(bytes, path); }, folder,
+                   {"record.txt"});
 }
 
 TEST(AnyBytes, AreAcceptedOrRefusedAsACommandLine)

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """floors_hold.py SOURCE_DIR: checks that headers include only the same layer or a lower one, that
-modules of layer 4 include only the job's data of each other, that only certain modules include
-TOML, HDF5 and MPI, and that headers have an include guard."""
+of the modules of layer 4 only job is included by the others and only record by job, that only certain
+modules include TOML, HDF5 and MPI, and that headers have an include guard."""
 
 import pathlib
 import re
 import sys
 
-FLOOR = {"number": 0, "mechanics": 1, "integrate": 2, "sweep": 3, "job": 4, "file": 4, "farm": 4,
-         "commands": 5}
+FLOOR = {"number": 0, "mechanics": 1, "integrate": 2, "sweep": 3, "record": 4, "job": 4, "file": 4,
+         "farm": 4, "commands": 5}
+# The modules of layer 4 that another of layer 4 may include.
+NEIGHBOURS = {"record": set(), "job": {"record"}, "file": {"job"}, "farm": {"job"}}
 # Only these modules may include these headers. Module file opens files on a communicator.
 ROOMS_OF = {"toml++/": {"job"}, "hdf5": {"file"}, "H5": {"file"}, "mpi.h": {"farm", "file"},
             "CLI/": {"commands"}, "xsimd/": {"number"}}
@@ -34,7 +36,7 @@ def mistakes_in(path, source):
             other = header.split("/")[1]
             if FLOOR[other] > FLOOR[room]:
                 yield f"{where}, which belongs to a higher layer"
-            elif FLOOR[room] == FLOOR[other] == 4 and room != other and other != "job":
+            elif FLOOR[room] == FLOOR[other] == 4 and other not in NEIGHBOURS[room] | {room}:
                 yield f"{where}, another module of layer 4"
         for prefix, rooms in ROOMS_OF.items():
             if header.startswith(prefix) and room not in rooms:

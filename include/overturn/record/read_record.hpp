@@ -1,0 +1,77 @@
+// Reads files of recorded ground motions: PEER AT2, GeoNet V2A, USGS SMC, and plain text. Values
+// are those of the file: nothing is scaled, filtered, resampled or corrected.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// An error in a file of a recorded motion. The message names the file, the line if there is one,
+/// what was found, what is allowed and what to do.
+class RecordError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+enum class AccelerationUnit { g, m_per_s2, cm_per_s2, mm_per_s2 };
+
+/// Names in job files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> acceleration_unit_names{"g", "m/s2", "cm/s2",
+                                                                         "mm/s2"};
+
+constexpr std::string_view name_of(AccelerationUnit unit)
+{
+    return acceleration_unit_names[std::size_t(unit)];
+}
+
+/// One component of a recorded motion.
+struct RecordComponent {
+    /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat.
+    std::string name;
+    std::vector<double> acceleration; ///< at least one sample [unit]
+    AccelerationUnit unit = AccelerationUnit::g;
+    double time_step = 0; ///< above 0 [s]
+    /// Lines as they are in the file, without line ends, in any encoding: of text, its comments.
+    std::vector<std::string> header;
+};
+
+struct RecordFile {
+    std::string format; ///< "AT2", "V2A", "SMC" or "text"
+    std::vector<RecordComponent> components;
+};
+
+/// What a file of plain text does not state. Both are refused if the file states them.
+struct RecordOptions {
+    std::optional<double> time_step;      ///< of one column [s]
+    std::optional<AccelerationUnit> unit; ///< of one or two columns
+};
+
+/// Larger records are refused.
+inline constexpr std::size_t most_samples = 10'000'000;
+inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [bytes]
+
+/// Reads the text of a file; `name` replaces the path in messages. The format is recognised from
+/// the text:
+///
+///   AT2   line 4 contains NPTS, and is not a comment
+///   V2A   line 10 begins with "Number of points"
+///   SMC   line 1 is a digit and the kind of data, such as "2 CORRECTED ACCELEROGRAM"
+///   text  the first line that is neither blank nor a comment (# or %) begins with a number: one
+///         column of accelerations, or two of times and accelerations. Times are even if each is
+///         within half a unit of its last printed digit of first + i * step; the step is the
+///         decimal of fewest digits for which they are.
+///
+/// Throws RecordError.
+RecordFile parse_record(std::string_view text, const std::string& name,
+                        const RecordOptions& options = {});
+
+/// The same for a file. Throws RecordError.
+RecordFile read_record(const std::string& path, const RecordOptions& options = {});
+
+} // namespace overturn

@@ -1,0 +1,38 @@
+// The step of a column of printed times.
+#pragma once
+
+#include "lines.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <string_view>
+
+namespace overturn {
+
+/// Collects printed times t_i, i = 0, 1, ..., that must be even: with h_i half a unit of the last
+/// printed digit of t_i, each must satisfy
+///
+///     |t_i - (t_0 + i step)| <= h_i
+///
+/// for one step. Each time bounds the step on both sides; what is kept is the range that is left.
+class EvenTimes {
+public:
+    /// Refuses a word of the current line that is no number, or a time that is not after the one
+    /// before or cannot be even with those before.
+    void add(const Lines& lines, std::string_view word);
+
+    /// The step that is a decimal of fewest digits, of these the nearest to the mean step [s].
+    /// Requires two times.
+    double step() const;
+
+    std::size_t size() const { return size_; }
+
+private:
+    double first_ = 0;                                      ///< [s]
+    double last_ = 0;                                       ///< [s]
+    double least_ = 0;                                      ///< lower bound of the step [s]
+    double most_ = std::numeric_limits<double>::infinity(); ///< upper bound of the step [s]
+    std::size_t size_ = 0;
+};
+
+} // namespace overturn

@@ -1,0 +1,29 @@
+// The readers of the formats. Each reads the lines of a whole file, or refuses them.
+#pragma once
+
+#include "lines.hpp"
+#include "overturn/record/read_record.hpp"
+
+namespace overturn {
+
+/// PEER: four lines of header, the fourth with NPTS and DT, then NPTS numbers in g.
+RecordFile read_at2(Lines lines);
+
+/// GeoNet: up to three components, each with 26 lines of header and with acceleration, velocity and
+/// displacement in mm/s2, mm/s and mm. Only the acceleration is kept.
+RecordFile read_v2a(Lines lines);
+
+/// USGS: 27 lines of header, comments that begin with |, then numbers in cm/s2.
+RecordFile read_smc(Lines lines);
+
+/// One column of accelerations, or two of times and accelerations; options.unit must be set.
+RecordFile read_text(Lines lines, const RecordOptions& options);
+
+/// Whether a line of text is a comment.
+inline bool is_comment(std::string_view line)
+{
+    const std::string_view text = trimmed(line);
+    return text.starts_with('#') || text.starts_with('%');
+}
+
+} // namespace overturn

@@ -1,0 +1,116 @@
+#include "lines.hpp"
+
+#include "overturn/record/read_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace overturn {
+
+namespace {
+
+constexpr char lower(char letter)
+{
+    return 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+}
+
+} // namespace
+
+void refuse_record(const std::string& name, std::string_view reason)
+{
+    throw RecordError(fmt::format("{}: {}", name, reason));
+}
+
+std::string quoted(std::string_view text)
+{
+    constexpr std::size_t longest = 40;
+    std::string result = "\"";
+    for (const char letter : text.substr(0, longest)) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (letter == '"' || letter == '\\') {
+            result += '\\';
+            result += letter;
+        } else if (code < 0x20 || code >= 0x7f) {
+            result += fmt::format("\\x{:02x}", code);
+        } else {
+            result += letter;
+        }
+    }
+    return result + (text.size() > longest ? "...\"" : "\"");
+}
+
+bool Lines::next()
+{
+    if (rest_.empty()) {
+        return false;
+    }
+    const std::size_t end = rest_.find('\n');
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
+    while (line_.ends_with('\r')) {
+        line_.remove_suffix(1);
+    }
+    ++number_;
+    return true;
+}
+
+void Lines::refuse(std::string_view reason) const
+{
+    throw RecordError(fmt::format("{}:{}: {}", *name_, number_, reason));
+}
+
+Lines ahead_by(Lines lines, std::size_t count)
+{
+    while (count > 0 && lines.next()) {
+        --count;
+    }
+    return lines;
+}
+
+void Header::add(const Lines& lines)
+{
+    constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
+    size_ += lines.line().size() + 1;
+    if (size_ > most) {
+        lines.refuse(fmt::format("header and comments are larger than {} KiB, the maximum. Remove "
+                                 "comments.",
+                                 most >> 10));
+    }
+    kept_.emplace_back(lines.line());
+}
+
+void Header::take(Lines& lines, std::size_t count)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!lines.next()) {
+            lines.refuse(fmt::format("the file ends after {} of the {} lines of the header. Give "
+                                     "the complete file.",
+                                     i, count));
+        }
+        add(lines);
+    }
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    constexpr std::string_view blanks = " \t";
+    const std::size_t first = text.find_first_not_of(blanks);
+    return first == text.npos ? std::string_view()
+                              : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::size_t place_after(std::string_view text, std::string_view words)
+{
+    const auto found =
+        std::search(text.begin(), text.end(), words.begin(), words.end(),
+                    [](char left, char right) { return lower(left) == lower(right); });
+    return found == text.end() ? text.npos : std::size_t(found - text.begin()) + words.size();
+}
+
+bool contains(std::string_view text, std::string_view words)
+{
+    return place_after(text, words) != text.npos;
+}
+
+} // namespace overturn

@@ -1,0 +1,70 @@
+// The lines of a file, one after another, and the refusal of a line.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace overturn {
+
+/// Throws a RecordError about a file as a whole.
+[[noreturn]] void refuse_record(const std::string& name, std::string_view reason);
+
+/// The text in double quotes, shortened if it is long, with all but printable ASCII escaped.
+std::string quoted(std::string_view text);
+
+/// A cursor over the lines of a text. A copy looks ahead. The text and the name must outlive it.
+class Lines {
+public:
+    Lines(std::string_view text, const std::string& name) : rest_(text), name_(&name) {}
+
+    /// Proceeds to the next line; false if there is none.
+    bool next();
+
+    /// The current line without its end, which is LF after any number of CR.
+    std::string_view line() const { return line_; }
+
+    /// Counted from 1; 0 before the first line.
+    std::size_t number() const { return number_; }
+
+    /// Throws a RecordError with the file and the current line.
+    [[noreturn]] void refuse(std::string_view reason) const;
+
+private:
+    std::string_view rest_;
+    std::string_view line_;
+    std::size_t number_ = 0;
+    const std::string* name_;
+};
+
+/// A cursor that is `count` lines ahead, or at the last line.
+Lines ahead_by(Lines lines, std::size_t count);
+
+/// Lines that are kept. Their size is limited, so that no file can fill the memory with short ones.
+class Header {
+public:
+    /// Keeps the current line.
+    void add(const Lines& lines);
+
+    /// Proceeds by `count` lines and keeps them. Refuses a file that ends before.
+    void take(Lines& lines, std::size_t count);
+
+    std::vector<std::string> kept() && { return std::move(kept_); }
+
+private:
+    std::vector<std::string> kept_;
+    std::size_t size_ = 0;
+};
+
+/// The text without blanks and tabs at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Whether the text contains the words, ignoring the case of ASCII letters.
+bool contains(std::string_view text, std::string_view words);
+
+/// The place after the first occurrence of the words, ignoring case; npos if there is none.
+std::size_t place_after(std::string_view text, std::string_view words);
+
+} // namespace overturn

@@ -1,0 +1,187 @@
+#include "numbers.hpp"
+
+#include "overturn/record/read_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+constexpr bool is_sign(char letter)
+{
+    return letter == '+' || letter == '-';
+}
+
+struct Parsed {
+    double value;
+    std::errc error; ///< none, invalid_argument or result_out_of_range
+};
+
+Parsed parse(std::string_view word)
+{
+    std::string with_e;
+    if (word.find_first_of("dD") != word.npos) {
+        with_e = word;
+        std::replace(with_e.begin(), with_e.end(), 'd', 'e');
+        std::replace(with_e.begin(), with_e.end(), 'D', 'E');
+        word = with_e;
+    }
+    if (word.starts_with('+')) { // std::from_chars knows no plus
+        word.remove_prefix(1);
+        if (word.starts_with('-')) {
+            return {0, std::errc::invalid_argument};
+        }
+    }
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return {value, end == word.data() + word.size() ? error : std::errc::invalid_argument};
+}
+
+/// The length of the first number of a text without blanks: up to the next sign that does not
+/// belong to an exponent.
+std::size_t length_of_number(std::string_view text)
+{
+    for (std::size_t i = 1; i < text.size(); ++i) {
+        constexpr std::string_view exponents = "eEdD";
+        if (is_sign(text[i]) && exponents.find(text[i - 1]) == exponents.npos) {
+            return i;
+        }
+    }
+    return text.size();
+}
+
+/// Calls visit(word) for each number of a line.
+template <class Visit>
+void for_each_free_number(std::string_view line, const Visit& visit)
+{
+    std::size_t begin = 0;
+    while ((begin = line.find_first_not_of(blanks, begin)) != line.npos) {
+        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+        while (begin < end) {
+            const std::size_t length = length_of_number(line.substr(begin, end - begin));
+            visit(line.substr(begin, length));
+            begin += length;
+        }
+    }
+}
+
+std::string_view plural(std::size_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
+} // namespace
+
+bool is_number(std::string_view word)
+{
+    return parse(word).error != std::errc::invalid_argument;
+}
+
+double number_of(const Lines& lines, std::string_view word)
+{
+    const auto [value, error] = parse(word);
+    if (error == std::errc::invalid_argument) {
+        lines.refuse(fmt::format("{} is not a number. Write numbers as in 0.5, -.5E-01 or "
+                                 "-.5D-01.",
+                                 quoted(word)));
+    }
+    if (error == std::errc::result_out_of_range) {
+        lines.refuse(
+            fmt::format("{} is outside the range of double precision. Correct it.", quoted(word)));
+    }
+    if (!std::isfinite(value)) {
+        lines.refuse(fmt::format("{} is not finite. Give a record without gaps.", quoted(word)));
+    }
+    return value;
+}
+
+std::size_t count_of(const Lines& lines, std::string_view word, std::string_view what,
+                     std::size_t least)
+{
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (error != std::errc() || end != word.data() + word.size() || count < least ||
+        count > most_samples) {
+        lines.refuse(fmt::format("{} is {}, but must be an integer from {} to {}. Correct it, or "
+                                 "give another record.",
+                                 what, quoted(word), least, most_samples));
+    }
+    return count;
+}
+
+double time_step_of(const Lines& lines, std::string_view word)
+{
+    const double step = number_of(lines, word);
+    if (!(step > 0)) {
+        lines.refuse(fmt::format("the time step is {} s, but must be above 0. Correct it.", step));
+    }
+    return step;
+}
+
+std::vector<double> take_free_numbers(Lines& lines, const Announcement& announced)
+{
+    std::vector<double> values;
+    while (lines.next()) {
+        for_each_free_number(lines.line(), [&](std::string_view word) {
+            if (values.size() == announced.count) {
+                lines.refuse(fmt::format("{} follows the last of the {} sample{} that {} announces "
+                                         "in line {}. Correct {} or remove the rest.",
+                                         quoted(word), announced.count, plural(announced.count),
+                                         announced.name, announced.line, announced.name));
+            }
+            values.push_back(number_of(lines, word));
+        });
+    }
+    if (values.size() < announced.count) {
+        lines.refuse(fmt::format("the file ends after {} sample{}, but {} announces {} in line {}. "
+                                 "Give the complete file.",
+                                 values.size(), plural(values.size()), announced.name,
+                                 announced.count, announced.line));
+    }
+    return values;
+}
+
+std::string_view column_of(std::string_view line, std::size_t width, std::size_t index)
+{
+    return trimmed(line.substr(std::min(index * width, line.size()), width));
+}
+
+std::vector<double> take_columns(Lines& lines, const Columns& columns,
+                                 const Announcement& announced)
+{
+    std::vector<double> values;
+    while (values.size() < announced.count) {
+        if (!lines.next()) {
+            lines.refuse(fmt::format("the file ends after {} of the {} values of {} that line {} "
+                                     "announces. Give the complete file.",
+                                     values.size(), announced.count, announced.name,
+                                     announced.line));
+        }
+        const std::string_view line =
+            lines.line().substr(0, lines.line().find_last_not_of(blanks) + 1);
+        const std::size_t found = (line.size() + columns.width - 1) / columns.width;
+        const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
+        if (found != expected) {
+            lines.refuse(fmt::format("the line has {} column{} of {} characters, but must have {}: "
+                                     "line {} announces {} values of {}, {} in a line. Give the "
+                                     "file as it was published.",
+                                     found, plural(found), columns.width, expected, announced.line,
+                                     announced.count, announced.name, columns.per_line));
+        }
+        for (std::size_t i = 0; i < found; ++i) {
+            values.push_back(number_of(lines, column_of(line, columns.width, i)));
+        }
+    }
+    return values;
+}
+
+} // namespace overturn

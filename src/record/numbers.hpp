@@ -1,0 +1,52 @@
+// Numbers in files of recorded motions, read exactly and independently of the locale.
+#pragma once
+
+#include "lines.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// Whether a word is a number, as number_of reads it; it may be infinite, NaN or out of range.
+bool is_number(std::string_view word);
+
+/// The number that a word is, correctly rounded: as in C, or with the exponent letter D of Fortran,
+/// which also omits zeros (-.5D-01). Refuses other words, and numbers that are not finite or beyond
+/// double precision.
+double number_of(const Lines& lines, std::string_view word);
+
+/// A number of points, from `least` to most_samples. Refuses other words. `what` precedes it in
+/// messages, such as "NPTS".
+std::size_t count_of(const Lines& lines, std::string_view word, std::string_view what,
+                     std::size_t least = 1);
+
+/// A time step above 0 [s]. Refuses other words.
+double time_step_of(const Lines& lines, std::string_view word);
+
+/// The numbers of a header that announce the samples, for messages.
+struct Announcement {
+    std::size_t count;     ///< of samples
+    std::string_view name; ///< such as "NPTS"
+    std::size_t line;      ///< in which the count is
+};
+
+/// All numbers of the remaining lines. They are separated by blanks or by their signs, as in
+/// .5E-02-.5E-02. Refuses more and fewer than announced.
+std::vector<double> take_free_numbers(Lines& lines, const Announcement& announced);
+
+/// Numbers in columns of equal width [characters].
+struct Columns {
+    std::size_t width;
+    std::size_t per_line;
+};
+
+/// The announced numbers, from the next lines. Refuses lines with more or fewer numbers.
+std::vector<double> take_columns(Lines& lines, const Columns& columns,
+                                 const Announcement& announced);
+
+/// The text of a column, counted from 0, without blanks; empty if the line is too short.
+std::string_view column_of(std::string_view line, std::size_t width, std::size_t index);
+
+} // namespace overturn

@@ -1,0 +1,55 @@
+// Reading of records from texts in tests.
+#pragma once
+
+#include "overturn/record/read_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace overturn {
+
+using Values = std::vector<double>;
+
+inline constexpr RecordOptions in_g{.time_step = {}, .unit = AccelerationUnit::g};
+
+/// The only component of a text.
+inline RecordComponent component_of(std::string_view text, const RecordOptions& options = {})
+{
+    RecordFile file = parse_record(text, "a.txt", options);
+    EXPECT_EQ(file.components.size(), 1);
+    return std::move(file.components.at(0));
+}
+
+/// The message of the refusal of a text.
+inline std::string refusal_of(std::string_view text, const RecordOptions& options = {})
+{
+    try {
+        parse_record(text, "a.txt", options);
+    } catch (const RecordError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+inline std::string with_line_ends(std::string_view text, const std::string& end)
+{
+    std::string result;
+    for (const char letter : text) {
+        result += letter == '\n' ? end : std::string(1, letter);
+    }
+    return result;
+}
+
+/// The text with the first occurrence of some words replaced.
+inline std::string with(std::string text, std::string_view words, std::string_view others)
+{
+    const std::size_t place = text.find(words);
+    EXPECT_NE(place, text.npos) << words;
+    return text.replace(place, words.size(), others);
+}
+
+} // namespace overturn

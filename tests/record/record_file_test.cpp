@@ -1,0 +1,139 @@
+// What holds for files of every format, and for files of none.
+#include "reading.hpp"
+
+#include "support/scratch_folder.hpp"
+
+#include <clocale>
+#include <filesystem>
+#include <locale>
+
+namespace overturn {
+namespace {
+
+std::string refusal_of_file(const std::string& path)
+{
+    try {
+        read_record(path, in_g);
+    } catch (const RecordError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(UnitNames, AreInTheOrderOfTheUnits)
+{
+    EXPECT_EQ(name_of(AccelerationUnit::g), "g");
+    EXPECT_EQ(name_of(AccelerationUnit::m_per_s2), "m/s2");
+    EXPECT_EQ(name_of(AccelerationUnit::cm_per_s2), "cm/s2");
+    EXPECT_EQ(name_of(AccelerationUnit::mm_per_s2), "mm/s2");
+}
+
+TEST(RecordFile, IsReadFromItsPath)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.txt", "0 1\n1 2\n");
+    EXPECT_EQ(read_record(folder / "a.txt", in_g).components.at(0).acceleration, (Values{1, 2}));
+}
+
+TEST(RecordFile, IsRecognisedFromItsContentWhateverItsName)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.V2A", "0 1\n1 2\n");
+    EXPECT_EQ(read_record(folder / "a.V2A", in_g).format, "text");
+}
+
+TEST(RecordFile, IsNamedInItsRefusal)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.txt", "0 1\n1 x\n");
+    EXPECT_EQ(refusal_of_file(folder / "a.txt"),
+              folder / "a.txt" +
+                  ":2: \"x\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01.");
+}
+
+TEST(RecordFile, IsRefusedIfItIsMissing)
+{
+    const ScratchFolder folder;
+    EXPECT_EQ(
+        refusal_of_file(folder / "none"),
+        folder / "none" +
+            ": cannot be read: No such file or directory. Give the path of a recorded motion.");
+}
+
+TEST(RecordFile, IsRefusedIfItIsAFolder)
+{
+    const ScratchFolder folder;
+    EXPECT_EQ(refusal_of_file(folder / ""),
+              folder / "" +
+                  ": cannot be read: Is a directory. Give the path of a recorded motion.");
+}
+
+TEST(RecordFile, IsRefusedBeforeItIsReadIfItIsTooLarge)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "a.txt", "1\n");
+    std::filesystem::resize_file(folder / "a.txt", largest_record_file + 1); // sparse
+    EXPECT_EQ(refusal_of_file(folder / "a.txt"),
+              folder / "a.txt" +
+                  ": is larger than 1024 MiB, the maximum size of a record. Give one record per "
+                  "file.");
+}
+
+TEST(RecordText, IsRefusedIfItIsEmpty)
+{
+    EXPECT_EQ(refusal_of(""), "a.txt: is empty. Give a file with a recorded motion.");
+}
+
+TEST(RecordText, IsRefusedIfItHasNoSamples)
+{
+    for (const char* text : {"\n \n", "# a comment\n", "\xef\xbb\xbf\n\x1a"}) {
+        EXPECT_EQ(refusal_of(text), "a.txt: has no samples. Give a file with a recorded motion.");
+    }
+}
+
+TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
+{
+    EXPECT_EQ(refusal_of("# a\n\nEVENT_NAME: none\nSTATION: none\n"),
+              "a.txt:3: \"EVENT_NAME: none\" begins no known format: AT2 (NPTS and DT in line 4), "
+              "V2A, SMC, or text of one or two columns, in which # or % precedes comments. Convert "
+              "the file to one of these.");
+}
+
+TEST(RecordText, IsRefusedIfItIsBinary)
+{
+    EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)),
+              "a.txt:2: the character 0x1a is not text. Give a file of text: AT2, V2A, SMC or "
+              "columns.");
+    EXPECT_EQ(refusal_of(std::string("1\0", 2)),
+              "a.txt:1: the character 0x00 is not text. Give a file of text: AT2, V2A, SMC or "
+              "columns.");
+    EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0", 6)), // UTF-16
+              "a.txt:1: the character 0x00 is not text. Give a file of text: AT2, V2A, SMC or "
+              "columns.");
+}
+
+TEST(RecordText, IsRefusedIfItsLinesEndWithCarriageReturnsOnly)
+{
+    EXPECT_EQ(refusal_of("1\r2\r"),
+              "a.txt:1: a carriage return is within the line. Convert line ends to LF or CR LF.");
+}
+
+struct DecimalComma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+};
+
+TEST(RecordText, HasThePointAsDecimalMarkInAnyLocale)
+{
+    const std::locale before = std::locale::global(std::locale(std::locale(), new DecimalComma));
+    const bool is_c_locale_set = std::setlocale(LC_ALL, "de_DE.UTF-8") != nullptr;
+    const RecordComponent component = component_of("0.5 1.5\n1.0 -2.5\n", in_g);
+    const std::string refusal = refusal_of("1\n", {.time_step = -0.5, .unit = {}});
+    std::locale::global(before);
+    EXPECT_TRUE(!is_c_locale_set || std::setlocale(LC_ALL, "C") != nullptr);
+    EXPECT_EQ(component.acceleration, (Values{1.5, -2.5}));
+    EXPECT_EQ(component.time_step, 0.5);
+    EXPECT_NE(refusal.find("-0.5"), refusal.npos) << refusal;
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,152 @@
+// Files of USGS.
+#include "reading.hpp"
+
+namespace overturn {
+namespace {
+
+const std::string no_integers =
+    "    -32768    -32768    -32768    -32768    -32768    -32768    -32768    -32768\n";
+const std::string no_numbers =
+    "  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39  0.1700000E+39\n";
+
+std::string repeated(const std::string& text, int times)
+{
+    std::string result;
+    for (int i = 0; i < times; ++i) {
+        result += text;
+    }
+    return result;
+}
+
+const std::string data =
+    "-2.1104E+1-4.7756E+0 1.8436E+1-1.8591E+1-1.5827E+1-1.5471E+1-1.2717E+1-1.1380E+1\n"
+    " 2.7397E-1-9.7655E-1\n";
+
+const std::string sound =
+    "2 CORRECTED ACCELEROGRAM   \n" + repeated("*\n", 4) +
+    "station = Nowhere  component=     43   \n" + repeated("*\n", 5) + repeated(no_integers, 2) +
+    "        10    -32768    -32768    -32768    -32768    -32768    -32768    -32768\n" +
+    repeated(no_integers, 3) +
+    "  0.1700000E+39  0.2000000E+03  0.3703700E+02 -0.1218830E+03  0.1800000E+02\n" +
+    repeated(no_numbers, 9) + "|\n| a comment\n" + data;
+
+TEST(Smc, GivesItsSamplesInCentimetresPerSecondSquared)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    EXPECT_EQ(file.format, "SMC");
+    ASSERT_EQ(file.components.size(), 1);
+    EXPECT_EQ(file.components[0].unit, AccelerationUnit::cm_per_s2);
+    EXPECT_EQ(file.components[0].acceleration,
+              (Values{-21.104, -4.7756, 18.436, -18.591, -15.827, -15.471, -12.717, -11.380,
+                      0.27397, -0.97655}));
+}
+
+TEST(Smc, HasTheTimeStepOfItsSamplesPerSecond)
+{
+    EXPECT_EQ(component_of(sound).time_step, 0.005);
+}
+
+TEST(Smc, NamesItsComponent)
+{
+    EXPECT_EQ(component_of(sound).name, "43");
+}
+
+TEST(Smc, WithoutNamedComponentHasOneWithoutName)
+{
+    EXPECT_EQ(component_of(with(sound, "component=     43", "")).name, "");
+}
+
+TEST(Smc, KeepsItsHeaderAndItsComments)
+{
+    const std::vector<std::string> header = component_of(sound).header;
+    ASSERT_EQ(header.size(), 29);
+    EXPECT_EQ(header.front(), "2 CORRECTED ACCELEROGRAM   ");
+    EXPECT_EQ(header.back(), "| a comment");
+}
+
+TEST(Smc, MayBeUncorrected)
+{
+    EXPECT_EQ(component_of(with(sound, "2 CORRECTED", "1 UNCORRECTED")).acceleration.size(), 10);
+}
+
+TEST(Smc, MayHaveNoComments)
+{
+    EXPECT_EQ(component_of(with(sound, "|\n| a comment\n", "")).header.size(), 27);
+}
+
+TEST(Smc, MayHaveWiderColumns)
+{
+    const std::string wide =
+        with(with(sound, data, "-2.1104000E+01 4.7756000E+00\n"), "        10", "         2");
+    EXPECT_EQ(component_of(wide).acceleration, (Values{-21.104, 4.7756}));
+}
+
+TEST(Smc, MayHaveTheLineEndsOfAnySystem)
+{
+    for (const char* end : {"\n", "\r\n", "\r\r\n"}) {
+        EXPECT_EQ(component_of(with_line_ends(sound, end)).header, component_of(sound).header);
+    }
+}
+
+struct Refusal {
+    const char* name;
+    std::string text;
+    const char* message;
+};
+
+class SmcRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(SmcRefusal, NamesFileLineAndReason)
+{
+    EXPECT_EQ(refusal_of(GetParam().text), GetParam().message);
+}
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Of, SmcRefusal, testing::Values(
+    Refusal{"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
+            "a.txt:1: \"3 VELOCITY\" is no accelerogram. Give the file of the acceleration."},
+    Refusal{"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
+            "a.txt:1: \"4 DISPLACEMENT\" is no accelerogram. Give the file of the acceleration."},
+    Refusal{"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
+            "a.txt:1: \"5 RESPONSE SPECTRA\" is no accelerogram. Give the file of the acceleration."},
+    Refusal{"FewerSamples", with(sound, "-9.7655E-1", ""),
+            "a.txt:31: the file ends after 9 samples, but the header announces 10 in line 14. Give the complete "
+            "file."},
+    Refusal{"MoreSamples", with(sound, "-9.7655E-1", "-9.7655E-1-9.7655E-1"),
+            "a.txt:31: \"-9.7655E-1\" follows the last of the 10 samples that the header announces in line 14. "
+            "Correct the header or remove the rest."},
+    Refusal{"AnEarlyEnd", sound.substr(0, sound.find("| a comment")),
+            "a.txt:28: the file ends after 0 samples, but the header announces 10 in line 14. Give the complete "
+            "file."},
+    Refusal{"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
+            "a.txt:13: the file ends after 13 of the 27 lines of the header. Give the complete file."},
+    Refusal{"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
+            "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", but must be an integer from 1 to "
+            "10000000. Correct it, or give another record."},
+    Refusal{"TooManySamples", with(sound, "        10", "2000000000"),
+            "a.txt:14: the number of samples, columns 1 to 10, is \"2000000000\", but must be an integer from 1 to "
+            "10000000. Correct it, or give another record."},
+    Refusal{"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
+            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.1700000E+39\", but must be above "
+            "0 and below 1.7e38. Correct it."},
+    Refusal{"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
+            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.0000000E+00\", but must be above "
+            "0 and below 1.7e38. Correct it."},
+    Refusal{"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
+            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.2000000E-320\", but must be above "
+            "0 and below 1.7e38. Correct it."},
+    Refusal{"AMissingRate", with(sound, "  0.2000000E+03", "               "),
+            "a.txt:18: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"Overflow", with(sound, "-9.7655E-1", "**********"),
+            "a.txt:31: \"2.7397E-1**********\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."}),
+    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+// clang-format on
+
+TEST(Smc, RefusesAUnitBecauseItStatesItsOwn)
+{
+    EXPECT_EQ(refusal_of(sound, in_g),
+              "a.txt: the unit g was given, but SMC files are in cm/s2. Remove the unit.");
+}
+
+} // namespace
+} // namespace overturn

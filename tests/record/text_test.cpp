@@ -1,0 +1,243 @@
+// Files of one or two columns.
+#include "reading.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace overturn {
+namespace {
+
+constexpr RecordOptions one_column{.time_step = 0.02, .unit = AccelerationUnit::g};
+
+TEST(OneColumn, HasTheTimeStepAndTheUnitThatAreGiven)
+{
+    const RecordFile file = parse_record("0.1\n-0.2\n", "a.txt",
+                                         {.time_step = 0.02, .unit = AccelerationUnit::m_per_s2});
+    EXPECT_EQ(file.format, "text");
+    ASSERT_EQ(file.components.size(), 1);
+    EXPECT_EQ(file.components[0].name, "");
+    EXPECT_EQ(file.components[0].acceleration, (Values{0.1, -0.2}));
+    EXPECT_EQ(file.components[0].unit, AccelerationUnit::m_per_s2);
+    EXPECT_EQ(file.components[0].time_step, 0.02);
+}
+
+TEST(OneColumn, MayHaveOneSample)
+{
+    EXPECT_EQ(component_of("0.1", one_column).acceleration, Values{0.1});
+}
+
+TEST(TwoColumns, HaveTheTimeStepOfTheirTimes)
+{
+    const RecordComponent component = component_of("0.00 0.1\n0.01 -0.2\n0.02 0.3\n", in_g);
+    EXPECT_EQ(component.acceleration, (Values{0.1, -0.2, 0.3}));
+    EXPECT_EQ(component.time_step, 0.01);
+}
+
+TEST(Text, KeepsItsCommentsAsHeader)
+{
+    const std::vector<std::string> header{"# station A", "  % unit g", "# the end"};
+    EXPECT_EQ(component_of("# station A\n\n  % unit g\n1\n# the end\n2\n", one_column).header,
+              header);
+}
+
+TEST(Text, IsNoAt2FileIfTheFourthLineIsAComment)
+{
+    EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .01\n1\n2\n", one_column).acceleration,
+              (Values{1, 2}));
+}
+
+TEST(Text, IsNoSmcFileIfItBeginsWithADigit)
+{
+    EXPECT_EQ(component_of("2 1\n3 1\n", in_g).time_step, 1);
+}
+
+TEST(Text, MayHaveTheLineEndsOfAnySystem)
+{
+    for (const char* end : {"\n", "\r\n", "\r\r\n"}) {
+        const RecordComponent component =
+            component_of(with_line_ends("# one\n0.0 1\n0.1 2\n", end), in_g);
+        EXPECT_EQ(component.acceleration, (Values{1, 2}));
+        EXPECT_EQ(component.header, std::vector<std::string>{"# one"});
+    }
+}
+
+TEST(Text, SeparatesColumnsByBlanksOrCommas)
+{
+    for (const char* separator : {" ", "\t", ",", ", ", " ,", "  \t "}) {
+        const std::string text = std::string(" 0.0") + separator + "1 \n0.1" + separator + "-2\n";
+        EXPECT_EQ(component_of(text, in_g).acceleration, (Values{1, -2})) << separator;
+    }
+}
+
+TEST(Text, MayHaveFortranNumbers)
+{
+    EXPECT_EQ(component_of(".0D0 -.5D-01\n.1D-01 +.25d+1\n", in_g).acceleration,
+              (Values{-0.05, 2.5}));
+}
+
+/// Two columns of n times that are printed in this format, from first + i step, and of zeros.
+std::string printed(const char* format, double first, double step, int n)
+{
+    std::string text;
+    for (int i = 0; i < n; ++i) {
+        char word[64];
+        std::snprintf(word, sizeof word, format, first + i * step);
+        text += std::string(word) + " 0\n";
+    }
+    return text;
+}
+
+TEST(TimeStep, IsTheSimplestDecimalThatThePrintedTimesAllow)
+{
+    EXPECT_EQ(component_of(printed("%.2f", 0, 0.01, 4000), in_g).time_step, 0.01);
+    EXPECT_EQ(component_of(printed("%.3f", 0, 0.005, 3), in_g).time_step, 0.005);
+    EXPECT_EQ(component_of(printed("%.6e", 0, 0.02, 8192), in_g).time_step, 0.02);
+    EXPECT_EQ(component_of(printed("%g", 0, 0.005, 300), in_g).time_step, 0.005);
+    EXPECT_EQ(component_of(printed("%.17g", 0, 0.1, 1000), in_g).time_step, 0.1);
+    EXPECT_EQ(component_of(printed("%.0f", 0, 2, 10), in_g).time_step, 2);
+}
+
+TEST(TimeStep, DoesNotDependOnTheFirstTime)
+{
+    EXPECT_EQ(component_of(printed("%.3f", -1.5, 0.005, 1000), in_g).time_step, 0.005);
+    EXPECT_EQ(component_of(printed("%.2f", 45296.25, 0.01, 1000), in_g).time_step, 0.01);
+}
+
+TEST(TimeStep, MayHaveMoreDigitsThanTheTimes)
+{
+    // 128 samples per second, printed in thousandths: 0.000, 0.008, 0.016, 0.023, ...
+    EXPECT_NEAR(component_of(printed("%.3f", 0, 0.0078125, 1000), in_g).time_step, 0.0078125,
+                0.0005 / 999); // half a unit of the last time, shared by the steps
+    EXPECT_EQ(component_of(printed("%.7f", 0, 0.0078125, 1000), in_g).time_step, 0.0078125);
+}
+
+TEST(TimeStep, OfThirdsIsAsAccurateAsTheirDigits)
+{
+    EXPECT_NEAR(component_of(printed("%.4f", 0, 1 / 300.0, 3000), in_g).time_step, 1 / 300.0,
+                0.00005 / 2999);
+}
+
+TEST(TimeStep, AcceptsTimesThatAreHalfAUnitOff)
+{
+    // 0.125, 0.25, 0.375 and 0.5, rounded to even digits
+    EXPECT_EQ(component_of("0.00 0\n0.12 0\n0.25 0\n0.38 0\n0.50 0\n", in_g).time_step, 0.125);
+}
+
+TEST(TimeStep, OfTimesWithFewDigitsIsAnyThatRoundsToThem)
+{
+    EXPECT_EQ(component_of("0.00 0\n0.01 0\n0.02 0\n0.04 0\n", in_g).time_step, 0.012);
+}
+
+TEST(TimeStep, IsPositiveEvenIfTheTimesHaveFewDigits)
+{
+    EXPECT_EQ(component_of("0.6 0\n1 0\n", in_g).time_step, 0.4);
+}
+
+struct Refusal {
+    const char* name;
+    std::string text;
+    RecordOptions options;
+    const char* message;
+};
+
+class TextRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(TextRefusal, NamesFileLineAndReason)
+{
+    EXPECT_EQ(refusal_of(GetParam().text, GetParam().options), GetParam().message);
+}
+
+constexpr RecordOptions nothing_given{};
+constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
+    Refusal{"AMissingUnit", "0.1\n", only_a_time_step,
+            "a.txt: text does not state the unit of its accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+    Refusal{"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
+            "a.txt: text does not state the unit of its accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+    Refusal{"AMissingTimeStep", "# a\n0.1\n", in_g,
+            "a.txt:2: the file has one column, so that the time step is not known. Give time_step in seconds, or "
+            "two columns with time in seconds first."},
+    Refusal{"ATimeStepForTwoColumns", "0 0.1\n1 0.1\n", one_column,
+            "a.txt:1: time_step = 0.02 was given, but the file has two columns, which state the times. Remove "
+            "time_step."},
+    Refusal{"ThreeColumns", "0 1 2\n", in_g,
+            "a.txt:1: the line has 3 columns. Give one column of accelerations, or two of times and accelerations; "
+            "the decimal mark is a point."},
+    Refusal{"DecimalCommas", "0,01 0,2\n", in_g,
+            "a.txt:1: the line has 4 columns. Give one column of accelerations, or two of times and accelerations; "
+            "the decimal mark is a point."},
+    Refusal{"ASecondColumnFromSomeLineOn", "1\n2 3\n", one_column,
+            "a.txt:2: the line has 2 columns, but the lines before have 1. Correct it."},
+    Refusal{"AMissingColumn", "0 1\n1\n", in_g,
+            "a.txt:2: the line has 1 column, but the lines before have 2. Correct it."},
+    Refusal{"AnEmptyColumn", "0,1\n1,\n", in_g,
+            "a.txt:2: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"AWord", "1\nend\n", one_column,
+            "a.txt:2: \"end\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"NumbersThatTouch", "1\n1-2\n", one_column,
+            "a.txt:2: \"1-2\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"TwoSigns", "1\n+-2\n", one_column,
+            "a.txt:2: \"+-2\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"ACommentBehindANumber", "1\n2 # peak\n", one_column,
+            "a.txt:2: the line has 3 columns. Give one column of accelerations, or two of times and accelerations; "
+            "the decimal mark is a point."},
+    Refusal{"Nan", "nan\n1\n", one_column, "a.txt:1: \"nan\" is not finite. Give a record without gaps."},
+    Refusal{"Infinity", "1\n1e999\n", one_column,
+            "a.txt:2: \"1e999\" is outside the range of double precision. Correct it."},
+    Refusal{"ATimeThatIsNan", "0 1\nnan 1\n", in_g, "a.txt:2: \"nan\" is not finite. Give a record without gaps."},
+    Refusal{"OneTime", "0 1\n", in_g,
+            "a.txt:1: the file has one sample, but the time step follows from two or more times. Give the complete "
+            "file."},
+    Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
+            "a.txt:4: the time is 0.040 s, but must be 0.03 s within half a unit of its last digit: times must be "
+            "even, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
+    Refusal{"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
+            "a.txt:101: the time is 0.505 s, but must be 0.5 s within half a unit of its last digit: times must be "
+            "even, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
+    Refusal{"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
+            "a.txt:2: the time 0.0 s does not follow 0 s, the time before. Give ascending times with enough digits, "
+            "or one column and time_step."},
+    Refusal{"DescendingTimes", "0.1 0\n0.0 0\n", in_g,
+            "a.txt:2: the time 0.0 s does not follow 0.1 s, the time before. Give ascending times with enough "
+            "digits, or one column and time_step."},
+    Refusal{"AbsurdTimes", "0.1 0\n1e300 0\n", in_g,
+            "a.txt:2: the time 1e300 s is outside -1000000000 to 1000000000 s. The first of two columns must be the "
+            "time in seconds."},
+    Refusal{"ATimeStepOfZero", "1\n", (RecordOptions{.time_step = 0, .unit = AccelerationUnit::g}),
+            "a.txt: time_step = 0 was given, but must be above 0 and finite. Give the seconds between two samples."},
+    Refusal{"ANegativeTimeStep", "1\n", (RecordOptions{.time_step = -0.01, .unit = AccelerationUnit::g}),
+            "a.txt: time_step = -0.01 was given, but must be above 0 and finite. Give the seconds between two "
+            "samples."},
+    Refusal{"AnInfiniteTimeStep", "1\n", (RecordOptions{.time_step = HUGE_VAL, .unit = AccelerationUnit::g}),
+            "a.txt: time_step = inf was given, but must be above 0 and finite. Give the seconds between two samples."}),
+    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+// clang-format on
+
+TEST(Text, RefusesMoreSamplesThanAreAllowed)
+{
+    std::string text;
+    text.reserve(2 * most_samples + 2);
+    for (std::size_t i = 0; i <= most_samples; ++i) {
+        text += "1\n";
+    }
+    EXPECT_EQ(
+        refusal_of(text, one_column),
+        "a.txt:10000001: the file has more than 10000000 samples, the maximum. Give a shorter "
+        "record.");
+}
+
+TEST(Text, RefusesCommentsThatFillTheMemory)
+{
+    std::string text;
+    for (int i = 0; i < 600'000; ++i) {
+        text += "#\n";
+    }
+    EXPECT_EQ(refusal_of(text + "1\n", one_column),
+              "a.txt:524289: header and comments are larger than 1024 KiB, the maximum. Remove "
+              "comments.");
+}
+
+} // namespace
+} // namespace overturn

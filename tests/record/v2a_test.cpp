@@ -1,0 +1,198 @@
+// Files of GeoNet.
+#include "reading.hpp"
+
+namespace overturn {
+namespace {
+
+/// Twelve numbers in columns of 8 characters, ten in a line.
+std::string block(double first)
+{
+    std::string text;
+    for (int i = 0; i < 12; ++i) {
+        std::string column = std::to_string(first + i);
+        column.resize(column.find('.') + 2);
+        text += std::string(8 - column.size(), ' ') + column + (i % 10 == 9 || i == 11 ? "\n" : "");
+    }
+    return text;
+}
+
+/// A component whose samples are first, first + 1, ..., first + 11 mm/s2.
+std::string component(const std::string& name, double first)
+{
+    std::string text = "Corrected accelerogram 20200101_000000_NONE_20 Nobody\n"
+                       "Site NONE      40 00 00S  170 00 00E     Cusp file:  none\n";
+    for (int line = 3; line < 10; ++line) {
+        text += "line " + std::to_string(line) + "\n";
+    }
+    text += "Number of points    12    Duration   0.22 sec\n"
+            "Instrument corrected data at 0.020 sec intervals\n"
+            "Band-pass filter transition bands are .10-.25 Hz and 24.50-25.50 Hz\n"
+            "Component " +
+            name +
+            "  Some Accelerometer Axis\n"
+            "Acceleration:  peak   -100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s\n"
+            "Velocity:      peak     -1.0 mm/s   at   0.00 sec     rms      1.0 mm/s\n"
+            "Displacement:  peak     -1.0 mm     at   0.00 sec     rms      1.0 mm\n";
+    for (int line = 17; line < 20; ++line) {
+        text +=
+            "    2020       1       1       0       0       0       0       0    2020       1\n";
+    }
+    text += "   65536     250     250      12      12      12       0       0       2   19715\n"
+            "   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00\n"
+            "  40.000 170.000   40.00  170.00    5.00    0.00    0.00    0.00      0.      0.\n"
+            "  327.68    5.00    5.00  163.82  0.0050  0.0200      0.      0.      0.  9806.6\n";
+    for (int line = 24; line < 27; ++line) {
+        text +=
+            "     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0\n";
+    }
+    return text + block(first) + block(0) + block(-1);
+}
+
+const std::string sound = component("N28W", -3) + component("S62W", 10) + component("Up", -50);
+
+TEST(V2a, HasThreeComponentsInMillimetresPerSecondSquared)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    EXPECT_EQ(file.format, "V2A");
+    ASSERT_EQ(file.components.size(), 3);
+    for (const RecordComponent& part : file.components) {
+        EXPECT_EQ(part.unit, AccelerationUnit::mm_per_s2);
+        EXPECT_EQ(part.time_step, 0.02);
+        EXPECT_EQ(part.header.size(), 26);
+    }
+}
+
+TEST(V2a, NamesItsComponents)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    ASSERT_EQ(file.components.size(), 3);
+    EXPECT_EQ(file.components[0].name, "N28W");
+    EXPECT_EQ(file.components[1].name, "S62W");
+    EXPECT_EQ(file.components[2].name, "Up");
+}
+
+TEST(V2a, KeepsTheAccelerationOnly)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    ASSERT_EQ(file.components.size(), 3);
+    EXPECT_EQ(file.components[0].acceleration, (Values{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(file.components[2].acceleration.front(), -50);
+}
+
+TEST(V2a, KeepsTheHeaderOfEachComponent)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    ASSERT_EQ(file.components.size(), 3);
+    EXPECT_EQ(file.components[1].header.front(),
+              "Corrected accelerogram 20200101_000000_NONE_20 Nobody");
+    EXPECT_EQ(file.components[1].header[12], "Component S62W  Some Accelerometer Axis");
+}
+
+TEST(V2a, ReadsColumnsThatTouch)
+{
+    const std::string text = with(sound, "    -3.0    -2.0    -1.0", "-11024.7100000.0-20000.0");
+    const Values values = parse_record(text, "a.txt").components.at(0).acceleration;
+    EXPECT_EQ(values[0], -11024.7);
+    EXPECT_EQ(values[1], 100000);
+    EXPECT_EQ(values[2], -20000);
+}
+
+TEST(V2a, MayHaveFewerComponents)
+{
+    EXPECT_EQ(component_of(component("Up", 1)).name, "Up");
+}
+
+TEST(V2a, MayHaveTheLineEndsOfAnySystem)
+{
+    for (const char* end : {"\n", "\r\n", "\r\r\n", "  \r\n"}) {
+        const RecordFile file = parse_record(with_line_ends(sound, end), "a.txt");
+        ASSERT_EQ(file.components.size(), 3);
+        EXPECT_EQ(file.components[2].acceleration.back(), -39);
+    }
+}
+
+TEST(V2a, MayEndWithBlankLines)
+{
+    EXPECT_EQ(parse_record(sound + "\n   \n", "a.txt").components.size(), 3);
+}
+
+TEST(V2a, MayOmitVelocityAndDisplacement)
+{
+    std::string text =
+        with(component("Up", 1), "250      12      12      12", "250      12       0       0");
+    text.resize(text.size() - block(0).size() - block(-1).size());
+    EXPECT_EQ(component_of(text).acceleration.size(), 12);
+}
+
+struct Refusal {
+    const char* name;
+    std::string text;
+    const char* message;
+};
+
+class V2aRefusal : public testing::TestWithParam<Refusal> {};
+
+TEST_P(V2aRefusal, NamesFileLineAndReason)
+{
+    EXPECT_EQ(refusal_of(GetParam().text), GetParam().message);
+}
+
+const std::string counts = "   65536     250     250      12      12      12";
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Of, V2aRefusal, testing::Values(
+    Refusal{"FewerSamples", with(sound, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
+            "a.txt:27: the line has 9 columns of 8 characters, but must have 10: line 20 announces 12 values of "
+            "acceleration, 10 in a line. Give the file as it was published."},
+    Refusal{"MoreSamples", with(sound, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
+            "a.txt:28: the line has 3 columns of 8 characters, but must have 2: line 20 announces 12 values of "
+            "acceleration, 10 in a line. Give the file as it was published."},
+    Refusal{"AMissingLine", with(sound, "     7.0     8.0\n", ""),
+            "a.txt:28: the line has 10 columns of 8 characters, but must have 2: line 20 announces 12 values of "
+            "acceleration, 10 in a line. Give the file as it was published."},
+    Refusal{"AnEarlyEnd", sound.substr(0, sound.size() - block(-1).size()),
+            "a.txt:94: the file ends after 0 of the 12 values of displacement that line 84 announces. Give the "
+            "complete file."},
+    Refusal{"AnEarlyEndInTheHeader", sound.substr(0, sound.find("   65536")),
+            "a.txt:19: the file ends after 19 of the 26 lines of the header. Give the complete file."},
+    Refusal{"AGap", with(sound, "    -2.0", "        "),
+            "a.txt:27: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"Nan", with(sound, "    -2.0", "     nan"),
+            "a.txt:27: \"nan\" is not finite. Give a record without gaps."},
+    Refusal{"NoPoints", with(sound, counts, "   65536     250     250       0      12      12"),
+            "a.txt:20: the number of values of acceleration is \"0\", but must be an integer from 1 to 10000000. "
+            "Correct it, or give another record."},
+    Refusal{"TooManyPoints", with(sound, counts, "   65536     250     25012345678      12      12"),
+            "a.txt:20: the number of values of acceleration is \"12345678\", but must be an integer from 1 to "
+            "10000000. Correct it, or give another record."},
+    Refusal{"NegativeVelocities", with(sound, counts, "   65536     250     250      12      -1      12"),
+            "a.txt:20: the number of values of velocity is \"-1\", but must be an integer from 0 to 10000000. "
+            "Correct it, or give another record."},
+    Refusal{"ATimeStepOfZero", with(sound, "  0.0050  0.0200", "  0.0050  0.0000"),
+            "a.txt:23: the time step is 0 s, but must be above 0. Correct it."},
+    Refusal{"AMissingTimeStep", with(sound, "  0.0050  0.0200", "  0.0050        "),
+            "a.txt:23: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
+    Refusal{"AnotherUnit", with(sound, "-100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s", "-100.0 cm/s/s"),
+            "a.txt:14: \"Acceleration:  peak   -100.0 cm/s/s\" does not state the unit mm/s/s. Give the values as "
+            "text with their unit."},
+    Refusal{"AComponentWithoutName", with(sound, "Component N28W", "Direction N28W"),
+            "a.txt:13: \"Direction N28W  Some Accelerometer Axis\" does not name the component. Write it as in "
+            "Component N28W."},
+    Refusal{"UncorrectedData", with(sound, "Corrected", "Uncorrected"),
+            "a.txt:1: this is an uncorrected accelerogram (V1A). Give the V2A file of this record."},
+    Refusal{"AFourthComponent", sound + component("Down", 1),
+            "a.txt:97: more text follows the last of the 3 components. Remove it."},
+    Refusal{"AnotherTextBehindAComponent", component("Up", 1) + std::string("rest\n") + component("N", 1),
+            "a.txt:33: \"rest\" is not the first line of a component, such as Corrected accelerogram. Give the "
+            "file as it was published."}),
+    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+// clang-format on
+
+TEST(V2a, RefusesAUnitBecauseItStatesItsOwn)
+{
+    EXPECT_EQ(refusal_of(sound, in_g),
+              "a.txt: the unit g was given, but V2A files are in mm/s2. Remove the unit.");
+}
+
+} // namespace
+} // namespace overturn

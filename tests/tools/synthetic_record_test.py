@@ -1,0 +1,102 @@
+"""The records that tools/synthetic_record writes, and those in jobs/, which it has written."""
+
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+from tool import TOOLS, run_tool
+
+JOBS = TOOLS.parent / "jobs"
+GRAVITY = 9.80665  # [m/s2]
+
+
+class Written(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-record-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tool(self, *arguments):
+        return run_tool("synthetic_record", *arguments, cwd=self.folder)
+
+    def write(self, *arguments, output="synthetic.AT2"):
+        """Runs the tool, which must write this file; returns its bytes."""
+        run = self.run_tool(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stdout, output + "\n")
+        return (self.folder / output).read_bytes()
+
+    def values(self, *arguments):
+        """Returns the fourth line of the header and the accelerations [g]."""
+        _, _, _, sampling, *rows = self.write(*arguments).decode("ascii").splitlines()
+        return sampling, np.array(" ".join(rows).split(), float)
+
+
+class TestTheShippedRecords(Written):
+    def test_the_horizontal_one_is_that_of_no_arguments(self):
+        self.assertEqual(self.write(), (JOBS / "synthetic.AT2").read_bytes())
+
+    def test_the_vertical_one_has_another_seed_and_half_the_peak(self):
+        self.assertEqual(self.write("--seed", "2", "--pga", "0.2", "-o", "v.AT2", output="v.AT2"),
+                         (JOBS / "synthetic_vertical.AT2").read_bytes())
+
+
+class TestASyntheticRecord(Written):
+    def test_has_the_peak_the_time_step_and_the_duration_of_its_arguments(self):
+        sampling, values = self.values("--duration", "5", "--time-step", "0.005", "--pga", "0.75")
+        self.assertEqual(sampling, "NPTS=   1001, DT= 0.005 SEC")
+        self.assertEqual(len(values), 1001)
+        self.assertEqual(np.abs(values).max(), 0.75)
+
+    def test_differs_with_the_seed(self):
+        _, first = self.values()
+        _, other = self.values("--seed", "7")
+        # Independent records of a few hundred independent values; equal ones give 1.
+        self.assertLess(abs(np.corrcoef(first, other)[0, 1]), 0.2)
+
+    def test_ends_at_rest(self):
+        for seed in ("1", "2", "3"):
+            _, values = self.values("--seed", seed)
+            velocity = np.cumsum(values[1:] + values[:-1]) / 2 * 0.01 * GRAVITY  # [m/s]
+            # The filter decays as exp(-0.94 t/s) while the envelope decays; without it the velocity
+            # of noise would end at about a third of its peak.
+            self.assertLess(abs(velocity[-1]), 0.01 * np.abs(velocity).max())
+            self.assertLess(abs(np.cumsum(velocity)[-1]) * 0.01, 0.01)  # [m]
+
+    def test_has_its_energy_in_the_frequencies_of_earthquakes(self):
+        _, values = self.values()
+        power = np.abs(np.fft.rfft(values)) ** 2
+        frequency = np.fft.rfftfreq(len(values), 0.01)  # [Hz]
+        within = power[(0.5 < frequency) & (frequency < 10)].sum()
+        self.assertGreater(within, 0.8 * power.sum())  # 0.87; of white noise, a fifth
+
+
+class TestASyntheticRecordRefused(Written):
+    def refuses(self, code, sentence, *arguments):
+        run = self.run_tool(*arguments)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_of_arguments_that_are_not_positive(self):
+        for name in ("--duration", "--time-step", "--pga"):
+            for value in ("0", "-1", "nan", "inf"):
+                self.refuses(2, "must be above 0 and finite", f"{name}={value}")
+        self.refuses(2, "must be 0 or above", "--seed=-1")
+
+    def test_of_too_few_or_too_many_samples(self):
+        self.refuses(2, "must give 11 to 1000000 samples", "--duration", "0.05")
+        self.refuses(2, "must give 11 to 1000000 samples", "--duration", "1e300")
+
+    def test_of_a_peak_that_has_no_digits_or_too_many(self):
+        for pga in ("1e-9", "1e9"):
+            self.refuses(2, "is outside 0.001 to 1000", "--pga", pga)
+
+    def test_of_an_output_in_a_missing_folder(self):
+        self.refuses(74, "cannot write \"nowhere/a.AT2\"", "-o", "nowhere/a.AT2")
+
+
+if __name__ == "__main__":
+    unittest.main()
