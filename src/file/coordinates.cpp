@@ -2,6 +2,9 @@
 
 #include "layout.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 
 namespace overturn {
@@ -14,8 +17,7 @@ constexpr double of_several = 100;    // largest_restitution amplifies those of 
 
 Coordinate coordinate_of(const Dimension& dimension)
 {
-    const auto& [name, axis_of_job, long_name, units] = dimension;
-    const Axis& axis = *axis_of_job;
+    const auto& [name, axis, long_name, units] = dimension;
     const auto* range = std::get_if<AxisRange>(&axis.definition());
     const bool is_log = range != nullptr && range->spacing == Spacing::log;
     const double roundings = is_log ? of_one_function : exact;
@@ -39,38 +41,90 @@ Coordinate restitution_ratio(const Plane& plane)
             plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
 }
 
-/// For a job whose block is given in metres.
-Coordinate pulse_period(const Plane& plane)
+/// A coordinate of the values of an axis, each computed by of_value(value).
+template <class OfValue>
+Coordinate along(const char* dimension, const Axis& axis, const char* name,
+                 const std::string& long_name, const char* units, const OfValue& of_value)
 {
-    const double p = frequency_parameter(*plane.block);
-    std::vector<double> periods;
-    for (const double frequency : plane.frequency.values()) {
-        periods.push_back(2 * std::numbers::pi / (frequency * p));
-    }
-    return {{"pulse_period",
-             {"frequency"},
-             {periods.size()},
-             periods,
-             "period of the pulse, 2 pi / omega_p, with g = 9.81 m/s2",
-             "s"},
-            of_several};
+    std::vector<double> values = axis.values();
+    std::transform(values.begin(), values.end(), values.begin(), of_value);
+    return {{name, {dimension}, {values.size()}, values, long_name, units}, of_several};
+}
+
+/// For a job whose block is given in metres.
+Coordinate pulse_period(const Job& job)
+{
+    const double gravity = job.scene.gravity;
+    const double p = frequency_parameter(half_diagonal(*job.plane.block), gravity);
+    return along("frequency", job.plane.frequency, "pulse_period",
+                 fmt::format("period of the pulse, 2 pi / omega_p, with g = {} m/s2", gravity), "s",
+                 [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
 }
 
 /// For a job whose block is given in metres.
 Coordinate peak_ground_acceleration(const Job& job)
 {
     const double threshold = uplift_threshold(job.scene.theory, job.plane.slenderness.first());
-    std::vector<double> accelerations;
-    for (const double amplitude : job.plane.amplitude.values()) {
-        accelerations.push_back(amplitude * threshold);
+    return along("amplitude", job.plane.amplitude, "peak_ground_acceleration",
+                 "peak ground acceleration, over g", "1",
+                 [&](double amplitude) { return amplitude * threshold; });
+}
+
+/// Under a record: R of every p, or p of every R.
+Coordinate other_size(const Job& job)
+{
+    const Plane& plane = job.plane;
+    const double gravity = job.scene.gravity;
+    if (plane.frequency_is == FrequencyQuantity::size) {
+        return along("size", plane.frequency, "frequency_parameter",
+                     fmt::format("p = sqrt(3g / 4R), with g = {} m/s2", gravity), "s-1",
+                     [&](double size) { return frequency_parameter(size, gravity); });
     }
-    return {{"peak_ground_acceleration",
-             {"amplitude"},
-             {accelerations.size()},
-             accelerations,
-             "peak ground acceleration, over g",
+    return along("frequency_parameter", plane.frequency, "size",
+                 fmt::format("half diagonal R of the block, with g = {} m/s2", gravity), "m",
+                 [&](double p) { return 3 * gravity / (4 * p * p); });
+}
+
+/// Under a record: the peak ground acceleration of every motion and scale, or the scale of every
+/// motion and peak ground acceleration.
+Coordinate other_strength(const Job& job)
+{
+    const bool is_scale = job.plane.amplitude_is == AmplitudeQuantity::scale;
+    std::vector<double> values;
+    for (const Motion& motion : job.motions) {
+        for (const double value : job.plane.amplitude.values()) {
+            const double peak = motion.measures.pga;
+            values.push_back(is_scale ? value * peak : value / peak);
+        }
+    }
+    return {{is_scale ? "peak_ground_acceleration" : "scale",
+             {"motion", std::string(name_of(job.plane.amplitude_is))},
+             {hsize_t(job.motions.size()), hsize_t(job.plane.amplitude.size())},
+             std::move(values),
+             is_scale ? "peak ground acceleration, over g" : "factor on the record",
              "1"},
-            of_several};
+            exact};
+}
+
+/// The intensity measures of the records, not scaled.
+void add_measures(const Job& job, std::vector<Coordinate>& all)
+{
+    const auto add = [&](const char* name, const char* long_name, const char* units,
+                         double IntensityMeasures::*measure) {
+        std::vector<double> values;
+        for (const Motion& motion : job.motions) {
+            values.push_back(motion.measures.*measure);
+        }
+        all.push_back({{name, {"motion"}, {values.size()}, values, long_name, units}, exact});
+    };
+    const bool is_pga = job.plane.amplitude_is == AmplitudeQuantity::pga;
+    add(is_pga ? "record_pga" : "pga", "peak ground acceleration of the record, over g", "1",
+        &IntensityMeasures::pga);
+    add("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
+    add("arias_intensity", "Arias intensity of the record", "m s-1",
+        &IntensityMeasures::arias_intensity);
+    add("significant_duration", "time between 5 and 95 % of the Arias intensity of the record", "s",
+        &IntensityMeasures::significant_duration);
 }
 
 } // namespace
@@ -78,44 +132,72 @@ Coordinate peak_ground_acceleration(const Job& job)
 std::vector<Dimension> dimensions_of(const Job& job)
 {
     const Plane& plane = job.plane;
-    const Dimension rows = job.product == Product::boundary
-                               ? Dimension{"crossing", &plane.amplitude,
-                                           "flips of the verdict along the amplitude, from 0", "1"}
-                               : Dimension{"amplitude", &plane.amplitude,
-                                           job.scene.theory == Theory::linear
-                                               ? "peak ground acceleration, over g alpha"
-                                               : "peak ground acceleration, over g tan(alpha)",
-                                           "1"};
-    return {{"slenderness", &plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
-            {"restitution", &plane.restitution,
-             plane.restitution_of == RestitutionOf::maximum
-                 ? "energy ratio at an impact, over its maximum for the block"
-                 : "energy ratio at an impact",
-             "1"},
-            rows,
-            {"frequency", &plane.frequency,
-             "angular frequency of the pulse, over the block's frequency parameter p", "1"}};
+    const bool linear = job.scene.theory == Theory::linear;
+    std::vector<Dimension> dimensions{
+        {"slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
+        {"restitution", plane.restitution,
+         plane.restitution_of == RestitutionOf::maximum
+             ? "energy ratio at an impact, over its maximum for the block"
+             : "energy ratio at an impact",
+         "1"}};
+    if (plane.motions > 0) {
+        const Axis numbers(AxisRange{1, double(plane.motions), plane.motions});
+        dimensions.insert(dimensions.begin(),
+                          {"motion", numbers, "number of the ground motion in the job", "1"});
+    }
+    if (job.product == Product::boundary) {
+        dimensions.push_back(
+            {"crossing", plane.amplitude, "flips of the verdict along the amplitude, from 0", "1"});
+    } else {
+        dimensions.push_back(
+            {std::string(name_of(plane.amplitude_is)), plane.amplitude,
+             plane.amplitude_is == AmplitudeQuantity::scale ? "factor on the record"
+             : plane.amplitude_is == AmplitudeQuantity::pga ? "peak ground acceleration, over g"
+             : linear ? "peak ground acceleration, over g alpha"
+                      : "peak ground acceleration, over g tan(alpha)",
+             "1"});
+    }
+    const auto column = [&](const char* long_name, const char* units) {
+        dimensions.push_back(
+            {std::string(name_of(plane.frequency_is)), plane.frequency, long_name, units});
+    };
+    switch (plane.frequency_is) {
+    case FrequencyQuantity::size: column("half diagonal R of the block", "m"); break;
+    case FrequencyQuantity::frequency_parameter: column("p = sqrt(3g / 4R)", "s-1"); break;
+    default: column("angular frequency of the pulse, over the block's frequency parameter p", "1");
+    }
+    return dimensions;
 }
 
 std::vector<Coordinate> coordinates_of(const Job& job)
 {
     const Plane& plane = job.plane;
+    const bool is_boundary = job.product == Product::boundary;
     std::vector<Coordinate> all;
     for (const Dimension& dimension : dimensions_of(job)) {
         all.push_back(coordinate_of(dimension));
     }
-    if (plane.block) { // its slenderness is an arctangent
-        all.front().roundings = of_one_function;
+    if (plane.block) { // the slenderness is an arctangent, and the size a square root
+        all[all.size() - 4].roundings = of_one_function;
+        if (plane.motions > 0) {
+            all.back().roundings = of_one_function;
+        }
     }
-    if (job.product == Product::boundary) {
+    if (is_boundary) {
         all.push_back(
-            coordinate_of({layout::scan, &job.scan,
+            coordinate_of({layout::scan, job.scan,
                            "amplitudes that were computed first to find the flips", "1"}));
     }
     all.push_back(restitution_ratio(plane));
-    if (plane.block) {
-        all.push_back(pulse_period(plane));
-        if (job.product == Product::spectrum) { // a boundary has crossings instead of amplitudes
+    if (plane.motions > 0) {
+        all.push_back(other_size(job));
+        if (!is_boundary) {
+            all.push_back(other_strength(job));
+        }
+        add_measures(job, all);
+    } else if (plane.block) {
+        all.push_back(pulse_period(job));
+        if (!is_boundary) { // a boundary has crossings instead of amplitudes
             all.push_back(peak_ground_acceleration(job));
         }
     }

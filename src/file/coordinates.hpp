@@ -17,13 +17,13 @@ struct Coordinate : netcdf::Variable {
 
 /// A dimension of every field, with a coordinate variable of the same name.
 struct Dimension {
-    const char* name;
-    const Axis* axis;
-    const char* long_name;
-    const char* units;
+    std::string name;
+    Axis axis;
+    std::string long_name;
+    std::string units;
 };
 
-/// Slowest first. The dimensions point into the job.
+/// Slowest first.
 std::vector<Dimension> dimensions_of(const Job& job);
 
 /// In the order of the file: those of the dimensions first.

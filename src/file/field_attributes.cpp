@@ -46,8 +46,9 @@ Description description_of(Field field)
         return {"flags set during the integration of the pulse", "",
                 "0: no flag is set; 255: not computed yet",
                 std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
-                                          status::not_finite, status::unresolved},
-                "came_to_rest cap_was_hit not_finite unresolved"};
+                                          status::not_finite, status::unresolved,
+                                          status::free_fall},
+                "came_to_rest cap_was_hit not_finite unresolved free_fall"};
     case Field::impacts:
         return {"number of impacts during the pulse", "1", "",
                 std::vector<std::uint16_t>{impact_count::largest, impact_count::not_computed,

@@ -77,8 +77,10 @@ void add_outcome(hid_t file, const Job& job, const History& history)
 {
     write_attribute(file, "slenderness", job.plane.slenderness.first());
     write_attribute(file, "restitution", job.plane.restitution_ratio(0, 0));
-    write_attribute(file, "amplitude", job.plane.amplitude.first());
-    write_attribute(file, "frequency", job.plane.frequency.first());
+    write_attribute(file, std::string(name_of(job.plane.amplitude_is)).c_str(),
+                    job.plane.amplitude.first());
+    write_attribute(file, std::string(name_of(job.plane.frequency_is)).c_str(),
+                    job.plane.frequency.first());
     write_attribute(file, "region", std::int64_t(history.region));
     write_attribute(file, "margin", history.margin);
     write_attribute(file, "margin_error", history.error);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <hdf5_hl.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace overturn::netcdf {
@@ -58,9 +59,16 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
     write_attribute(file, "references",
                     "A. E. Charalampakis, G. C. Tsiatas, P. Tsopelas: Rocking of rigid blocks: "
                     "Analytical solution and exact energy-based overturning criteria");
-    write_attribute(file, "pulse", name_of(job.scene.pulse));
-    if (has_window(job.scene.pulse)) {
-        write_attribute(file, "window", job.scene.window);
+    if (job.scene.is_recorded()) {
+        const std::size_t count = job.motions.size();
+        write_attribute(file, "record",
+                        count == 1 ? job.motions.front().file : fmt::format("{} records", count));
+        write_attribute(file, "gravity", job.scene.gravity);
+    } else {
+        write_attribute(file, "pulse", name_of(job.scene.pulse));
+        if (has_window(job.scene.pulse)) {
+            write_attribute(file, "window", job.scene.window);
+        }
     }
     write_attribute(file, "theory", name_of(job.scene.theory));
     if (job.plane.block) {
@@ -76,6 +84,11 @@ void add_job(hid_t file, const Job& job)
     add_text(file, "job_overrides", fmt::format("{}", fmt::join(job.overrides, "\n")),
              "overrides of the job file, one per line");
     add_text(file, layout::job_resolved, job.resolved, "job with all defaults");
+    std::string records;
+    for (const Motion& motion : job.motions) {
+        records += record_text(motion);
+    }
+    add_text(file, "records", records, "files of the recorded ground motions, with their headers");
 }
 
 /// Makes the dataset a dimension if it has the name of one, else attaches its dimensions.
@@ -90,6 +103,17 @@ void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name
 }
 
 } // namespace
+
+std::string record_text(const Motion& motion)
+{
+    std::string text = motion.file;
+    text += motion.component.empty() ? "" : ", component " + motion.component;
+    text += motion.vertical.empty() ? "" : ", vertical " + motion.vertical;
+    for (const std::string& line : motion.header) {
+        text += "\n    " + line;
+    }
+    return text + "\n";
+}
 
 Handle dataset_creation()
 {
@@ -139,6 +163,26 @@ void add_codes(hid_t file, const char* name, const char* dimension,
     write_attribute(dataset, "flag_values", all);
     write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(names, " ")));
     attach_or_make_dimension(file, dataset, name, {dimension});
+}
+
+void add_names(hid_t file, const std::string& name, const std::string& dimension,
+               const std::vector<std::string>& names, const char* long_name)
+{
+    std::size_t longest = 1;
+    for (const std::string& text : names) {
+        longest = std::max(longest, text.size());
+    }
+    std::string letters;
+    for (const std::string& text : names) {
+        letters += text + std::string(longest - text.size(), '\0');
+    }
+    add_bare_dimension(file, name + "_length", std::int64_t(longest));
+    const Handle dataset =
+        create_dataset(file, name, H5T_C_S1, {names.size(), longest}, dataset_creation());
+    check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()));
+    attach_dimensions(file, dataset, {dimension, name + "_length"});
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "_Encoding", "utf-8");
 }
 
 void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length)

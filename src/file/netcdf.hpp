@@ -38,6 +38,10 @@ void add_codes(hid_t file, const char* name, const char* dimension,
                const std::vector<std::uint8_t>& codes, const char* long_name,
                std::span<const std::string_view> names);
 
+/// Adds a variable of names along one dimension, as an array of characters filled up with NUL.
+void add_names(hid_t file, const std::string& name, const std::string& dimension,
+               const std::vector<std::string>& names, const char* long_name);
+
 /// Adds a netCDF-4 dimension without a variable. Its dataset takes no space.
 void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length);
 
@@ -48,6 +52,9 @@ hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
 
 /// Names the dimensions of a dataset, slowest first.
 void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>& names);
+
+/// The file, components and header lines of a record, as stored.
+std::string record_text(const Motion& motion);
 
 /// Creates a file of this kind: kind, program version and scene as attributes; the content that
 /// `write` adds; and the job as given, its overrides, and as resolved. Throws Hdf5Error.

@@ -31,7 +31,7 @@ std::vector<std::string> names_of(const std::vector<Dimension>& dimensions)
 {
     std::vector<std::string> names;
     for (const Dimension& dimension : dimensions) {
-        names.emplace_back(dimension.name);
+        names.push_back(dimension.name);
     }
     return names;
 }
@@ -135,6 +135,13 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
     for (const Coordinate& coordinate : coordinates) {
         add_variable(file, coordinate);
     }
+    if (job.scene.is_recorded()) {
+        std::vector<std::string> names;
+        for (const Motion& motion : job.motions) {
+            names.push_back(motion.file);
+        }
+        add_names(file, "motion_name", "motion", names, "file of the recorded ground motion");
+    }
     write_attribute(hdf5::open_dataset(file, "restitution"), "of",
                     name_of(job.plane.restitution_of));
     add_bare_dimension(file, layout::tile, tiling.size());
@@ -163,7 +170,18 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     }
 
     Count bytes = 20480 + numbers * sizeof(double);
-    if (plane.block) {
+    if (plane.motions > 0) {
+        const Count motions(plane.motions);
+        bytes +=
+            9600 + (motions * (6 + Count(plane.amplitude.size())) + Count(plane.frequency.size())) *
+                       sizeof(double);
+        std::size_t longest = 1;
+        for (const Motion& motion : job.motions) {
+            bytes += Count(record_text(motion).size());
+            longest = std::max(longest, motion.file.size());
+        }
+        bytes += motions * Count(longest);
+    } else if (plane.block) {
         bytes +=
             2400 + (Count(plane.frequency.size()) + Count(plane.amplitude.size())) * sizeof(double);
     }

@@ -261,7 +261,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     std::vector<std::string> foreign;
     // Sizes first: the job in a malicious file may have axes that do not fit into memory.
     for (const Dimension& dimension : dimensions_of(job)) {
-        if (!has_shape(dimension.name, {hsize_t(dimension.axis->size())})) {
+        if (!has_shape(dimension.name, {hsize_t(dimension.axis.size())})) {
             foreign.emplace_back(dimension.name);
         }
     }

@@ -74,7 +74,7 @@ std::vector<std::string> damaged_coordinates(const std::string& path)
 {
     const StoredSpectrum stored = open_stored_spectrum(path);
     try {
-        Job job = read_job_text(stored.resolved_job, layout::job_resolved);
+        Job job = read_resolved_job(stored.resolved_job, layout::job_resolved);
         return foreign_coordinates(stored, stored.product == Product::boundary
                                                ? boundary_of(std::move(job))
                                                : std::move(job));

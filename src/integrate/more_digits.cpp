@@ -2,13 +2,22 @@
 
 namespace overturn {
 
-template <class T, Theory theory>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& excitation,
-                                double tolerance, int step_limit)
+template <class T, Theory theory, class GroundOf>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const GroundOf& excitation,
+                                const std::function<bool()>& stop_requested, double tolerance,
+                                int step_limit)
 {
-    ForcedStage<typename MoreDigits<T>::Method, theory, Records{.impacts = true, .error = true}, T>
-        stage(block, excitation, T(tolerance));
-    for (int steps = 0; stage.is_active() && steps < step_limit; ++steps) {
+    using Method =
+        std::conditional_t<std::same_as<GroundOf, Excitation<T>>, typename MoreDigits<T>::Method,
+                           typename MoreDigits<T>::MethodForRecords>;
+    ForcedStage<Method, theory, Records{.impacts = true, .error = true}, T, GroundOf> stage(
+        block, excitation, T(tolerance));
+    constexpr int steps_between_checks = 16;
+    const int limit = step_limit + int(excitation.motion.pieces());
+    for (int steps = 0; stage.is_active() && steps < limit; ++steps) {
+        if (steps % steps_between_checks == 0 && stop_requested && stop_requested()) {
+            break;
+        }
         stage.advance();
     }
     ForcedEnd<T> end = stage.end();
@@ -20,17 +29,15 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& exci
     return end;
 }
 
-template ForcedEnd<long double>
-run_in_more_digits<long double, Theory::nonlinear>(const Block<long double>&,
-                                                   const Excitation<long double>&, double, int);
-template ForcedEnd<long double>
-run_in_more_digits<long double, Theory::linear>(const Block<long double>&,
-                                                const Excitation<long double>&, double, int);
-template ForcedEnd<Digits50>
-run_in_more_digits<Digits50, Theory::nonlinear>(const Block<Digits50>&, const Excitation<Digits50>&,
-                                                double, int);
-template ForcedEnd<Digits50>
-run_in_more_digits<Digits50, Theory::linear>(const Block<Digits50>&, const Excitation<Digits50>&,
-                                             double, int);
+#define OVERTURN_INSTANTIATE(T, theory)                                                            \
+    template ForcedEnd<T> run_in_more_digits<T, theory>(                                           \
+        const Block<T>&, const Excitation<T>&, const std::function<bool()>&, double, int);         \
+    template ForcedEnd<T> run_in_more_digits<T, theory>(                                           \
+        const Block<T>&, const RecordExcitation<T, true>&, const std::function<bool()>&, double,   \
+        int);
+OVERTURN_INSTANTIATE(long double, Theory::nonlinear)
+OVERTURN_INSTANTIATE(long double, Theory::linear)
+OVERTURN_INSTANTIATE(Digits50, Theory::nonlinear)
+OVERTURN_INSTANTIATE(Digits50, Theory::linear)
 
 } // namespace overturn

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <system_error>
 
@@ -112,8 +113,10 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides)
     return read_job_text(file_text(path), path, overrides);
 }
 
-Job read_job_text(std::string text, const std::string& name,
-                  const std::vector<std::string>& overrides)
+namespace {
+
+Job read_any_job(std::string text, const std::string& name,
+                 const std::vector<std::string>& overrides, JobText kind)
 {
     Job job;
     job.given = std::move(text);
@@ -126,10 +129,17 @@ Job read_job_text(std::string text, const std::string& name,
     expect_table(entry, job_keys);
     job.title = read_title(entry);
     job.scene = read_scene(entry);
-    job.numerics = read_numerics(entry);
+    if (const Entry scene = *find(entry, "scene"); find(scene, "record")) {
+        const std::string folder = std::filesystem::path(name).parent_path().string();
+        job.motions = read_motions(scene, folder, job.scene.gravity, kind);
+        for (const Motion& motion : job.motions) {
+            job.scene.records.push_back(motion.record);
+        }
+    }
+    job.numerics = read_numerics(entry, job.scene.is_recorded());
     job.fields = read_fields(entry);
     expect_known_errors(entry, job.numerics, job.fields);
-    job.plane = read_plane(entry);
+    job.plane = read_plane(entry, std::int64_t(job.motions.size()));
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         refuse(*find(entry, "plane"),
                fmt::format(" has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are "
@@ -138,6 +148,19 @@ Job read_job_text(std::string text, const std::string& name,
     }
     job.resolved = resolved_text(job);
     return job;
+}
+
+} // namespace
+
+Job read_job_text(std::string text, const std::string& name,
+                  const std::vector<std::string>& overrides)
+{
+    return read_any_job(std::move(text), name, overrides, JobText::given);
+}
+
+Job read_resolved_job(std::string text, const std::string& name)
+{
+    return read_any_job(std::move(text), name, {}, JobText::resolved);
 }
 
 Job boundary_of(Job job)

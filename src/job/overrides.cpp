@@ -177,7 +177,14 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
             erase_keys(axis, {"values"});
         }
     }
+    if (path == Path{"scene", "record"}) {
+        erase_keys(job["scene"].as_table(), {"pulse", "window"});
+        erase_keys(job["plane"].as_table(), {"amplitude", "frequency"});
+    }
     if (path == Path{"scene", "pulse"}) {
+        erase_keys(job["scene"].as_table(),
+                   {"record", "component", "vertical", "time_step", "units"});
+        erase_keys(job["plane"].as_table(), {"scale", "pga", "size", "frequency_parameter"});
         const auto name =
             std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
         if (name != pulse_names.end() && !has_window(PulseKind(name - pulse_names.begin()))) {

@@ -4,13 +4,16 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> plane_keys{"frequency", "amplitude", "restitution",
-                                                     "slenderness"};
+constexpr std::array<std::string_view, 4> pulse_plane_keys{"frequency", "amplitude", "restitution",
+                                                           "slenderness"};
+constexpr std::array<std::string_view, 6> record_plane_keys{
+    "scale", "pga", "size", "frequency_parameter", "restitution", "slenderness"};
 constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   "last",
                                                            "count",  "spacing", "of"};
 constexpr std::array<std::string_view, 2> block_keys{"half_width", "half_height"};
@@ -24,6 +27,14 @@ const AxisRule frequency_rule{"(0, inf)", [](double value) { return value > 0; }
                               "The frequency of a pulse must be positive."};
 const AxisRule amplitude_rule{"[0, inf)", [](double value) { return value >= 0; },
                               "It is the magnitude of the peak ground acceleration."};
+const AxisRule scale_rule{"[0, inf)", [](double value) { return value >= 0; },
+                          "It is the factor on the record."};
+const AxisRule pga_rule{"[0, inf)", [](double value) { return value >= 0; },
+                        "It is the peak ground acceleration over g."};
+const AxisRule size_rule{"(0, inf)", [](double value) { return value > 0; },
+                         "It is the half diagonal of the block in metres."};
+const AxisRule parameter_rule{"(0, inf)", [](double value) { return value > 0; },
+                              "It is p = sqrt(3g / 4R) in 1/s."};
 const AxisRule restitution_rule{"(0, 1]", [](double value) { return value > 0 && value <= 1; },
                                 "A block cannot gain energy at an impact, nor lose all of it."};
 const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return value > 0; },
@@ -103,16 +114,69 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
     }
 }
 
+/// The only one of two entries; nullopt if there is neither.
+std::optional<Entry> only_one_of(const Entry& plane, std::string_view one, std::string_view other)
+{
+    const auto first = find(plane, one);
+    const auto second = find(plane, other);
+    if (first && second) {
+        refuse(*second, fmt::format(" cannot be combined with plane.{}, which gives the same. "
+                                    "Remove one of them.",
+                                    one));
+    }
+    return first ? first : second;
+}
+
+/// The strength and the size under a record.
+void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
+{
+    const auto strength = only_one_of(entry, "scale", "pga");
+    if (!strength) {
+        require(entry, "scale", fmt::format("{} Or give pga [g].", axis_advice));
+    }
+    const bool is_scale = strength->key == "plane.scale";
+    plane.amplitude_is = is_scale ? AmplitudeQuantity::scale : AmplitudeQuantity::pga;
+    plane.amplitude = read_axis(*strength, is_scale ? scale_rule : pga_rule);
+
+    const auto size = only_one_of(entry, "size", "frequency_parameter");
+    const bool has_block = find(job, "block").has_value();
+    if (size && has_block) {
+        refuse(*size, " cannot be combined with [block], which also gives the size. Remove one of "
+                      "them.");
+    }
+    plane.frequency_is = FrequencyQuantity::size;
+    if (!size && !has_block) {
+        require(entry, "size",
+                fmt::format("{} Or give frequency_parameter [1/s], or [block] with half_width and "
+                            "half_height.",
+                            axis_advice));
+    }
+    if (size) {
+        const bool is_size = size->key == "plane.size";
+        plane.frequency_is =
+            is_size ? FrequencyQuantity::size : FrequencyQuantity::frequency_parameter;
+        plane.frequency = read_axis(*size, is_size ? size_rule : parameter_rule);
+    }
+}
+
 } // namespace
 
-Plane read_plane(const Entry& job)
+Plane read_plane(const Entry& job, std::int64_t motions)
 {
+    const bool is_recorded = motions > 0;
     const Entry entry = require(
-        job, "plane", "Add [plane] with frequency, amplitude, restitution and slenderness.");
-    expect_table(entry, plane_keys);
+        job, "plane",
+        is_recorded ? "Add [plane] with scale, size, restitution and slenderness."
+                    : "Add [plane] with frequency, amplitude, restitution and slenderness.");
+    expect_table(entry, is_recorded ? Names(record_plane_keys) : Names(pulse_plane_keys));
     Plane plane;
-    plane.frequency = read_axis(require(entry, "frequency", axis_advice), frequency_rule);
-    plane.amplitude = read_axis(require(entry, "amplitude", axis_advice), amplitude_rule);
+    plane.motions = motions;
+    if (is_recorded) {
+        read_record_axes(job, entry, plane);
+    } else {
+        plane.frequency = read_axis(require(entry, "frequency", axis_advice), frequency_rule);
+        plane.amplitude = read_axis(require(entry, "amplitude", axis_advice), amplitude_rule);
+    }
 
     const Entry restitution = require(entry, "restitution", axis_advice);
     const bool is_table = restitution.node->is_table();
@@ -129,6 +193,9 @@ Plane read_plane(const Entry& job)
         plane.block = BlockSize{.half_width = read_size(slenderness, "half_width"),
                                 .half_height = read_size(slenderness, "half_height")};
         plane.slenderness = Axis(AxisList{slenderness_of(slenderness, *plane.block)});
+        if (is_recorded) {
+            plane.frequency = Axis(AxisList{half_diagonal(*plane.block)});
+        }
     } else {
         plane.slenderness = read_axis(slenderness, slenderness_rule);
     }

@@ -12,7 +12,12 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> scene_keys{"pulse", "theory", "window"};
+constexpr std::array<std::string_view, 9> scene_keys{"pulse",     "record",    "theory",
+                                                     "window",    "component", "vertical",
+                                                     "time_step", "units",     "gravity"};
+constexpr std::array<std::string_view, 2> pulse_keys{"pulse", "window"};
+constexpr std::array<std::string_view, 4> record_keys{"component", "vertical", "time_step",
+                                                      "units"};
 constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
 constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
@@ -48,15 +53,35 @@ double read_window(const Entry& entry, PulseKind pulse)
 
 Scene read_scene(const Entry& job)
 {
-    const Entry entry = require(job, "scene", "Add [scene] with a pulse.");
+    const Entry entry = require(job, "scene", "Add [scene] with a pulse or a record.");
     expect_table(entry, scene_keys);
     Scene scene;
-    scene.pulse = choice_of<PulseKind>(
-        require(entry, "pulse", fmt::format("Give one of {}.", fmt::join(pulse_names, ", "))),
-        pulse_names);
     if (const auto theory = find(entry, "theory")) {
         scene.theory = choice_of<Theory>(*theory, theory_names);
     }
+    if (const auto gravity = find(entry, "gravity")) {
+        scene.gravity = number_of(*gravity);
+        if (!(scene.gravity > 0)) {
+            refuse(*gravity,
+                   fmt::format(" = {} is outside (0, inf). It is g in m/s2.", scene.gravity));
+        }
+    }
+    const bool is_recorded = find(entry, "record").has_value();
+    for (const std::string_view key : is_recorded ? Names(pulse_keys) : Names(record_keys)) {
+        if (const auto other = find(entry, key)) {
+            refuse(*other, is_recorded
+                               ? " cannot be combined with scene.record. Remove one of them."
+                               : " has no meaning without scene.record. Remove it.");
+        }
+    }
+    if (is_recorded) {
+        return scene;
+    }
+    scene.pulse = choice_of<PulseKind>(
+        require(entry, "pulse",
+                fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
+                            fmt::join(pulse_names, ", "))),
+        pulse_names);
     if (const auto window = find(entry, "window")) {
         scene.window = read_window(*window, scene.pulse);
     }
@@ -69,9 +94,12 @@ double cut_by_window(const Scene& scene)
     return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
 }
 
-Numerics read_numerics(const Entry& job)
+Numerics read_numerics(const Entry& job, bool is_recorded)
 {
     Numerics numerics;
+    if (is_recorded) {
+        numerics.method = Method::taylor;
+    }
     const auto entry = find(job, "numerics");
     if (!entry) {
         return numerics;
@@ -79,6 +107,11 @@ Numerics read_numerics(const Entry& job)
     expect_table(*entry, numerics_keys);
     if (const auto method = find(*entry, "method")) {
         numerics.method = choice_of<Method>(*method, method_names);
+        if (is_recorded && numerics.method != Method::taylor) {
+            refuse(*method, fmt::format(" = \"{}\" is for pulses only; under a record every step "
+                                        "ends at the next sample. Use \"taylor\", the default.",
+                                        name_of(numerics.method)));
+        }
     }
     if (const auto resolve = find(*entry, "resolve")) {
         numerics.resolve = boolean_of(*resolve);

@@ -10,11 +10,21 @@ namespace overturn {
 
 /// Overrides a key of the job by `key.path=value` (TOML; a bare word is a string). Keys that it
 /// contradicts are dropped: `values` or first/last/count of the same axis, [block] or
-/// plane.slenderness, and the window if the new pulse has none. Throws JobError if it is invalid.
+/// plane.slenderness, the window if the new pulse has none, and the keys of a record or of a pulse.
+/// Throws JobError if it is invalid.
 void apply_override(toml::table& job, const std::string& argument);
 
+/// Reads [scene], without its records.
 Scene read_scene(const Entry& job);
-Numerics read_numerics(const Entry& job);
+
+/// A job as given, or as resolved and stored in a result file, which describes its records.
+enum class JobText { given, resolved };
+
+/// Reads scene.record and the keys that belong to it. folder: of the job file; gravity [m/s2].
+std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity,
+                                 JobText kind);
+
+Numerics read_numerics(const Entry& job, bool is_recorded);
 
 /// Reads [output].
 std::vector<Field> read_fields(const Entry& job);
@@ -23,8 +33,8 @@ std::vector<Field> read_fields(const Entry& job);
 void expect_known_errors(const Entry& job, const Numerics& numerics,
                          const std::vector<Field>& fields);
 
-/// Reads [plane] and [block].
-Plane read_plane(const Entry& job);
+/// Reads [plane] and [block]. motions: the number of records; 0: a pulse.
+Plane read_plane(const Entry& job, std::int64_t motions);
 
 /// The allowed interval of the values of an axis, within [0, infinity), and the reason for it.
 struct AxisRule {

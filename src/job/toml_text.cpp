@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace overturn {
@@ -31,11 +32,41 @@ std::string definition_text(const Axis& axis)
                        name_of(range.spacing));
 }
 
-std::string scene_text(const Scene& scene)
+/// One line, so that two jobs with different records differ in the line that names the record.
+std::string motion_text(const Motion& motion)
 {
-    std::string text = fmt::format("[scene]\npulse = \"{}\"\ntheory = \"{}\"\n",
-                                   name_of(scene.pulse), name_of(scene.theory));
-    if (has_window(scene.pulse)) {
+    const IntensityMeasures& measures = motion.measures;
+    std::string text =
+        fmt::format("{{ file = {}, component = {}, vertical = {}, samples = {}, time_step = {}, "
+                    "pga = {}, pgv = {}, arias_intensity = {}, significant_duration = {}, ",
+                    in_quotes(motion.file), in_quotes(motion.component), in_quotes(motion.vertical),
+                    motion.samples, float_text(motion.time_step), float_text(measures.pga),
+                    float_text(measures.pgv), float_text(measures.arias_intensity),
+                    float_text(measures.significant_duration));
+    if (std::isfinite(motion.largest_scale)) {
+        text += fmt::format("largest_scale = {}, ", float_text(motion.largest_scale));
+    }
+    return text + fmt::format("checksum = {} }}", in_quotes(motion.checksum));
+}
+
+std::string scene_text(const Job& job)
+{
+    const Scene& scene = job.scene;
+    std::string text = "[scene]\n";
+    if (scene.is_recorded()) {
+        text += "record = [\n";
+        for (const Motion& motion : job.motions) {
+            text += fmt::format("    {},\n", motion_text(motion));
+        }
+        text += "]\n";
+    } else {
+        text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
+    }
+    text += fmt::format("theory = \"{}\"\n", name_of(scene.theory));
+    if (scene.is_recorded() || scene.gravity != Scene().gravity) {
+        text += fmt::format("gravity = {}\n", float_text(scene.gravity));
+    }
+    if (!scene.is_recorded() && has_window(scene.pulse)) {
         text += fmt::format("window = {}\n", float_text(scene.window));
     }
     return text;
@@ -43,11 +74,14 @@ std::string scene_text(const Scene& scene)
 
 std::string plane_text(const Plane& plane)
 {
-    std::string text =
-        fmt::format("[plane]\nfrequency = {{ {} }}\namplitude = {{ {} }}\nrestitution = {{ {}, of "
-                    "= \"{}\" }}\n",
-                    definition_text(plane.frequency), definition_text(plane.amplitude),
-                    definition_text(plane.restitution), name_of(plane.restitution_of));
+    std::string text = "[plane]\n";
+    if (plane.motions == 0 || !plane.block) {
+        text += fmt::format("{} = {{ {} }}\n", name_of(plane.frequency_is),
+                            definition_text(plane.frequency));
+    }
+    text += fmt::format("{} = {{ {} }}\nrestitution = {{ {}, of = \"{}\" }}\n",
+                        name_of(plane.amplitude_is), definition_text(plane.amplitude),
+                        definition_text(plane.restitution), name_of(plane.restitution_of));
     if (plane.block) {
         text +=
             fmt::format("\n[block]\nhalf_width = {}\nhalf_height = {}\n",
@@ -62,8 +96,8 @@ std::string plane_text(const Plane& plane)
 
 std::string resolved_text(const Job& job)
 {
-    std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title),
-                                   scene_text(job.scene), plane_text(job.plane));
+    std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title), scene_text(job),
+                                   plane_text(job.plane));
     if (job.product == Product::spectrum) { // a boundary ignores both
         text += fmt::format(
             "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"

@@ -105,7 +105,8 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
     const Tiling tiling(sample_.plane);
     const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const PointRun run(scene_, points_of(sample_.plane, tiling[i]), kernel_);
+        const PointRun run(scene_, points_of(scene_, sample_.plane, tiling[i]), kernel_, nullptr,
+                           motion_of(scene_, tiling[i]));
         Ends ends(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
             run.run_exactly<Digits50>(point, ends);

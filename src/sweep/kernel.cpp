@@ -5,12 +5,14 @@
 namespace overturn {
 
 #define OVERTURN_DECLARE(isa)                                                                      \
-    SweepKernel kernel_##isa##_runge_kutta(Theory, const Records&);                                \
-    SweepKernel kernel_##isa##_taylor_14(Theory, const Records&);                                  \
-    SweepKernel kernel_##isa##_taylor_20(Theory, const Records&);
+    SweepKernel kernel_##isa##_runge_kutta(Theory, const Records&, bool);                          \
+    SweepKernel kernel_##isa##_taylor_14(Theory, const Records&, bool);                            \
+    SweepKernel kernel_##isa##_taylor_20(Theory, const Records&, bool);                            \
+    SweepKernel kernel_##isa##_recorded(Theory, const Records&, bool);
 #define OVERTURN_LIST(isa)                                                                         \
     {                                                                                              \
-        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20             \
+        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,            \
+            kernel_##isa##_recorded                                                                \
     }
 
 OVERTURN_DECLARE(double)
@@ -20,7 +22,7 @@ OVERTURN_DECLARE(avx512)
 namespace {
 
 /// The compiled kernels, in the order of Integrator; null pointers for kernels not compiled.
-constexpr std::array<SweepKernelChoice, 3> compiled(Kernel kernel)
+constexpr std::array<SweepKernelChoice, 4> compiled(Kernel kernel)
 {
     switch (kernel) {
 #ifdef OVERTURN_KERNEL_double
@@ -39,9 +41,9 @@ constexpr std::array<SweepKernelChoice, 3> compiled(Kernel kernel)
 } // namespace
 
 SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
-                         const Records& records)
+                         const Records& records, bool upwards)
 {
-    return compiled(kernel)[std::size_t(integrator)](theory, records);
+    return compiled(kernel)[std::size_t(integrator)](theory, records, upwards);
 }
 
 bool is_compiled(Kernel kernel)

@@ -2,6 +2,7 @@
 
 #include "overturn/mechanics/block.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace overturn {
@@ -53,7 +54,8 @@ std::vector<double> Axis::values(std::int64_t begin, std::int64_t end) const
 
 std::int64_t Plane::points() const
 {
-    return frequency.size() * amplitude.size() * restitution.size() * slenderness.size();
+    return std::max<std::int64_t>(1, motions) * frequency.size() * amplitude.size() *
+           restitution.size() * slenderness.size();
 }
 
 double Plane::restitution_ratio(std::int64_t slenderness_index,
@@ -65,10 +67,14 @@ double Plane::restitution_ratio(std::int64_t slenderness_index,
                : value;
 }
 
-double frequency_parameter(const BlockSize& block)
+double half_diagonal(const BlockSize& block)
 {
-    constexpr double gravity = 9.81; // [m/s^2]
-    return std::sqrt(3 * gravity / (4 * std::hypot(block.half_width, block.half_height)));
+    return std::hypot(block.half_width, block.half_height);
+}
+
+double frequency_parameter(double half_diagonal, double gravity)
+{
+    return std::sqrt(3 * gravity / (4 * half_diagonal));
 }
 
 double uplift_threshold(Theory theory, double slenderness)

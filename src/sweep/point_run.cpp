@@ -8,6 +8,13 @@
 
 namespace overturn {
 
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
 Ends::Ends(std::size_t points, const Records& recorded)
     : records(recorded), tilt(points), rate(points), side(points), flags(points),
       region(records.region ? points : 0), margin(records.margin ? points : 0),
@@ -22,16 +29,53 @@ PointEnds Ends::pointers()
             impacts.data(), error.data(), steps.data(), phase.data(), peak.data()};
 }
 
-std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile)
+void Ends::set_free_fall(int point)
 {
-    const double slenderness = plane.slenderness[tile.outer[0]];
-    const double restitution = plane.restitution_ratio(tile.outer[0], tile.outer[1]);
-    const std::vector<double> frequencies =
-        plane.frequency.values(tile.column_begin, tile.column_begin + tile.column_count);
+    const auto i = std::size_t(point);
+    flags[i] = end_flag::free_fall;
+    if (records.region) {
+        region[i] = std::uint8_t(Region::undecided);
+    }
+    if (records.margin) {
+        margin[i] = unknown;
+    }
+    if (records.error) {
+        error[i] = infinity;
+    }
+}
+
+std::int64_t motion_of(const Scene& scene, const Tile& tile)
+{
+    return scene.is_recorded() ? tile.outer.front() : 0;
+}
+
+std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile)
+{
+    const std::size_t outer = tile.outer.size();
+    const double slenderness = plane.slenderness[tile.outer[outer - 2]];
+    const double restitution =
+        plane.restitution_ratio(tile.outer[outer - 2], tile.outer[outer - 1]);
+    const Accelerogram* record =
+        scene.is_recorded() ? scene.records[std::size_t(tile.outer.front())].get() : nullptr;
+    const auto amplitude_of = [&](double value) {
+        return plane.amplitude_is == AmplitudeQuantity::pga ? value / record->peak() : value;
+    };
+    const auto frequency_of = [&](double value) {
+        switch (plane.frequency_is) {
+        case FrequencyQuantity::size:
+            return 1 / (frequency_parameter(value, scene.gravity) * record->time_step());
+        case FrequencyQuantity::frequency_parameter: return 1 / (value * record->time_step());
+        default: return value;
+        }
+    };
+    std::vector<double> frequencies;
+    for (std::int64_t column = 0; column < tile.column_count; ++column) {
+        frequencies.push_back(frequency_of(plane.frequency[tile.column_begin + column]));
+    }
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
     for (std::int64_t row = 0; row < tile.row_count; ++row) {
-        const double amplitude = plane.amplitude[tile.row_begin + row];
+        const double amplitude = amplitude_of(plane.amplitude[tile.row_begin + row]);
         for (const double frequency : frequencies) {
             *point++ = {slenderness, restitution, amplitude, frequency};
         }
@@ -60,11 +104,29 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
 }
 
 PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
-                   DropRequested drop_requested)
-    : scene_(scene), motion_(ground_motion(scene.pulse, scene.window)), kernel_(kernel),
+                   DropRequested drop_requested, std::int64_t motion)
+    : scene_(scene), record_(scene.is_recorded() ? scene.records[std::size_t(motion)] : nullptr),
+      motion_(ground_motion(scene.pulse, scene.window)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
-      pushes_(motion_, scene.theory, points_)
+      pushes_(record_ ? Pushes() : Pushes(motion_, scene.theory, points_))
 {}
+
+bool PointRun::falls_freely(int point) const
+{
+    return record_ && !(points_[std::size_t(point)].amplitude < record_->largest_scale());
+}
+
+template <class T, Theory theory, class Visitor>
+auto PointRun::with_excitation(int point, const Visitor& visit) const
+{
+    const PlanePoint& at = points_[std::size_t(point)];
+    if (record_) {
+        return visit(record_excitation<theory>(*record_, T(at.slenderness), T(at.amplitude),
+                                               T(at.frequency)));
+    }
+    return visit(excitation_of<theory>(ground_motion(scene_.pulse, T(scene_.window)),
+                                       T(at.slenderness), T(at.amplitude), T(at.frequency)));
+}
 
 void PointRun::throw_if_dropped() const
 {
@@ -76,7 +138,20 @@ void PointRun::throw_if_dropped() const
 void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unknown_error,
                    const std::vector<int>* chosen) const
 {
-    const KernelTask task{.motion = motion_,
+    std::vector<int> not_falling;
+    if (record_ && std::isfinite(record_->largest_scale())) {
+        for (int i = 0; i < (chosen != nullptr ? int(chosen->size()) : size()); ++i) {
+            const int point = chosen != nullptr ? (*chosen)[std::size_t(i)] : i;
+            if (falls_freely(point)) {
+                ends.set_free_fall(point);
+            } else {
+                not_falling.push_back(point);
+            }
+        }
+        chosen = &not_falling;
+    }
+    const KernelTask task{.pulse = motion_,
+                          .record = record_.get(),
                           .points = points_.data(),
                           .push_of_point = pushes_.of_point.data(),
                           .pushes = pushes_.pushes.data(),
@@ -92,8 +167,9 @@ void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unkno
                                   return requested && requested();
                               },
                           .context = &drop_requested_};
-    sweep_kernel(kernel_, integrator_of(numerics), scene_.theory, ends.records)(task,
-                                                                                ends.pointers());
+    const bool upwards = record_ && !record_->upwards().empty();
+    sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, ends.records,
+                 upwards)(task, ends.pointers());
     throw_if_dropped(); // if dropped, some ends may be missing
 }
 
@@ -104,10 +180,10 @@ void PointRun::run_exactly(int point, Ends& ends) const
     with_theory(scene_.theory, [&]<Theory theory>() {
         const auto i = std::size_t(point);
         const Block<T> block{T(points_[i].slenderness), T(points_[i].restitution)};
-        const ForcedEnd<T> end = run_in_more_digits<T, theory>(
-            block,
-            excitation_of<theory>(ground_motion(scene_.pulse, T(scene_.window)), block.slenderness,
-                                  T(points_[i].amplitude), T(points_[i].frequency)));
+        const ForcedEnd<T> end = with_excitation<T, theory>(point, [&](const auto& excitation) {
+            return run_in_more_digits<T, theory>(block, excitation, drop_requested_);
+        });
+        throw_if_dropped();
         const double margin = double(margin_of<theory>(end, block));
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
@@ -142,14 +218,12 @@ bool PointRun::settle_low_bounces(int point, Ends& ends) const
 {
     const auto i = std::size_t(point);
     const PlanePoint& block = points_[i];
-    const Excitation<double> excitation{.motion = motion_,
-                                        .acceleration = pushes_[point].acceleration,
-                                        .frequency = block.frequency,
-                                        .uplifts = pushes_[point].uplifts};
     // The margin is that of a block at rest, 1, up to this error: the distances to the limits of
     // the rate change by no more than the tilt plus the rate.
     const double error = with_theory(scene_.theory, [&]<Theory theory>() {
-        const auto bounds = bound_of_low_bounces<theory>(block.slenderness, excitation);
+        const auto bounds = with_excitation<double, theory>(point, [&](const auto& excitation) {
+            return bound_of_low_bounces<theory>(block.slenderness, excitation);
+        });
         return bounds
                    ? (bounds->tilt + bounds->rate) / separatrix_rate<theory>(0.0, block.slenderness)
                    : 1.0;
@@ -183,8 +257,8 @@ std::vector<double> PointRun::peaks(const Ends& ends) const
             values[i] = is_safe(region)
                             ? std::max(ends.peak[i], largest_free_tilt<theory>(end, block)) /
                                   block.slenderness
-                        : is_unsafe(region) ? std::numeric_limits<double>::infinity()
-                                            : std::numeric_limits<double>::quiet_NaN();
+                        : is_unsafe(region) ? infinity
+                                            : unknown;
         }
     });
     return values;
@@ -198,14 +272,16 @@ std::vector<double> PointRun::fall_times(const Ends& ends) const
             const auto region = Region(ends.region[i]);
             const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
             const Block<double> block{points_[i].slenderness, points_[i].restitution};
-            const UpliftPhases<double>& uplifts = pushes_[int(i)].uplifts;
-            const double first_uplift = *std::min_element(uplifts.begin(), uplifts.end());
+            const double first_uplift =
+                with_excitation<double, theory>(int(i), [](const auto& excitation) {
+                    return excitation.next_uplift(true, excitation.motion.begin, -infinity);
+                });
             const double forced = (ends.phase[i] - first_uplift) / points_[i].frequency;
             const bool fell = region == Region::F_plus || region == Region::F_minus;
             values[i] = fell                ? forced
                         : is_unsafe(region) ? forced + free_fall_time<theory>(end, block)
-                        : is_safe(region)   ? std::numeric_limits<double>::infinity()
-                                            : std::numeric_limits<double>::quiet_NaN();
+                        : is_safe(region)   ? infinity
+                                            : unknown;
         }
     });
     return values;

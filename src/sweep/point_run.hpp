@@ -18,6 +18,9 @@ struct Ends {
     PointEnds pointers();
     int size() const { return int(tilt.size()); }
 
+    /// The end of a point that cannot be integrated because gravity vanishes.
+    void set_free_fall(int point);
+
     Records records;
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
@@ -25,10 +28,14 @@ struct Ends {
 };
 
 /// The points of a tile, row by row, frequency fastest.
-std::vector<PlanePoint> points_of(const Plane& plane, const Tile& tile);
+std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile);
 
-/// The pushes in the order of the points; successive points with the same push share it.
+/// The number of the record of a tile; 0 under a pulse.
+std::int64_t motion_of(const Scene& scene, const Tile& tile);
+
+/// The pushes of a pulse in the order of the points; successive points with the same push share it.
 struct Pushes {
+    Pushes() = default;
     Pushes(const GroundMotion<double>& motion, Theory theory,
            const std::vector<PlanePoint>& points);
 
@@ -44,12 +51,17 @@ struct Pushes {
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
 class PointRun {
 public:
+    /// motion: the number of the record, if there are any.
     PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
-             DropRequested drop_requested = nullptr);
+             DropRequested drop_requested = nullptr, std::int64_t motion = 0);
 
     int size() const { return int(points_.size()); }
 
-    /// Integrates every point, or the chosen ones, which must be in ascending order.
+    /// The number of intervals of the record; 0 under a pulse.
+    std::int64_t intervals() const { return record_ ? record_->samples() - 1 : 0; }
+
+    /// Integrates every point, or the chosen ones, which must be in ascending order. Points where
+    /// the ground falls as fast as the block are not integrated and get end_flag::free_fall.
     void run(const Numerics& numerics, Ends& ends,
              OnUnknownError on_unknown_error = OnUnknownError::go_on,
              const std::vector<int>* chosen = nullptr) const;
@@ -72,7 +84,15 @@ public:
 private:
     void throw_if_dropped() const;
 
+    /// Whether gravity vanishes or is reversed at some time of the record.
+    bool falls_freely(int point) const;
+
+    /// Calls visit(excitation) for one point, in numbers of type T.
+    template <class T, Theory theory, class Visitor>
+    auto with_excitation(int point, const Visitor& visit) const;
+
     Scene scene_;
+    std::shared_ptr<const Accelerogram> record_; // null: a pulse
     GroundMotion<double> motion_;
     Kernel kernel_;
     DropRequested drop_requested_;

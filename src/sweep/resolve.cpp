@@ -43,8 +43,9 @@ template <class T>
 bool settle_in(const PointRun& run, int point, Ends& ends)
 {
     // With more digits, a series of bounces takes as many steps as in double.
-    const bool hopeless = std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
-                          ends.steps[std::size_t(point)] > MoreDigits<T>::most_steps;
+    const bool hopeless =
+        std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
+        ends.steps[std::size_t(point)] > MoreDigits<T>::most_steps + double(run.intervals());
     if (hopeless) {
         return false;
     }

@@ -1,5 +1,6 @@
-// Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER and
-// OVERTURN_KERNEL, the name of the only function with external linkage. Apart from it, only
+// Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER,
+// OVERTURN_RECORDED (whether the ground motion is a record) and OVERTURN_KERNEL, the name of the
+// only function with external linkage. Apart from it, only
 // templates over OVERTURN_NUMBER may be instantiated here: a function in double would be shared
 // with the rest of the program, which also runs on machines without these instructions.
 #include "sweep_kernel.hpp"
@@ -103,7 +104,19 @@ struct PackPoints {
     }
 
     /// The ground never lifts the blocks in spare lanes, so a pack without points ends immediately.
-    Excitation<T> excitation() const
+    template <Theory theory, bool upwards>
+    RecordExcitation<T, upwards> record_excitation(const Block<T>& blocks) const
+    {
+        const T in_use = load<T>(spare);
+        return {.motion = record_motion<double>(*task.record),
+                .acceleration =
+                    select<T>(in_use == T(0.0),
+                              gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
+                .frequency = gathered([&](int i) { return task.points[i].frequency; }),
+                .threshold = uplift_acceleration<theory>(blocks.slenderness)};
+    }
+
+    Excitation<T> pulse_excitation() const
     {
         const auto push_of = [&](int i) -> const Push& {
             return task.pushes[task.push_of_point[i]];
@@ -115,7 +128,7 @@ struct PackPoints {
                               : gathered([&](int i) { return value(push_of(i)); });
         };
         Excitation<T> excitation{
-            .motion = task.motion,
+            .motion = task.pulse,
             .acceleration = of_push([](const Push& push) { return push.acceleration; }),
             .frequency = gathered([&](int i) { return task.points[i].frequency; }),
             .uplifts = {}};
@@ -136,13 +149,22 @@ struct PackPoints {
 /// million steps.
 constexpr int turns_between_checks = 4096;
 
-template <Theory theory, Records records>
+template <Theory theory, Records records, bool upwards = false>
 void sweep(const KernelTask& task, const PointEnds& ends)
 {
-    using Stage = ForcedStage<OVERTURN_METHOD, theory, records, T>;
     const auto stage_from = [&](int first) {
         const PackPoints points(task, first);
-        return Stage(points.blocks(), points.excitation(), task.tolerance, task.on_unknown_error);
+        const Block<T> blocks = points.blocks();
+        const auto excitation = [&] {
+            if constexpr (OVERTURN_RECORDED) {
+                return points.record_excitation<theory, upwards>(blocks);
+            } else {
+                return points.pulse_excitation();
+            }
+        }();
+        return ForcedStage<OVERTURN_METHOD, theory, records, T,
+                           std::remove_const_t<decltype(excitation)>>(
+            blocks, excitation, task.tolerance, task.on_unknown_error);
     };
     int turns = turns_between_checks;
     for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {
@@ -161,24 +183,37 @@ void sweep(const KernelTask& task, const PointEnds& ends)
     }
 }
 
-template <Theory theory>
+template <Theory theory, bool upwards>
 SweepKernel kernel_for(const Records& records)
 {
     if (records.error) {
-        return sweep<theory, Records{.impacts = true, .error = true}>;
+        return sweep<theory, Records{.impacts = true, .error = true}, upwards>;
     }
     if (records.peak) {
-        return sweep<theory, Records{.impacts = true, .peak = true}>;
+        return sweep<theory, Records{.impacts = true, .peak = true}, upwards>;
     }
-    return records.impacts ? sweep<theory, Records{.impacts = true}> : sweep<theory, Records{}>;
+    if (OVERTURN_RECORDED || records.impacts) { // a step under a record is long compared with it
+        return sweep<theory, Records{.impacts = true}, upwards>;
+    }
+    return sweep<theory, Records{.impacts = bool(OVERTURN_RECORDED)}, upwards>;
+}
+
+template <Theory theory>
+SweepKernel kernel_for(const Records& records, bool upwards)
+{
+    if constexpr (OVERTURN_RECORDED) {
+        return upwards ? kernel_for<theory, true>(records) : kernel_for<theory, false>(records);
+    } else {
+        return kernel_for<theory, false>(records);
+    }
 }
 
 } // namespace
 
-SweepKernel OVERTURN_KERNEL(Theory theory, const Records& records)
+SweepKernel OVERTURN_KERNEL(Theory theory, const Records& records, bool upwards)
 {
-    return theory == Theory::linear ? kernel_for<Theory::linear>(records)
-                                    : kernel_for<Theory::nonlinear>(records);
+    return theory == Theory::linear ? kernel_for<Theory::linear>(records, upwards)
+                                    : kernel_for<Theory::nonlinear>(records, upwards);
 }
 
 } // namespace overturn

@@ -1,18 +1,20 @@
 // The kernels integrate the forced stage of points, with plain arrays as input and output. Each is
-// compiled for one method and one instruction set, see sweep_kernel.cpp.
+// compiled for one method, either pulses or records, and one instruction set, see sweep_kernel.cpp.
 #pragma once
 
 #include "overturn/integrate/records.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/scene.hpp"
 
 #include <cstdint>
 
 namespace overturn {
 
-/// The excitation common to all blocks of one slenderness at one amplitude.
+/// The excitation by a pulse common to all blocks of one slenderness at one amplitude.
 struct Push {
     double acceleration;          ///< a_p / g [1]
     UpliftPhases<double> uplifts; ///< [rad]
@@ -20,9 +22,10 @@ struct Push {
 
 /// The input of a kernel.
 struct KernelTask {
-    const GroundMotion<double>& motion;
+    const GroundMotion<double>& pulse; ///< unless there is a record
+    const Accelerogram* record;
     const PlanePoint* points;
-    const int* push_of_point; ///< index into `pushes`, ascending
+    const int* push_of_point; ///< index into `pushes`, ascending; only under a pulse
     const Push* pushes;
     double tolerance; ///< see Numerics
     Records records;
@@ -43,7 +46,8 @@ inline constexpr std::uint8_t capped = 4;
 inline constexpr std::uint8_t not_finite = 8;
 inline constexpr std::uint8_t unresolved = 16; ///< set only by ends_of(), see resolve.cpp
 inline constexpr std::uint8_t in_doubt = 32;   ///< only if the error is recorded, see ForcedEnd
-inline constexpr std::uint8_t undecided = capped | not_finite;
+inline constexpr std::uint8_t free_fall = 64;  ///< not integrated, see PointRun
+inline constexpr std::uint8_t undecided = capped | not_finite | free_fall;
 } // namespace end_flag
 
 /// The ends of the forced stage, one value per point. A kernel writes the points that it computes;
@@ -65,11 +69,12 @@ struct PointEnds {
 
 using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);
 
-/// The function that each kernel object defines: returns the kernel for a theory and its records.
-using SweepKernelChoice = SweepKernel (*)(Theory theory, const Records& records);
+/// The function that each kernel object defines: returns the kernel for a scene and its records.
+using SweepKernelChoice = SweepKernel (*)(Theory theory, const Records& records, bool upwards);
 
-/// Selects a kernel; runs_here(kernel) must be true.
+/// Selects a kernel; runs_here(kernel) must be true. upwards: whether the record has a vertical
+/// motion.
 SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
-                         const Records& records);
+                         const Records& records, bool upwards);
 
 } // namespace overturn

@@ -34,7 +34,9 @@ std::vector<double> with_sign(const std::vector<double>& values, const Ends& end
     });
 }
 
-FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
+/// recorded: whether the ground motion is a record, under which a block may be lifted again after a
+/// bounce series.
+FieldValues values_of(Field field, const PointRun& points, const Ends& ends, bool recorded)
 {
     switch (field) {
     case Field::angle: return with_sign(ends.tilt, ends);
@@ -43,7 +45,7 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
     case Field::fall_time: return points.fall_times(ends);
     case Field::impacts:
         return for_each_of<std::uint16_t>(ends, [&](std::size_t i) {
-            return ends.flags[i] & end_flag::rested
+            return !recorded && (ends.flags[i] & end_flag::rested)
                        ? impact_count::bounce_series
                        : std::min(ends.impacts[i], double(impact_count::largest));
         });
@@ -56,7 +58,8 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends)
             return flag(end_flag::rested, status::came_to_rest) |
                    flag(end_flag::capped, status::cap_was_hit) |
                    flag(end_flag::not_finite, status::not_finite) |
-                   flag(end_flag::unresolved, status::unresolved);
+                   flag(end_flag::unresolved, status::unresolved) |
+                   flag(end_flag::free_fall, status::free_fall);
         });
     default: return {}; // fields of a boundary, or fields moved from the ends by the caller
     }
@@ -71,7 +74,8 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
     const auto wanted = [&](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const PointRun points(scene, points_of(plane, tile), kernel, std::move(drop_requested));
+    const PointRun points(scene, points_of(scene, plane, tile), kernel, std::move(drop_requested),
+                          motion_of(scene, tile));
     Ends ends =
         ends_of(points, numerics,
                 {.impacts = wanted(Field::impacts),
@@ -83,7 +87,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
                  .phase = wanted(Field::fall_time)});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, ends));
+        result.values.push_back(values_of(field, points, ends, scene.is_recorded()));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
         if (fields[i] == Field::region) {

@@ -21,7 +21,7 @@ Truth end_of(const HardCase& point, const Excitation<T>& excitation, int step_li
 {
     const Block<T> block{T(point.slenderness), T(point.restitution)};
     const ForcedEnd<T> end =
-        run_in_more_digits<T, theory>(block, excitation, tolerance, step_limit);
+        run_in_more_digits<T, theory>(block, excitation, nullptr, tolerance, step_limit);
     if (end.is_stopped()) {
         return {.steps = double(end.steps)};
     }

@@ -204,7 +204,7 @@ TEST(ReadingAJob, RefusesAnEmptyFile)
 {
     const JobFile file("");
     EXPECT_EQ(refusal_of(file.path()),
-              file.path() + ":1:1: scene is missing. Add [scene] with a pulse.");
+              file.path() + ":1:1: scene is missing. Add [scene] with a pulse or a record.");
 }
 
 TEST(ReadingAJob, RefusesAJobWithoutAPlane)

@@ -54,7 +54,7 @@ template <Theory theory>
 ForcedEnd<Digits50> forced_end(PulseKind pulse, const Point<Digits50>& point, double tolerance)
 {
     return run_in_more_digits<Digits50, theory>(point.block(), excitation_of<theory>(pulse, point),
-                                                tolerance);
+                                                nullptr, tolerance);
 }
 
 /// Calls visit.template operator()<theory>(pulse) for every pulse and theory.

@@ -98,7 +98,7 @@ TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
     plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
     plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
-        const PointRun run({}, points_of(plane, Tiling(plane)[0]), widest_kernel());
+        const PointRun run({}, points_of({}, plane, Tiling(plane)[0]), widest_kernel());
         Ends whole(std::size_t(run.size()), {.error = true, .steps = true});
         Ends ended = whole;
         run.run(numerics, whole, OnUnknownError::go_on);
@@ -134,7 +134,7 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
     int doubted_of_fallen = 0;
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            const PointRun run({.theory = theory}, points_of(plane, Tiling(plane)[0]),
+            const PointRun run({.theory = theory}, points_of({}, plane, Tiling(plane)[0]),
                                widest_kernel());
             Ends ends(std::size_t(run.size()), {.error = true, .margin = true});
             run.run(numerics, ends);

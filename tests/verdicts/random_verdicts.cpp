@@ -59,7 +59,7 @@ Tile whole(const Plane& plane)
 
 Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
 {
-    const PointRun run(scene, points_of(plane, whole(plane)), kernel);
+    const PointRun run(scene, points_of(scene, plane, whole(plane)), kernel);
     Ends ends = ends_of(run, tightest, {.error = true, .margin = true});
     for (int point = 0; point < ends.size(); ++point) {
         // Half a million impacts in 50 digits would take hours.
@@ -95,7 +95,7 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
 void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, const Truth& truth,
                   Kernel kernel)
 {
-    const PointRun run(scene, points_of(plane, whole(plane)), kernel);
+    const PointRun run(scene, points_of(scene, plane, whole(plane)), kernel);
     const Ends ends = ends_of(run, check.numerics, {.error = true, .margin = true});
     const std::vector<double>& margins = ends.margin;
     for (int point = 0; point < ends.size(); ++point) {

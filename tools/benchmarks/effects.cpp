@@ -66,12 +66,13 @@ Plane plane_of(std::int64_t side)
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
     const GroundMotion<double> motion = ground_motion(work.scene.pulse, work.scene.window);
-    const std::vector<PlanePoint> points = points_of(work.plane, work.tile);
+    const std::vector<PlanePoint> points = points_of(work.scene, work.plane, work.tile);
     const Pushes pushes(motion, work.scene.theory, points);
     const std::size_t count = points.size();
     const Records records{.impacts = requested == ByHand::impacts,
                           .region = requested == ByHand::region};
-    const KernelTask task{.motion = motion,
+    const KernelTask task{.pulse = motion,
+                          .record = nullptr,
                           .points = points.data(),
                           .push_of_point = pushes.of_point.data(),
                           .pushes = pushes.pushes.data(),
@@ -101,7 +102,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                          .peak = nullptr};
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
-    sweep_kernel(work.kernel, integrator, Theory::nonlinear, records)(task, ends);
+    sweep_kernel(work.kernel, integrator, Theory::nonlinear, records, false)(task, ends);
     return regions;
 }
 

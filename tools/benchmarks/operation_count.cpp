@@ -129,10 +129,11 @@ PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
 
 PeerEnd<double> end_of_point(const PeerPoint& point, const Numerics& numerics)
 {
-    switch (integrator_of(numerics)) {
+    switch (integrator_of({}, numerics)) {
     case Integrator::taylor_14: return end_of_point<Taylor<14>>(point, numerics.tolerance);
     case Integrator::taylor_20: return end_of_point<Taylor<20>>(point, numerics.tolerance);
-    case Integrator::runge_kutta: break;
+    case Integrator::runge_kutta:
+    case Integrator::recorded: break;
     }
     return end_of_point<RungeKutta>(point, numerics.tolerance);
 }

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "overturn/integrate/forced_stage.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/number/digits50.hpp"
+
+#include <functional>
 
 namespace overturn {
 
@@ -16,6 +19,7 @@ struct MoreDigits;
 template <>
 struct MoreDigits<long double> {
     using Method = Taylor<20>;
+    using MethodForRecords = Taylor<14>; // the intervals of records are short
     static constexpr double tolerance = 1e-17;
     static constexpr int most_steps = 20000;
 };
@@ -24,14 +28,18 @@ struct MoreDigits<long double> {
 template <>
 struct MoreDigits<Digits50> {
     using Method = Taylor<30>;
+    using MethodForRecords = Taylor<20>;
     static constexpr double tolerance = 1e-30;
     static constexpr int most_steps = 2000;
 };
 
 /// Like run_forced_stage(), for one block, with impacts and error recorded. A run that exceeds
-/// `step_limit` steps is capped. T: long double or Digits50. Compiled in src/integrate.
-template <class T, Theory theory>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation<T>& excitation,
+/// `step_limit` steps, in addition to one per interval of a record, is capped, as is one that
+/// stop_requested() ends; it is called every few milliseconds. T: long double or Digits50;
+/// Excitation<T>, or RecordExcitation<T, true>. Compiled in src/integrate.
+template <class T, Theory theory, class GroundOf>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const GroundOf& excitation,
+                                const std::function<bool()>& stop_requested = nullptr,
                                 double tolerance = MoreDigits<T>::tolerance,
                                 int step_limit = MoreDigits<T>::most_steps);
 

@@ -1,11 +1,14 @@
 // A job: what a run computes and stores. The only module that uses TOML.
 #pragma once
 
+#include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
 #include "overturn/sweep/tile.hpp"
 
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,10 +27,28 @@ enum class Product { spectrum, boundary };
 /// Maximum number of flips of a boundary that are stored for a block at one frequency.
 inline constexpr std::int64_t most_crossings = 64;
 
+/// A recorded ground motion of a job. A job read from a result file describes its records, but does
+/// not contain their accelerations.
+struct Motion {
+    std::string file;      ///< path as the job spells it, or as a pattern matched it
+    std::string component; ///< its name in the file; may be empty
+    std::string vertical;  ///< component or file of the vertical motion as the job spells it
+    std::vector<std::string> header; ///< lines of the file; not in a resolved job
+
+    std::int64_t samples = 0;
+    double time_step = 0; ///< [s]
+    IntensityMeasures measures;
+    double largest_scale = std::numeric_limits<double>::infinity(); ///< see Accelerogram
+    std::string checksum; ///< XXH64 of the accelerations over g, in hexadecimal digits
+
+    std::shared_ptr<const Accelerogram> record; ///< null in a job read from a result file
+};
+
 struct Job {
     Product product = Product::spectrum;
     std::string title;
     Scene scene;
+    std::vector<Motion> motions; ///< those of scene.records, in order; empty: a pulse
     Plane plane;
     Numerics numerics;
     std::vector<Field> fields; ///< in the job's order, without duplicates
@@ -42,9 +63,13 @@ struct Job {
 /// string) and replaces a key of the file; keys that contradict it are dropped. Throws JobError.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same for a text; `name` replaces the path in messages.
+/// The same for a text; `name` replaces the path in messages. Records are searched in its folder.
 Job read_job_text(std::string text, const std::string& name,
                   const std::vector<std::string>& overrides = {});
+
+/// Reads the resolved job in a result file, whose records are described there: their accelerations
+/// are not read. Throws JobError.
+Job read_resolved_job(std::string text, const std::string& name);
 
 /// The job that computes the boundary of a spectrum. The amplitudes become the scan, and crossings
 /// replace them in the plane: the flips of a block at one frequency, counted from 0.

@@ -4,9 +4,12 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 namespace overturn {
@@ -31,19 +34,17 @@ struct LowBounces {
 ///
 /// The bounds are advanced through the pulse in steps. Each step uses bounds of the weakest pull
 /// and of the largest increase of the pull within the step.
+///
+/// step: of the phase; between: the most by which the ground acceleration exceeds its values at the
+/// ends of a step within a smooth piece.
 template <Theory theory>
-std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const Excitation<double>& excitation)
+std::optional<LowBounces> bound_of_low_bounces(double slenderness, const auto& excitation,
+                                               double step, double between)
 {
-    constexpr int steps = 1 << 12; // per half turn of the pulse
-    const double turn = pi<double>() / steps;
-    const double duration = turn / excitation.frequency;
-    const double most = std::abs(excitation.acceleration);
+    const double duration = step / excitation.frequency;
+    const double most = excitation.largest_acceleration();
     const double k = theory == Theory::linear ? 1 : std::hypot(1, most);
     const double tangent = theory == Theory::linear ? 0 : std::tan(slenderness);
-    // The most by which a pulse exceeds its values at the ends of a step: |f''| < 2 for all pulses,
-    // on each of their smooth pieces.
-    const double between = 0.25 * turn * turn * most;
     const double highest = slenderness / 4;
     const double growth = duration < 1 ? k * duration * duration : 1;
     if (most > 2 * uplift_acceleration<theory>(slenderness) || growth > 0.01) {
@@ -51,7 +52,8 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
     }
 
     const auto pull = [&](double phase, double side) -> double {
-        return -rocking_acceleration<theory>(0.0, slenderness, side * excitation.ground(phase));
+        const double push = side * horizontal_of(excitation.ground(phase));
+        return -rocking_acceleration<theory>(0.0, slenderness, push);
     };
     // The largest tilt of a flight of the energy e under the pull g.
     const auto height = [&](double e, double g) -> double {
@@ -59,12 +61,14 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
         return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
     };
 
-    double phase = *std::min_element(excitation.uplifts.begin(), excitation.uplifts.end());
+    const auto& motion = excitation.motion;
+    double phase =
+        excitation.next_uplift(true, motion.begin, -std::numeric_limits<double>::infinity());
     double energy = 0;
     double tilt = 0;
     double rate = 0;
-    while (phase < excitation.motion.end) {
-        const double next = std::min(phase + turn, excitation.motion.end_of_piece(phase));
+    while (phase < motion.end) {
+        const double next = std::min(phase + step, motion.end_of_piece(phase));
         double weakest[2], rise[2];
         for (const int i : {0, 1}) {
             const double side = i == 0 ? 1 : -1;
@@ -108,6 +112,28 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
         phase = next;
     }
     return LowBounces{tilt, rate};
+}
+
+template <Theory theory>
+std::optional<LowBounces> bound_of_low_bounces(double slenderness,
+                                               const Excitation<double>& excitation)
+{
+    constexpr double step = std::numbers::pi / (1 << 12);
+    // |f''| < 2 for all pulses.
+    const double between = 0.25 * step * step * excitation.largest_acceleration();
+    return bound_of_low_bounces<theory>(slenderness, excitation, step, between);
+}
+
+/// None with a vertical motion.
+template <Theory theory>
+std::optional<LowBounces> bound_of_low_bounces(double slenderness,
+                                               const RecordExcitation<double, true>& excitation)
+{
+    if (!excitation.motion.record->upwards().empty()) {
+        return std::nullopt;
+    }
+    constexpr double step = 0.125; // [samples]
+    return bound_of_low_bounces<theory>(slenderness, excitation, step, 0.0);
 }
 
 } // namespace overturn

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/accelerogram.hpp"
-#include "overturn/mechanics/ground.hpp"
+#include "overturn/mechanics/block.hpp"
 
 #include <cmath>
 #include <limits>
@@ -53,7 +53,7 @@ RecordMotion<S> record_motion(const Accelerogram& record)
     return {.record = &record, .begin = S(0), .end = S(record.samples() - 1)};
 }
 
-/// upwards: whether the record has a vertical motion.
+/// upwards: whether there may be a vertical motion. Without one, `false` is faster.
 template <Number T, bool upwards>
 struct RecordExcitation {
     using S = scalar_t<T>;
@@ -86,6 +86,9 @@ struct RecordExcitation {
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
         if constexpr (upwards) {
             using std::abs;
+            if (motion.record->upwards().empty()) {
+                return {horizontal, {T(S(1)), T(S(0))}};
+            }
             Ramp<T> gravity = ramp_of(motion.record->upwards(), T(abs(acceleration)));
             gravity.start = T(S(1)) + gravity.start;
             return {horizontal, gravity};
@@ -132,8 +135,10 @@ struct RecordExcitation {
         const auto excess = [&](const T& number) -> T {
             T lifting_down = threshold;
             if constexpr (upwards) {
-                lifting_down = threshold *
-                               (one + scale * gathered<T>(motion.record->upwards().data(), number));
+                if (!motion.record->upwards().empty()) {
+                    const T v = gathered<T>(motion.record->upwards().data(), number);
+                    lifting_down = threshold * (one + scale * v);
+                }
             }
             return towards * gathered<T>(motion.record->horizontal().data(), number) - lifting_down;
         };
@@ -151,5 +156,17 @@ struct RecordExcitation {
         return select<T>(lifts, uplift, T(std::numeric_limits<S>::infinity()));
     }
 };
+
+/// The excitation of a block of this slenderness [rad] by a record, for any scalar. scale: the
+/// factor on the record [1]; frequency: samples per time unit 1/p [1].
+template <Theory theory, class S>
+RecordExcitation<S, true> record_excitation(const Accelerogram& record, const S& slenderness,
+                                            const S& scale, const S& frequency)
+{
+    return {.motion = record_motion<S>(record),
+            .acceleration = scale,
+            .frequency = frequency,
+            .threshold = uplift_acceleration<theory>(slenderness)};
+}
 
 } // namespace overturn

@@ -82,6 +82,7 @@ inline constexpr std::uint8_t came_to_rest = 1; ///< came to rest during the pul
 inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps: undecided
 inline constexpr std::uint8_t not_finite = 4;   ///< an infinity or NaN occurred: undecided
 inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle the verdict
+inline constexpr std::uint8_t free_fall = 16; ///< the ground falls as fast as the block: undecided
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 

@@ -1,5 +1,4 @@
 // The parameter plane: four axes, whose product is the set of points of a spectrum.
-// All quantities are dimensionless except the slenderness [rad].
 #pragma once
 
 #include "overturn/sweep/scene.hpp"
@@ -62,26 +61,53 @@ struct BlockSize {
     double half_height = 0;
 };
 
-/// p = sqrt(3g / 4R), R the half diagonal, g = 9.81 m/s2 [1/s].
-double frequency_parameter(const BlockSize& block);
+/// The half diagonal R [m].
+double half_diagonal(const BlockSize& block);
+
+/// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
+double frequency_parameter(double half_diagonal, double gravity);
 
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
+
+/// What the axes `amplitude` and `frequency` of a plane contain. Under a pulse: a and Omega. Under
+/// a record: a factor on it or its peak ground acceleration; the size of the block or its p.
+enum class AmplitudeQuantity { amplitude, scale, pga };
+enum class FrequencyQuantity { frequency, size, frequency_parameter };
+
+/// Names in job files and result files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> amplitude_names{"amplitude", "scale", "pga"};
+inline constexpr std::array<std::string_view, 3> frequency_names{"frequency", "size",
+                                                                 "frequency_parameter"};
+
+constexpr std::string_view name_of(AmplitudeQuantity quantity)
+{
+    return amplitude_names[std::size_t(quantity)];
+}
+constexpr std::string_view name_of(FrequencyQuantity quantity)
+{
+    return frequency_names[std::size_t(quantity)];
+}
 
 /// A point of a plane; its coordinates are assumed to be exact.
 struct PlanePoint {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]
-    double amplitude;   ///< a [1]
-    double frequency;   ///< Omega [1]
+    double amplitude;   ///< a, or the factor on a record [1]
+    double frequency;   ///< Omega, or the samples of a record per time unit 1/p [1]
 };
 
 struct Plane {
-    Axis frequency;   ///< Omega = omega_p / p [1]
-    Axis amplitude;   ///< a = a_p / (g tan alpha), linear theory a_p / (g alpha) [1]
+    Axis frequency;   ///< Omega = omega_p / p [1], or see frequency_is: R [m] or p [1/s]
+    Axis amplitude;   ///< a = a_p / (g tan alpha), linear theory a_p / (g alpha) [1], or see
+                      ///< amplitude_is: factor [1] or peak ground acceleration over g [1]
     Axis restitution; ///< r, or r / r_max(alpha), see restitution_of [1]
     Axis slenderness; ///< alpha [rad]
+    AmplitudeQuantity amplitude_is = AmplitudeQuantity::amplitude;
+    FrequencyQuantity frequency_is = FrequencyQuantity::frequency;
     RestitutionOf restitution_of = RestitutionOf::absolute;
+    std::int64_t motions =
+        0; ///< number of records, the slowest dimension; 0: a pulse, no dimension
     std::optional<BlockSize> block; ///< set if the slenderness was computed from it
 
     /// Number of points; checked for overflow when the job is read.

@@ -1,13 +1,16 @@
-// The simulated scene (ground pulse and theory of the block) and the numerics of its integration.
+// The simulated scene (ground motion and theory of the block) and the numerics of its integration.
 #pragma once
 
+#include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/pulse_kind.hpp"
 #include "overturn/mechanics/theory.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 namespace overturn {
 
@@ -47,6 +50,12 @@ struct Scene {
     PulseKind pulse = PulseKind::one_sine;
     Theory theory = Theory::nonlinear;
     double window = 1; ///< half width of a Ricker wavelet [pulse periods]; ignored for other pulses
+
+    /// Recorded ground motions, which replace the pulse; either all or none have a vertical motion.
+    std::vector<std::shared_ptr<const Accelerogram>> records{};
+    double gravity = 9.81; ///< g [m/s2]
+
+    bool is_recorded() const { return !records.empty(); }
 };
 
 struct Numerics {
@@ -66,8 +75,10 @@ constexpr bool knows_errors(const Numerics& numerics)
            numerics.tolerance <= largest_rk45_tolerance_with_error;
 }
 
-/// The methods for which kernels are compiled, with the order of a Taylor series.
-enum class Integrator { runge_kutta, taylor_14, taylor_20 };
+/// The methods for which kernels are compiled, with the order of a Taylor series. Recorded ground
+/// motions use order 14, whose steps are as long as the interval between two samples: a lower order
+/// is hardly faster.
+enum class Integrator { runge_kutta, taylor_14, taylor_20, recorded };
 
 /// Order 14 takes less time than 20 for errors above 1e-8 under the one-sine pulse, and above 1e-10
 /// to 1e-12 under the others. For an error of 1e-9 under the one-sine pulse, order 20 needs a
@@ -76,9 +87,10 @@ enum class Integrator { runge_kutta, taylor_14, taylor_20 };
 /// bound.
 inline constexpr double loosest_tolerance_of_order_20 = 2e-7;
 
-constexpr Integrator integrator_of(const Numerics& numerics)
+inline Integrator integrator_of(const Scene& scene, const Numerics& numerics)
 {
-    return numerics.method == Method::rk45                      ? Integrator::runge_kutta
+    return scene.is_recorded()                                  ? Integrator::recorded
+           : numerics.method == Method::rk45                    ? Integrator::runge_kutta
            : numerics.tolerance > loosest_tolerance_of_order_20 ? Integrator::taylor_14
                                                                 : Integrator::taylor_20;
 }

@@ -13,7 +13,7 @@ namespace overturn {
 /// Number of points along each dimension, slowest first; at least two dimensions.
 using Shape = std::vector<std::int64_t>;
 
-/// (slenderness, restitution, amplitude, frequency).
+/// ([motion,] slenderness, restitution, amplitude, frequency); motion only if there are records.
 Shape shape_of(const Plane& plane);
 
 /// The points of one tile: an index into each outer dimension, and the index ranges [begin, begin +
