@@ -34,6 +34,16 @@ double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
     return times[times.size() / 2];
 }
 
+/// The time to compute a point in 50 digits [s].
+double seconds_in_digits(const Job& job)
+{
+    std::int64_t samples = 0;
+    for (const Motion& motion : job.motions) {
+        samples = std::max(samples, motion.samples);
+    }
+    return 0.02 + 2e-4 * double(samples);
+}
+
 void print_head(const AccuracySample& sample)
 {
     say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n",
@@ -83,11 +93,11 @@ int accuracy(const AccuracyOptions& options)
     }
 
     say(fmt::format("settling verdicts and computing up to {} points in 50 digits: about {} s",
-                    options.digits, std::ceil(0.02 * double(options.digits))));
+                    options.digits, std::ceil(seconds_in_digits(job) * double(options.digits))));
     const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);
     print_head(study.sample());
     std::vector<AccuracyRow> rows;
-    for (const Numerics& numerics : accuracy_ladder()) {
+    for (const Numerics& numerics : accuracy_ladder(job.scene)) {
         rows.push_back(study.measure(numerics));
         rows.back().seconds_per_point =
             seconds_of(study, numerics) / double(study.sample().plane.points());

@@ -4,6 +4,7 @@
 #include "human_units.hpp"
 #include "output_lines.hpp"
 #include "printable.hpp"
+#include "record_lines.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
@@ -39,6 +40,9 @@ Tile sample_tile(const Plane& plane, std::int64_t i)
     Tile tile;
     tile.outer = {spread_index(i, 0, plane.slenderness.size()),
                   spread_index(i, 1, plane.restitution.size())};
+    if (plane.motions > 0) {
+        tile.outer.insert(tile.outer.begin(), spread_index(i, 4, plane.motions));
+    }
     tile.row_begin = spread_index(i, 2, plane.amplitude.size());
     tile.row_count = 1;
     tile.column_count = std::min(sample_length, plane.frequency.size());
@@ -71,8 +75,13 @@ double estimated_seconds(const Job& job, Kernel kernel)
 
 void print_scene(const Job& job)
 {
-    print_row("pulse", name_of(job.scene.pulse));
-    if (has_window(job.scene.pulse)) {
+    for (const std::string& line : record_lines(job)) {
+        print_row("record", line);
+    }
+    if (!job.scene.is_recorded()) {
+        print_row("pulse", name_of(job.scene.pulse));
+    }
+    if (!job.scene.is_recorded() && has_window(job.scene.pulse)) {
         print_row("window",
                   fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
                               job.scene.window, 100 * cut_by_window(job.scene)));
@@ -88,8 +97,12 @@ void print_plane(const Plane& plane)
     const auto print = [](std::string_view name, const Axis& axis, std::string_view ending) {
         print_axis(name, axis.size(), axis.first(), axis.last(), ending);
     };
-    print("frequency", plane.frequency, "");
-    print("amplitude", plane.amplitude, "");
+    print(name_of(plane.frequency_is), plane.frequency,
+          plane.frequency_is == FrequencyQuantity::size                  ? " m"
+          : plane.frequency_is == FrequencyQuantity::frequency_parameter ? " 1/s"
+                                                                         : "");
+    print(name_of(plane.amplitude_is), plane.amplitude,
+          plane.amplitude_is == AmplitudeQuantity::pga ? " g" : "");
     print("restitution", plane.restitution,
           plane.restitution_of == RestitutionOf::maximum ? ", of the maximum" : "");
     print("slenderness", plane.slenderness, " rad");
@@ -119,6 +132,9 @@ int check(const JobSource& source)
     }
     print_scene(job);
     print_plane(job.plane);
+    for (const std::string& line : free_fall_lines(job)) {
+        print_row("note", line);
+    }
     print_size(job);
     print_row("time", fmt::format("about {} on one rank with kernel {}; n ranks on n cores need "
                                   "1/n of it",

@@ -19,8 +19,9 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> axis_names{"frequency", "amplitude", "restitution",
-                                                     "slenderness"};
+constexpr std::array<std::string_view, 8> axis_names{
+    "frequency", "amplitude", "restitution", "slenderness",
+    "scale",     "pga",       "size",        "frequency_parameter"};
 
 std::string trimmed(std::string text)
 {
@@ -51,22 +52,30 @@ Job read_job_of_one_point(const HistoryOptions& options)
         overrides.push_back(override_of(at));
     }
     Job job = read_job(options.job.path, overrides);
+    if (job.motions.size() > 1) {
+        throw UsageError(fmt::format("{} has {} records, but a history needs exactly one. Choose "
+                                     "it, for example with --set scene.record={}.",
+                                     options.job.path, job.motions.size(),
+                                     job.motions.front().file));
+    }
     const std::array axes{&job.plane.frequency, &job.plane.amplitude, &job.plane.restitution,
                           &job.plane.slenderness};
+    const std::array names{name_of(job.plane.frequency_is), name_of(job.plane.amplitude_is),
+                           std::string_view("restitution"), std::string_view("slenderness")};
     for (std::size_t i = 0; i < axes.size(); ++i) {
         if (axes[i]->size() > 1) {
             throw UsageError(fmt::format(
                 "{} has {} values of plane.{}, from {} to {}, but a history needs exactly one. "
                 "Choose it, for example with --at {}={}.",
-                options.job.path, axes[i]->size(), axis_names[i], axes[i]->first(), axes[i]->last(),
-                axis_names[i], axes[i]->first()));
+                options.job.path, axes[i]->size(), names[i], axes[i]->first(), axes[i]->last(),
+                names[i], axes[i]->first()));
         }
     }
     return job;
 }
 
 /// Throws JobError if the motion overflows; a spectrum flags such a point instead.
-void expect_finite(const History& history, const PlanePoint& point)
+void expect_finite(const History& history, const Plane& plane)
 {
     const bool finite = std::all_of(
         history.samples.begin(), history.samples.end(), [](const HistorySample& sample) {
@@ -75,10 +84,21 @@ void expect_finite(const History& history, const PlanePoint& point)
         });
     if (!finite) {
         throw JobError(fmt::format(
-            "plane.amplitude = {} with plane.frequency = {} moves the block beyond the range of "
-            "double precision. Lower the amplitude. (In a spectrum such a point is undecided, with "
-            "the flag not_finite in status.)",
-            point.amplitude, point.frequency));
+            "plane.{} = {} with plane.{} = {} moves the block beyond the range of double "
+            "precision. Lower the {}. (In a spectrum such a point is undecided, with the flag "
+            "not_finite in status.)",
+            name_of(plane.amplitude_is), plane.amplitude.first(), name_of(plane.frequency_is),
+            plane.frequency.first(), name_of(plane.amplitude_is)));
+    }
+}
+
+void expect_gravity(const Job& job, double scale)
+{
+    if (!job.motions.empty() && !(scale < job.motions.front().largest_scale)) {
+        throw JobError(fmt::format("plane.{} = {}: the vertical motion of \"{}\" cancels gravity. "
+                                   "Use a scale below {}.",
+                                   name_of(job.plane.amplitude_is), job.plane.amplitude.first(),
+                                   job.motions.front().file, job.motions.front().largest_scale));
     }
 }
 
@@ -132,16 +152,18 @@ int history(const HistoryOptions& options)
     if (refusal != exit_code::complete) {
         return refusal;
     }
-    const PlanePoint point{.slenderness = job.plane.slenderness.first(),
-                           .restitution = job.plane.restitution_ratio(0, 0),
-                           .amplitude = job.plane.amplitude.first(),
-                           .frequency = job.plane.frequency.first()};
+    const PlanePoint point{
+        .slenderness = job.plane.slenderness.first(),
+        .restitution = job.plane.restitution_ratio(0, 0),
+        .amplitude = amplitude_of_point(job.scene, job.plane, 0, job.plane.amplitude.first()),
+        .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first())};
+    expect_gravity(job, point.amplitude);
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {
         view.until = options.until;
     }
     const History history = history_of(job.scene, point, view);
-    expect_finite(history, point);
+    expect_finite(history, job.plane);
     print_outcome(history);
     print_events(history);
     write_history_file(options.output, job, history);

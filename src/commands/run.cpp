@@ -7,6 +7,7 @@
 #include "output_lines.hpp"
 #include "prepare_output.hpp"
 #include "progress.hpp"
+#include "record_lines.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/mpi_session.hpp"
@@ -215,6 +216,9 @@ int compute_missing_tiles(const Task& task)
             } else {
                 file.forget(task.tiling[number]);
             }
+        }
+        for (const std::string& line : free_fall_lines(task.job)) {
+            say(line);
         }
         missing = file.missing_tiles();
         say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));

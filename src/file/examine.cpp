@@ -37,6 +37,16 @@ std::string_view next_line(std::string_view& text)
     return line;
 }
 
+/// The part of a line of a resolved job that names the file of a record; empty for other lines.
+std::string_view record_named_in(std::string_view line)
+{
+    constexpr std::string_view before = "    { file = ";
+    const std::size_t end = line.find(", component = ");
+    return line.starts_with(before) && end != line.npos
+               ? line.substr(before.size(), end - before.size())
+               : std::string_view();
+}
+
 /// Describes the first line in which two different texts differ.
 std::string first_difference(std::string_view stored, std::string_view given)
 {
@@ -44,6 +54,10 @@ std::string first_difference(std::string_view stored, std::string_view given)
         const bool ends = stored.empty() || given.empty();
         const std::string_view theirs = stored.empty() ? "(nothing more)" : next_line(stored);
         const std::string_view ours = given.empty() ? "(nothing more)" : next_line(given);
+        if (const auto record = record_named_in(ours);
+            theirs != ours && !record.empty() && record == record_named_in(theirs)) {
+            return fmt::format("the record {} has changed since then. ", record);
+        }
         if (ends || theirs != ours) {
             const auto differ =
                 std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());

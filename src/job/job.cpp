@@ -115,6 +115,21 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides)
 
 namespace {
 
+/// Throws JobError if the vertical motion of every record cancels gravity at every point.
+void expect_gravity(const Entry& entry, const Job& job)
+{
+    const auto cancels = [&](const Motion& motion) {
+        return !(job.smallest_scale(motion) < motion.largest_scale);
+    };
+    if (!job.motions.empty() && std::all_of(job.motions.begin(), job.motions.end(), cancels)) {
+        refuse(*find(*find(entry, "plane"), name_of(job.plane.amplitude_is)),
+               fmt::format(" begins at {}, where the vertical motion of \"{}\" cancels gravity. "
+                           "Begin below the scale {}.",
+                           job.plane.amplitude.first(), job.motions.front().file,
+                           job.motions.front().largest_scale));
+    }
+}
+
 Job read_any_job(std::string text, const std::string& name,
                  const std::vector<std::string>& overrides, JobText kind)
 {
@@ -140,6 +155,7 @@ Job read_any_job(std::string text, const std::string& name,
     job.fields = read_fields(entry);
     expect_known_errors(entry, job.numerics, job.fields);
     job.plane = read_plane(entry, std::int64_t(job.motions.size()));
+    expect_gravity(entry, job);
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         refuse(*find(entry, "plane"),
                fmt::format(" has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are "
@@ -163,8 +179,24 @@ Job read_resolved_job(std::string text, const std::string& name)
     return read_any_job(std::move(text), name, {}, JobText::resolved);
 }
 
+double Job::smallest_scale(const Motion& motion) const
+{
+    const double first = plane.amplitude.first();
+    return plane.amplitude_is == AmplitudeQuantity::pga ? first / motion.measures.pga : first;
+}
+
+double Job::largest_scale(const Motion& motion) const
+{
+    const double last = plane.amplitude.last();
+    return plane.amplitude_is == AmplitudeQuantity::pga ? last / motion.measures.pga : last;
+}
+
 Job boundary_of(Job job)
 {
+    if (!job.motions.empty()) {
+        throw JobError("scene.record: boundaries are computed under pulses only. Compute a "
+                       "spectrum with overturn run.");
+    }
     if (job.plane.amplitude.size() == 1) {
         throw JobError(fmt::format("plane.amplitude has one value, {}, but flips are found between "
                                    "the first and the last. Give two or more values.",

@@ -58,13 +58,11 @@ private:
     History history_{};
 };
 
-template <Theory theory>
+template <Theory theory, class GroundOf>
 class HistoryBuilder {
 public:
-    HistoryBuilder(const Scene& scene, const PlanePoint& point)
-        : block_{point.slenderness, point.restitution},
-          excitation_(excitation_of<theory>(ground_motion(scene.pulse, scene.window),
-                                            point.slenderness, point.amplitude, point.frequency)),
+    HistoryBuilder(const PlanePoint& point, const GroundOf& excitation)
+        : block_{point.slenderness, point.restitution}, excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
     {}
@@ -141,7 +139,9 @@ private:
         return {path_.end.state, block_.slenderness, {block_.restitution}};
     }
 
-    HistorySample sample(double time, const State<double>& state, double ground) const
+    /// ground: of the excitation, or 0.0 after it.
+    template <class Ground>
+    HistorySample sample(double time, const State<double>& state, const Ground& ground) const
     {
         const double pull =
             rocking_acceleration<theory>(state.tilt, block_.slenderness, state.side * ground);
@@ -150,10 +150,11 @@ private:
                 .velocity = state.side * state.rate + 0.0,
                 .acceleration = state.side * pull,
                 .q = double(conserved_q<theory>(state, block_.slenderness)),
-                .ground = ground};
+                .ground = horizontal_of(ground)};
     }
 
-    HistorySample resting(double time, double ground) const
+    template <class Ground>
+    HistorySample resting(double time, const Ground& ground) const
     {
         HistorySample result = sample(time, {0, 0, 1}, ground);
         result.acceleration = 0;
@@ -166,7 +167,7 @@ private:
         const auto at = [&](double time) {
             const double phase = std::min(excitation_.motion.begin + time * excitation_.frequency,
                                           excitation_.motion.end);
-            const double ground = excitation_.ground(phase);
+            const auto ground = excitation_.ground(phase);
             if (latest == nullptr) {
                 return resting(time, ground);
             }
@@ -187,8 +188,8 @@ private:
         } else if (is_free()) {
             const bool rests = latest == nullptr;
             recorder.record_event(EventKind::end_of_pulse,
-                                  rests ? resting(end_of_path_, 0)
-                                        : sample(end_of_path_, path_.end.state, 0));
+                                  rests ? resting(end_of_path_, 0.0)
+                                        : sample(end_of_path_, path_.end.state, 0.0));
         }
     }
 
@@ -208,7 +209,7 @@ private:
             const auto at = [&](double time) {
                 const double since = std::max(0.0, time - end_of_path_ - rocking.begin());
                 const State<double> striking{0, -arc.impact_speed(), arc.side()};
-                return sample(time, time == impact ? striking : arc.at(since), 0);
+                return sample(time, time == impact ? striking : arc.at(since), 0.0);
             };
             recorder.follow(std::min(impact, fall), at);
             if (recorder.is_over(std::min(impact, fall))) {
@@ -219,9 +220,9 @@ private:
                 return true;
             }
             rocking.strike();
-            recorder.record_event(EventKind::impact, sample(impact, arc.at(0), 0));
+            recorder.record_event(EventKind::impact, sample(impact, arc.at(0), 0.0));
         }
-        const auto at_rest = [&](double time) { return resting(time, 0); };
+        const auto at_rest = [&](double time) { return resting(time, 0.0); };
         if (time_of_rest_ > end_of_path_) {
             recorder.follow(time_of_rest_, at_rest);
             recorder.ends_with(EventKind::rest);
@@ -231,7 +232,7 @@ private:
     }
 
     Block<double> block_;
-    Excitation<double> excitation_;
+    GroundOf excitation_;
     ForcedPath path_;
     double end_of_path_; // time [1/p]
     double time_of_rest_;
@@ -243,7 +244,17 @@ private:
 History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view)
 {
     return with_theory(scene.theory, [&]<Theory theory>() {
-        return HistoryBuilder<theory>(scene, point).build(view);
+        const auto build = [&](const auto& excitation) {
+            return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(point,
+                                                                                     excitation)
+                .build(view);
+        };
+        if (scene.is_recorded()) {
+            return build(record_excitation<theory>(*scene.records.front(), point.slenderness,
+                                                   point.amplitude, point.frequency));
+        }
+        return build(excitation_of<theory>(ground_motion(scene.pulse, scene.window),
+                                           point.slenderness, point.amplitude, point.frequency));
     });
 }
 

@@ -77,6 +77,24 @@ double frequency_parameter(double half_diagonal, double gravity)
     return std::sqrt(3 * gravity / (4 * half_diagonal));
 }
 
+double amplitude_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
+{
+    return plane.amplitude_is == AmplitudeQuantity::pga
+               ? value / scene.records[std::size_t(motion)]->peak()
+               : value;
+}
+
+double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
+{
+    if (plane.frequency_is == FrequencyQuantity::frequency) {
+        return value;
+    }
+    const double p = plane.frequency_is == FrequencyQuantity::size
+                         ? frequency_parameter(value, scene.gravity)
+                         : value;
+    return 1 / (p * scene.records[std::size_t(motion)]->time_step());
+}
+
 double uplift_threshold(Theory theory, double slenderness)
 {
     return with_theory(theory,

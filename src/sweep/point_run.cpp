@@ -55,27 +55,17 @@ std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const 
     const double slenderness = plane.slenderness[tile.outer[outer - 2]];
     const double restitution =
         plane.restitution_ratio(tile.outer[outer - 2], tile.outer[outer - 1]);
-    const Accelerogram* record =
-        scene.is_recorded() ? scene.records[std::size_t(tile.outer.front())].get() : nullptr;
-    const auto amplitude_of = [&](double value) {
-        return plane.amplitude_is == AmplitudeQuantity::pga ? value / record->peak() : value;
-    };
-    const auto frequency_of = [&](double value) {
-        switch (plane.frequency_is) {
-        case FrequencyQuantity::size:
-            return 1 / (frequency_parameter(value, scene.gravity) * record->time_step());
-        case FrequencyQuantity::frequency_parameter: return 1 / (value * record->time_step());
-        default: return value;
-        }
-    };
+    const std::int64_t motion = motion_of(scene, tile);
     std::vector<double> frequencies;
     for (std::int64_t column = 0; column < tile.column_count; ++column) {
-        frequencies.push_back(frequency_of(plane.frequency[tile.column_begin + column]));
+        frequencies.push_back(
+            frequency_of_point(scene, plane, motion, plane.frequency[tile.column_begin + column]));
     }
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
     for (std::int64_t row = 0; row < tile.row_count; ++row) {
-        const double amplitude = amplitude_of(plane.amplitude[tile.row_begin + row]);
+        const double amplitude =
+            amplitude_of_point(scene, plane, motion, plane.amplitude[tile.row_begin + row]);
         for (const double frequency : frequencies) {
             *point++ = {slenderness, restitution, amplitude, frequency};
         }

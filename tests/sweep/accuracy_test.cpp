@@ -106,7 +106,7 @@ TEST(AccuracyStudy, HasBoundsOnlyWhereErrorsAreKnown)
 TEST(AccuracyLadder, HasEveryDecadeOfBothMethods)
 {
     int plain = 0;
-    for (const Numerics& numerics : accuracy_ladder()) {
+    for (const Numerics& numerics : accuracy_ladder({})) {
         plain += !numerics.resolve;
     }
     EXPECT_EQ(plain, 26);

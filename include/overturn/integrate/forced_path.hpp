@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/integrate/forced_stage.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 
 namespace overturn {
 
@@ -15,13 +16,14 @@ struct ForcedPath {
     ForcedEnd<double> end;
 };
 
-template <Theory theory>
-ForcedPath forced_path(const Block<double>& block, const Excitation<double>& excitation);
+/// excitation: Excitation<double> or RecordExcitation<double, true>.
+template <Theory theory, class GroundOf>
+ForcedPath forced_path(const Block<double>& block, const GroundOf& excitation);
 
 /// The state at a phase [rad] between an event, after which the block rocks, and the next one.
 /// Evaluates the series of the step itself.
-template <Theory theory>
+template <Theory theory, class GroundOf>
 State<double> state_after(const Event<double>& event, const Block<double>& block,
-                          const Excitation<double>& excitation, double phase);
+                          const GroundOf& excitation, double phase);
 
 } // namespace overturn

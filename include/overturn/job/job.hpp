@@ -57,6 +57,10 @@ struct Job {
     std::string given;                  ///< the job file, byte for byte
     std::vector<std::string> overrides; ///< the --set arguments, in order
     std::string resolved;               ///< the canonical job: equal text, equal results
+
+    /// The smallest and the largest factor on a record in the plane [1].
+    double smallest_scale(const Motion& motion) const;
+    double largest_scale(const Motion& motion) const;
 };
 
 /// Reads and checks a job. Each override is `key.path=value` in TOML syntax (a bare word is a

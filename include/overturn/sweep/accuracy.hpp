@@ -91,6 +91,6 @@ private:
 
 /// The settings that `overturn accuracy` compares: both methods at every decade from 1e-2 to 1e-14,
 /// and with resolve at the tolerances with error bounds, down to 1e-8.
-std::vector<Numerics> accuracy_ladder();
+std::vector<Numerics> accuracy_ladder(const Scene& scene);
 
 } // namespace overturn

@@ -53,7 +53,8 @@ struct History {
     bool shortened; ///< the history could not be computed to its end
 };
 
-/// The history of a point. The forced stage does not depend on the method and tolerance of a job.
+/// The history of a point under a pulse, or under the first record of the scene. The forced stage
+/// does not depend on the method and tolerance of a job.
 History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view = {});
 
 } // namespace overturn

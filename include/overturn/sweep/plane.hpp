@@ -67,6 +67,14 @@ double half_diagonal(const BlockSize& block);
 /// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
 double frequency_parameter(double half_diagonal, double gravity);
 
+struct Plane;
+
+/// PlanePoint::amplitude and ::frequency of a value of an axis; motion: the number of the record.
+double amplitude_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
+                          double value);
+double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
+                          double value);
+
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 

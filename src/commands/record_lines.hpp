@@ -1,0 +1,59 @@
+// The lines that `check` and `run` print about recorded ground motions.
+#pragma once
+
+#include "printable.hpp"
+
+#include "overturn/job/job.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+/// Lines of a large suite beyond this number are left out.
+inline constexpr std::size_t most_record_lines = 10;
+
+inline void shorten(std::vector<std::string>& lines)
+{
+    if (lines.size() > most_record_lines) {
+        const std::size_t more = lines.size() - most_record_lines;
+        lines.resize(most_record_lines);
+        lines.push_back(fmt::format("and {} more records", more));
+    }
+}
+
+/// A line for each record: its file, component, duration and intensity.
+inline std::vector<std::string> record_lines(const Job& job)
+{
+    std::vector<std::string> lines;
+    for (const Motion& motion : job.motions) {
+        const std::string component =
+            motion.component.empty() ? "" : fmt::format(", component {}", motion.component);
+        lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
+                                              motion.file, component, motion.samples,
+                                              double(motion.samples - 1) * motion.time_step,
+                                              motion.measures.pga, motion.measures.pgv)));
+    }
+    shorten(lines);
+    return lines;
+}
+
+/// A line for each record whose vertical motion cancels gravity at some scale of the job.
+inline std::vector<std::string> free_fall_lines(const Job& job)
+{
+    std::vector<std::string> lines;
+    for (const Motion& motion : job.motions) {
+        if (!(job.largest_scale(motion) < motion.largest_scale)) {
+            lines.push_back(printable(fmt::format(
+                "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
+                "are not computed (status 16, free_fall)",
+                motion.file, motion.largest_scale)));
+        }
+    }
+    shorten(lines);
+    return lines;
+}
+
+} // namespace overturn

@@ -1,0 +1,271 @@
+"""Jobs with recorded ground motions: results, resuming, and refusals."""
+
+import math
+import pathlib
+import shutil
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from program import Scratch, checksum
+
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+
+JOB = """
+title = "Blocks under a record"
+[scene]
+record = "one.AT2"
+[plane]
+scale = { first = 0.5, last = 4.0, count = 40 }
+size = { first = 0.3, last = 3.0, count = 40 }
+slenderness = { values = [0.2, 0.3] }
+restitution = { values = [1.0], of = "maximum" }
+[output]
+fields = ["region", "angle", "velocity", "margin", "error", "peak", "impacts", "status"]
+"""
+
+
+class ScratchWithRecords(Scratch):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(JOBS / "synthetic.AT2", self.folder / "one.AT2")
+        shutil.copy(JOBS / "synthetic_vertical.AT2", self.folder / "up.AT2")
+        (self.folder / "job.toml").write_text(JOB)
+
+    def run_job(self, *arguments, out="out.h5", ranks=None):
+        result = self.overturn("run", "job.toml", "-o", out, *arguments, ranks=ranks)
+        self.assert_exit(result, 0)
+        return result
+
+    def opened(self, name="out.h5"):
+        with xarray.open_dataset(self.folder / name) as data:
+            return data.load()
+
+    def scale_record(self, name, factor, time_step="0.01"):
+        """Writes one.AT2 with its accelerations multiplied and another time step."""
+        head, *numbers = (self.folder / "one.AT2").read_text().split(" SEC\n")
+        values = [float(word) * factor for word in numbers[0].split()]
+        (self.folder / name).write_text(head.replace("DT= 0.01", f"DT= {time_step}") + " SEC\n"
+                                        + "\n".join(map(repr, values)) + "\n")
+
+
+class ASpectrumUnderARecord(ScratchWithRecords):
+    def test_has_the_dimensions_and_the_origin_of_its_record(self):
+        self.run_job()
+        data = self.opened()
+        self.assertEqual(data.region.dims,
+                         ("motion", "slenderness", "restitution", "scale", "size"))
+        self.assertEqual(data.region.shape, (1, 2, 1, 40, 40))
+        self.assertEqual(list(data.motion_name.values), ["one.AT2"])
+        self.assertEqual(data.attrs["record"], "one.AT2")
+        self.assertAlmostEqual(float(data.pga[0]), 0.4, places=6)
+        p = np.sqrt(3 * 9.81 / (4 * data["size"].values))
+        self.assertTrue(np.allclose(data.frequency_parameter, p, rtol=1e-15))
+        self.assertTrue(np.allclose(data.peak_ground_acceleration[0], 0.4 * data.scale, rtol=1e-6))
+        self.assertIn("one.AT2", str(data.records.values))
+        self.assertIn("SYNTHETIC RECORD", str(data.records.values))
+        safe = data.region.values <= 2
+        self.assertTrue(0.2 < safe.mean() < 0.9)
+        self.assertTrue(np.isfinite(data.peak.values[safe]).all())
+        self.assertTrue(np.isinf(data.peak.values[(data.region.values >= 3)]).all())
+
+    def test_is_the_same_on_every_number_of_ranks_and_after_a_stop(self):
+        self.run_job()
+        for ranks in (2, 3):
+            self.run_job(out=f"ranks{ranks}.h5", ranks=ranks)
+            self.assertEqual(checksum(self.folder / f"ranks{ranks}.h5"),
+                             checksum(self.folder / "out.h5"))
+        whole = (self.folder / "out.h5").read_bytes()
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            place = file["checksum"].id.get_offset()
+        damaged = bytearray(whole)
+        damaged[place:place + 8 * 4] = bytes(8 * 4)  # four tiles that are not computed
+        (self.folder / "out.h5").write_bytes(bytes(damaged))
+        self.assert_exit(self.overturn("verify", "out.h5"), 0, "14 of 18 tiles are done")
+        self.run_job(ranks=2)
+        self.assertEqual((self.folder / "out.h5").read_bytes(), whole)
+
+    def test_can_be_verified_without_the_file_of_its_record(self):
+        self.run_job()
+        (self.folder / "one.AT2").unlink()
+        self.assert_exit(self.overturn("verify", "out.h5"), 0, "18 of 18 tiles are done")
+        self.assert_exit(self.overturn("info", "out.h5"), 0, "one.AT2", "size")
+
+    def test_is_not_resumed_if_the_record_has_changed(self):
+        self.run_job()
+        before = checksum(self.folder / "out.h5")
+        self.scale_record("one.AT2", 1 + 1e-15)
+        self.assert_exit(self.overturn("run", "job.toml", "-o", "out.h5"), 74,
+                         'the record "one.AT2" has changed since then')
+        self.assertEqual(checksum(self.folder / "out.h5"), before)
+
+    def test_does_not_change_with_the_scale_of_time_and_size(self):
+        self.scale_record("slow.AT2", 1, "0.02")
+        fields = 'output.fields=["region", "angle", "velocity", "margin"]'
+        self.run_job("--set", fields)
+        self.run_job("--set", fields, "--set", "scene.record=slow.AT2", "--set",
+                     "plane.size={ first = 1.2, last = 12.0, count = 40 }", out="slow.h5")
+        one, slow = self.opened(), self.opened("slow.h5")
+        for name in ("region", "angle", "velocity", "margin"):
+            self.assertTrue(np.array_equal(one[name].values, slow[name].values, equal_nan=True))
+
+    def test_is_mirrored_by_the_mirrored_record(self):
+        self.scale_record("mirrored.AT2", -1)
+        self.run_job()
+        self.run_job("--set", "scene.record=mirrored.AT2", out="mirrored.h5")
+        one, other = self.opened(), self.opened("mirrored.h5")
+        self.assertTrue(np.array_equal(one.angle.values, -other.angle.values, equal_nan=True))
+        mirror = np.array([0, 2, 1, 4, 3, 6, 5, 8, 7])
+        self.assertTrue(np.array_equal(one.region.values, mirror[other.region.values]))
+        self.assertTrue(np.array_equal(one.peak.values, other.peak.values))
+
+    def test_resolves_all_verdicts_and_changes_none_that_was_certain(self):
+        self.run_job()
+        self.run_job("--set", "numerics.resolve=true", out="resolved.h5")
+        one, resolved = self.opened(), self.opened("resolved.h5")
+        certain = one.error.values < np.abs(one.margin.values)
+        self.assertGreater(certain.mean(), 0.9)
+        safe, later = one.region.values <= 2, resolved.region.values <= 2
+        self.assertTrue(np.array_equal(safe[certain], later[certain]))
+        self.assertLess((resolved.region.values == 254).mean(), 0.01)
+
+
+class OtherAxes(ScratchWithRecords):
+    def test_pga_and_frequency_parameter_are_the_same_points(self):
+        self.run_job("--set", "plane.scale.values=[1, 2]", "--set", "plane.size.values=[0.5, 1]")
+        p = [math.sqrt(3 * 9.81 / (4 * size)) for size in (1, 0.5)]
+        text = JOB.replace("scale = { first = 0.5, last = 4.0, count = 40 }",
+                           "pga = { values = [0.4, 0.8] }")
+        text = text.replace("size = { first = 0.3, last = 3.0, count = 40 }",
+                            f"frequency_parameter = {{ values = {p} }}")
+        (self.folder / "job.toml").write_text(text)
+        self.run_job(out="other.h5")
+        one, other = self.opened(), self.opened("other.h5")
+        self.assertEqual(other.region.dims[-2:], ("pga", "frequency_parameter"))
+        self.assertTrue(np.allclose(other["size"], [1, 0.5]))
+        self.assertTrue(np.allclose(other.scale[0], [1, 2], rtol=1e-6))
+        self.assertTrue(np.array_equal(one.region.values[..., ::-1], other.region.values))
+
+    def test_a_block_in_metres_gives_slenderness_and_size(self):
+        text = JOB.replace("size = { first = 0.3, last = 3.0, count = 40 }\n", "")
+        text = text.replace("slenderness = { values = [0.2, 0.3] }\n", "")
+        (self.folder / "job.toml").write_text(
+            text + "[block]\nhalf_width = 0.3\nhalf_height = 1.0\n")
+        self.run_job()
+        data = self.opened()
+        self.assertEqual(data.region.shape, (1, 1, 1, 40, 1))
+        self.assertAlmostEqual(float(data["size"][0]), math.hypot(0.3, 1.0), places=15)
+
+    def test_a_pattern_is_a_suite_in_byte_order(self):
+        for name, factor in (("b2.AT2", 2), ("b10.AT2", 1), ("B.AT2", 0.5)):
+            self.scale_record(name, factor)
+        self.run_job("--set", 'scene.record="[Bb]*.AT2"', "--set", "plane.scale.values=[1, 2]")
+        data = self.opened()
+        self.assertEqual(list(data.motion_name.values), ["B.AT2", "b10.AT2", "b2.AT2"])
+        self.assertTrue(np.allclose(data.pga, [0.2, 0.4, 0.8], rtol=1e-6))
+        twice = data.region.sel(scale=2).values[1], data.region.sel(scale=1).values[2]
+        self.assertTrue(np.array_equal(*twice))
+
+    def test_units_of_a_column_are_divided_by_gravity(self):
+        values = [float(word) for word in
+                  (self.folder / "one.AT2").read_text().split(" SEC\n")[1].split()]
+        (self.folder / "column.txt").write_text("\n".join(repr(9.81 * value) for value in values))
+        self.run_job("--set", "plane.scale=1")
+        self.run_job("--set", "plane.scale=1", "--set", "scene.record=column.txt", "--set",
+                     "scene.units=m/s2", "--set", "scene.time_step=0.01", out="column.h5")
+        one, other = self.opened(), self.opened("column.h5")
+        self.assertTrue(np.array_equal(one.region.values, other.region.values))
+        self.assertTrue(np.allclose(one.pga, other.pga, rtol=1e-15))
+
+
+class VerticalMotion(ScratchWithRecords):
+    def test_changes_the_result_and_marks_points_without_gravity(self):
+        self.run_job()
+        self.run_job("--set", "scene.vertical=up.AT2", "--set", "plane.scale.last=8", out="up.h5")
+        up = self.opened("up.h5")
+        limit = 1 / -min(float(word) for word in
+                         (self.folder / "up.AT2").read_text().split(" SEC\n")[1].split())
+        self.assertTrue(4 < limit < 8)
+        free = up.status.values == 16
+        self.assertTrue(np.array_equal(free[0, 0, 0, :, 0], up.scale.values >= limit))
+        self.assertTrue((up.region.values[free] == 254).all())
+        self.assertTrue(np.isnan(up.angle.values[free]).all())
+        self.assertTrue((up.region.values[~free] <= 8).all())
+        self.assertFalse(np.array_equal(up.region.values[..., 0:20, :],
+                                        self.opened().region.values[..., 0:20, :]))
+
+    def test_is_reported_where_it_cancels_gravity(self):
+        up = ("--set", "scene.vertical=up.AT2")
+        self.assert_exit(self.overturn("check", "job.toml", *up, "--set", "plane.scale.last=8"), 0,
+                         "one.AT2: from the scale 5", "cancels gravity")
+        self.assert_exit(self.overturn("run", "job.toml", *up, "--set", "plane.scale=9"), 65,
+                         "plane.scale begins at 9", "cancels gravity")
+
+
+class ABadRecord(ScratchWithRecords):
+    def refused(self, *phrases, code=65, **changes):
+        arguments = [f"--set={key.replace('__', '.')}={value}" for key, value in changes.items()]
+        self.assert_exit(self.overturn("run", "job.toml", *arguments), code, *phrases)
+        self.assertNotIn("job.h5", self.files())
+
+    def test_is_refused_with_its_name(self):
+        self.refused("scene.record", "none.AT2", "No such file", scene__record="none.AT2")
+        self.refused('"*.V2A" matches no file', scene__record='"*.V2A"')
+        (self.folder / "nan.txt").write_text("0.1\nnan\n")
+        self.refused("nan.txt:2", scene__record="nan.txt", scene__units="g",
+                     scene__time_step="0.01")
+        (self.folder / "zero.txt").write_text("0\n0\n")
+        self.refused("zero at all times", scene__record="zero.txt", scene__units="g",
+                     scene__time_step="0.01")
+
+    def test_needs_an_existing_component_and_an_equal_vertical(self):
+        self.refused("scene.component = 2 is not a component", "1", scene__component="2")
+        self.scale_record("slow.AT2", 1, "0.02")
+        self.refused("2001 samples at 0.02 s, but the horizontal component has 2001 at 0.01 s",
+                     scene__vertical="slow.AT2")
+        self.refused("scene.vertical = 3 is not a component", scene__vertical="3")
+
+    def test_excludes_a_pulse_and_its_axes(self):
+        self.refused("scene.window cannot be combined with scene.record", scene__window="1")
+        self.refused("plane.amplitude", plane__amplitude="1")
+        self.refused("plane.pga cannot be combined with plane.scale", plane__pga="1")
+        self.refused('numerics.method = "rk45" is for pulses only', numerics__method="rk45")
+
+    def test_may_be_replaced_by_a_pulse_and_back(self):
+        pulse = ("--set=scene.pulse=one_sine", "--set=plane.frequency=2", "--set=plane.amplitude=3")
+        self.assert_exit(self.overturn("check", "job.toml", *pulse), 0, "one_sine", "frequency")
+        record = ("--set=scene.record=one.AT2", "--set=plane.scale=1", "--set=plane.size=1")
+        self.assert_exit(self.overturn("check", "small.toml", *record,
+                                       "--set=numerics.method=taylor"), 0, "one.AT2", "size")
+
+    def test_has_no_boundary(self):
+        self.assert_exit(self.overturn("boundary", "job.toml"), 65, "under pulses only")
+
+
+class AHistoryUnderARecord(ScratchWithRecords):
+    def test_shows_the_ground_motion_and_the_peak_of_the_spectrum(self):
+        at = "--at=scale=1,size=2,slenderness=0.2"
+        self.assert_exit(self.overturn("history", "job.toml", at, "-o", "history.h5",
+                                       "--samples", "20001"), 0, "region", "impact")
+        self.run_job("--set=plane.scale=1", "--set=plane.size=2", "--set=plane.slenderness=0.2")
+        peak = float(self.opened().peak.values.ravel()[0])
+        with h5py.File(self.folder / "history.h5") as file:
+            self.assertEqual(file.attrs["scale"], 1)
+            ground, angle = file["ground"][:], file["angle"][:]
+        self.assertAlmostEqual(np.abs(ground).max(), 0.4, places=3)
+        self.assertLessEqual(np.abs(angle).max() / 0.2, peak * (1 + 1e-12))
+        self.assertGreater(np.abs(angle).max() / 0.2, peak * (1 - 1e-4))
+
+    def test_needs_one_record_and_one_point(self):
+        self.assert_exit(self.overturn("history", "job.toml", "-o", "h.h5"), 2,
+                         "40 values of plane.size")
+        self.scale_record("two.AT2", 2)
+        both = 'scene.record=["one.AT2", "two.AT2"]'
+        self.assert_exit(self.overturn("history", "job.toml", "-o", "h.h5", "--set", both), 2,
+                         "has 2 records")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
