@@ -69,7 +69,8 @@ double frequency_parameter(double half_diagonal, double gravity);
 
 struct Plane;
 
-/// PlanePoint::amplitude and ::frequency of a value of an axis; motion: the number of the record.
+/// PlanePoint::amplitude and PlanePoint::frequency of a value of an axis; motion: the number of the
+/// record.
 double amplitude_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
                           double value);
 double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
