@@ -75,6 +75,32 @@ Job read_job_of(const RunOptions& options)
     return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
+/// The job that rank 0 has read, with its records, on all ranks: only rank 0 reads files.
+Job job_of_rank_0(const MpiSession& session, std::optional<Job> read, const RunOptions& options)
+{
+    const std::string resolved = session.from_rank_0(read ? read->resolved : "");
+    if (session.rank() != 0) {
+        read = read_resolved_job(resolved, "the job of rank 0");
+        read = options.boundary ? boundary_of(*std::move(read)) : std::move(read);
+    }
+    for (std::size_t i = 0; i < read->motions.size(); ++i) {
+        Motion& motion = read->motions[i];
+        const auto values_of_rank_0 = [&](const std::vector<double>& (Accelerogram::*values)()
+                                              const) {
+            return session.from_rank_0(motion.record ? ((*motion.record).*values)()
+                                                     : std::vector<double>());
+        };
+        auto horizontal = values_of_rank_0(&Accelerogram::horizontal);
+        auto upwards = values_of_rank_0(&Accelerogram::upwards);
+        if (!motion.record) {
+            motion.record = std::make_shared<const Accelerogram>(
+                std::move(horizontal), std::move(upwards), motion.time_step);
+            read->scene.records[i] = motion.record;
+        }
+    }
+    return *std::move(read);
+}
+
 std::string start_line(const Task& task, std::int64_t tiles_before)
 {
     std::string what =
@@ -291,14 +317,7 @@ int run(const RunOptions& options)
         return code;
     }
     try {
-        if (!job) {
-            job = read_job_of(options);
-        }
-        if (session.from_rank_0(job->resolved) != job->resolved) {
-            throw JobError(fmt::format("\"{}\" differs from the job that rank 0 read. Put the job "
-                                       "file in a folder that all hosts share.",
-                                       options.job.path));
-        }
+        job = job_of_rank_0(session, std::move(job), options);
         return compute_missing_tiles({session, *job, tiling_of(*job), path, options,
                                       kernel_called(options.kernel), start,
                                       damaged.value_or(std::vector<std::int64_t>())});

@@ -2,6 +2,7 @@
 
 #include "wait_for.hpp"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -140,9 +141,14 @@ void MpiSession::leave()
 
 void MpiSession::broadcast(void* bytes, std::size_t size) const
 {
-    MPI_Request arriving = MPI_REQUEST_NULL;
-    MPI_Ibcast(bytes, int(size), MPI_BYTE, 0, communicator_, &arriving);
-    wait_for(arriving); // rank 0 may have to read gigabytes first
+    constexpr std::size_t most_at_once = std::size_t(1) << 30; // MPI counts in int
+    for (std::size_t sent = 0; sent < size; sent += most_at_once) {
+        const std::size_t block = std::min(size - sent, most_at_once);
+        MPI_Request arriving = MPI_REQUEST_NULL;
+        MPI_Ibcast(static_cast<char*>(bytes) + sent, int(block), MPI_BYTE, 0, communicator_,
+                   &arriving);
+        wait_for(arriving); // rank 0 may have to read gigabytes first
+    }
 }
 
 void MpiSession::gather(const void* bytes, void* all, std::size_t size) const
@@ -157,6 +163,13 @@ std::string MpiSession::from_rank_0(std::string text) const
     text.resize(from_rank_0(text.size()));
     broadcast(text.data(), text.size());
     return text;
+}
+
+std::vector<double> MpiSession::from_rank_0(std::vector<double> values) const
+{
+    values.resize(from_rank_0(values.size()));
+    broadcast(values.data(), values.size() * sizeof(double));
+    return values;
 }
 
 std::vector<std::string> MpiSession::host_names() const

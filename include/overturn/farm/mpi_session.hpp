@@ -40,6 +40,7 @@ public:
         return value;
     }
     std::string from_rank_0(std::string text) const;
+    std::vector<double> from_rank_0(std::vector<double> values) const;
 
     /// Returns the values of all ranks, by rank, on rank 0; nothing elsewhere. Collective.
     template <class Value>
