@@ -66,7 +66,8 @@ inline RecordPoint random_record_point(std::mt19937_64& generator, int samples, 
     const Accelerogram record = random_record(generator, samples, upwards);
     const double slenderness = 0.08 + 0.37 * uniform(generator);
     const double restitution = 0.3 + 0.6 * uniform(generator);
-    const double most = (1.05 + 5 * uniform(generator)) * slenderness / record.peak();
+    const double strength = uniform(generator);
+    const double most = (1.05 + 5 * strength * strength) * slenderness / record.peak();
     return {.record = record,
             .block = {slenderness, restitution},
             .scale = std::min(most, 0.9 * record.largest_scale()),
