@@ -1,5 +1,6 @@
 // Bounce series: in closed form if they die out, impact by impact if they do not.
 #include "support/one_point.hpp"
+#include "support/random_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,16 +51,17 @@ TEST(BounceSeries, WithoutLossNeverComesToRest)
     EXPECT_GT(end.impacts, 50);
 }
 
-/// A block that has just left the ground again, at a phase of the pulse.
+/// A block that has just left the ground again, at a phase of the ground motion.
+template <class GroundOf>
 struct AfterImpact {
     Block<double> block;
-    Excitation<double> excitation;
+    GroundOf excitation;
     double phase;
     double rate;
     double side;
 };
 
-AfterImpact random_impact(PulseKind pulse, std::mt19937_64& generator)
+AfterImpact<Excitation<double>> random_impact(PulseKind pulse, std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
     const double slenderness = 0.08 + 0.4 * uniform(generator);
@@ -78,22 +80,23 @@ AfterImpact random_impact(PulseKind pulse, std::mt19937_64& generator)
 }
 
 /// Integrates the bounces impact by impact, and returns whether the speed falls to a thousandth
-/// before the pulse ends, before the ground can lift the block and before the block has overturned.
-bool bounces_on_to_rest(const AfterImpact& start)
+/// before the phase `end`, before the ground can lift the block and before the block has
+/// overturned.
+template <Theory theory, class GroundOf>
+bool bounces_on_to_rest(const AfterImpact<GroundOf>& start, double end)
 {
     const double alpha = start.block.slenderness;
     double phase = start.phase;
     double side = start.side;
     Motion<double> motion{0, start.rate, 0};
     const auto pull = [&](double tilt, double at, double on) {
-        return rocking_acceleration<Theory::nonlinear>(tilt, alpha,
-                                                       on * start.excitation.ground(at));
+        return rocking_acceleration<theory>(tilt, alpha, on * start.excitation.ground(at));
     };
     while (motion.rate > 1e-3 * start.rate) {
         // Twenty steps per flight, but at most 0.1 each because motion grows e-fold in 1/p.
         const double h = 0.1 * std::min(motion.rate / alpha, 1.0);
         while (motion.position >= 0) {
-            if (phase > start.excitation.motion.end || motion.position > pi<double>() / 2 ||
+            if (phase > end || motion.position > pi<double>() / 2 ||
                 !(pull(0, phase, 1) < 0 && pull(0, phase, -1) < 0)) {
                 return false;
             }
@@ -120,7 +123,8 @@ void expect_that_what_is_closed_dies_out(PulseKind pulse)
     int die_out = 0;
     for (int i = 0; i < 4000; ++i) {
         const auto start = random_impact(pulse, generator);
-        const bool dies_out = bounces_on_to_rest(start);
+        const bool dies_out =
+            bounces_on_to_rest<Theory::nonlinear>(start, start.excitation.motion.end);
         die_out += dies_out;
         if (bounces_die_out<Theory::nonlinear>(start.block, start.excitation, start.phase,
                                                start.rate)) {
@@ -141,6 +145,70 @@ TEST(BounceSeries, IsClosedOnlyIfItWouldDieOut)
     expect_that_what_is_closed_dies_out(PulseKind::one_cosine);
     expect_that_what_is_closed_dies_out(PulseKind::symmetric_ricker);
     expect_that_what_is_closed_dies_out(PulseKind::antisymmetric_ricker);
+}
+
+/// Under two samples of accelerations that may change by more than gravity, up to slightly more
+/// than what lifts the block. motion: of these samples.
+template <Theory theory, bool upwards>
+AfterImpact<RecordExcitation<double, upwards>>
+random_impact(const Accelerogram& record, double slenderness, std::mt19937_64& generator)
+{
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double frequency = 0.2 + 5 * uniform(generator);
+    const double restitution = 0.01 + 0.9 * uniform(generator);
+    const double lasts = std::pow(10, -2 + 2 * uniform(generator)) / frequency;
+    return {{slenderness, restitution},
+            {record_motion<double>(record), 1, frequency, uplift_acceleration<theory>(slenderness)},
+            uniform(generator),
+            0.5 * lasts * slenderness * uniform(generator) * (1 - std::sqrt(restitution)),
+            uniform(generator) < 0.5 ? -1.0 : 1.0};
+}
+
+template <Theory theory, bool upwards>
+void expect_that_what_is_closed_dies_out_within_an_interval()
+{
+    std::mt19937_64 generator(10);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int closed = 0;
+    int die_out = 0;
+    const int trials = 4000;
+    for (int i = 0; i < trials; ++i) {
+        const double slenderness = 0.08 + 0.4 * uniform(generator);
+        std::vector<double> vertical;
+        std::vector<double> horizontal;
+        for (int sample = 0; sample < 2; ++sample) {
+            const double v = upwards ? -0.95 + 3 * uniform(generator) : 0;
+            vertical.push_back(v);
+            horizontal.push_back((1 + v) * uplift_acceleration<theory>(slenderness) *
+                                 (-1.1 + 2.2 * uniform(generator)));
+        }
+        const Accelerogram record =
+            accelerogram(horizontal, upwards ? vertical : std::vector<double>());
+        const auto start = random_impact<theory, upwards>(record, slenderness, generator);
+        const bool dies_out = bounces_on_to_rest<theory>(start, 1);
+        die_out += dies_out;
+        if (bounces_die_out<theory>(start.block, start.excitation, start.phase, start.rate)) {
+            ++closed;
+            EXPECT_TRUE(dies_out) << "r " << start.block.restitution << ", phase " << start.phase
+                                  << ", rate " << start.rate << ", trial " << i;
+        }
+    }
+    // It may return false where the block would come to rest, but not usually.
+    EXPECT_GT(closed, 0.3 * die_out);
+    EXPECT_GT(die_out, 0.1 * trials);
+    EXPECT_LT(die_out, 0.9 * trials);
+}
+
+TEST(BounceSeries, UnderARecordIsClosedOnlyIfItWouldDieOutBeforeTheNextSample)
+{
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear, false>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear, false>();
+}
+
+TEST(BounceSeries, UnderVerticalMotionIsClosedOnlyIfItWouldDieOutBeforeTheNextSample)
+{
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear, true>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear, true>();
 }
 
 } // namespace

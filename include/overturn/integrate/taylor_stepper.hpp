@@ -41,6 +41,12 @@ public:
         const T one(S(1));
         const T frequency = excitation.frequency;
         fastest_ = select<T>(frequency > one, frequency, one);
+        if constexpr (!std::same_as<GroundOf, Excitation<T>>) {
+            // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
+            // change by the same share of epsilon in each of thousands of steps, and the error
+            // would exceed its bound, in which round-off is random.
+            fastest_ = power_of_two_below(fastest_);
+        }
         unit_ = one / fastest_;
         phase_per_unit_ = frequency * unit_;
         tolerance_ = T(tolerance);
@@ -354,7 +360,7 @@ private:
     const T slenderness_;
     const GroundOf excitation_;
     const bool is_wavelet_;
-    T unit_;           // of time: 1/p, or 1/omega_p if that is shorter [1/p]
+    T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
     T fastest_;        // its reciprocal
     T phase_per_unit_; // [rad]
     T tolerance_;

@@ -149,6 +149,19 @@ T rough_power_of_two(const T& x)
     }
 }
 
+/// The largest power of two that is at most x; x > 0 and normal.
+template <Number T>
+T power_of_two_below(const T& x)
+{
+    if constexpr (std::same_as<scalar_t<T>, double>) {
+        return number_traits<T>::power_of_two(number_traits<T>::split(x).exponent);
+    } else {
+        using std::ilogb;
+        using std::ldexp;
+        return ldexp(T(1), int(ilogb(x)));
+    }
+}
+
 /// pi in the scalar type.
 template <class S>
 S pi()

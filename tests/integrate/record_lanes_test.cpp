@@ -1,0 +1,142 @@
+// Records in a pack: every lane has the bits of a double. CMake defines OVERTURN_NUMBER.
+#include "overturn/integrate/forced_stage.hpp"
+#include "overturn/number/pack.hpp"
+#include "support/random_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+namespace overturn {
+namespace {
+
+using Lanes = OVERTURN_NUMBER;
+constexpr std::size_t lanes = lanes_v<Lanes>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One block per lane, under the same record.
+using Points = std::vector<RecordPoint>;
+
+template <bool upwards>
+Points random_points(std::mt19937_64& generator)
+{
+    const RecordPoint first = random_record_point(generator, 40, upwards);
+    Points points(lanes, first);
+    for (RecordPoint& point : points) {
+        point = random_record_point(generator, 40, upwards);
+        const double sign = generator() % 2 == 0 ? 1 : -1;
+        point.scale = sign * std::min(point.scale, 0.9 * first.record.largest_scale());
+        point.record = first.record;
+    }
+    return points;
+}
+
+/// member(point) of each lane.
+template <class Member>
+Lanes packed(const Points& points, const Member& member)
+{
+    std::array<double, lanes> numbers;
+    for (std::size_t i = 0; i < lanes; ++i) {
+        numbers[i] = member(points[i]);
+    }
+    return load<Lanes>(numbers.data());
+}
+
+template <bool upwards>
+RecordExcitation<Lanes, upwards> excitation_of(const Points& points)
+{
+    return {.motion = record_motion<double>(points[0].record),
+            .acceleration = packed(points, [](const RecordPoint& p) { return p.scale; }),
+            .frequency = packed(points, [](const RecordPoint& p) { return p.frequency; }),
+            .threshold = packed(points, [](const RecordPoint& p) {
+                return uplift_acceleration<Theory::nonlinear>(p.block.slenderness);
+            })};
+}
+
+template <bool upwards>
+RecordExcitation<double, upwards> excitation_of(const RecordPoint& point)
+{
+    return excitation_of<Theory::nonlinear, upwards>(point);
+}
+
+void expect_bits(const Lanes& together, std::size_t lane, double alone)
+{
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(lanes_of(together)[lane]),
+              std::bit_cast<std::uint64_t>(alone))
+        << lanes_of(together)[lane] << " in lane " << lane << ", " << alone << " alone";
+}
+
+template <bool upwards>
+void expect_equal_uplifts()
+{
+    std::mt19937_64 generator(41);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 500; ++i) {
+        const Points points = random_points<upwards>(generator);
+        const auto excitation = excitation_of<upwards>(points);
+        std::array<double, lanes> phases;
+        std::array<double, lanes> latest;
+        std::array<double, lanes> resting;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            phases[lane] = uniform(generator) < 0.2 ? 0 : 39 * uniform(generator);
+            latest[lane] = uniform(generator) < 0.5 ? -infinity : phases[lane];
+            resting[lane] = uniform(generator) < 0.7 ? 1 : 0;
+        }
+        const Lanes phase = load<Lanes>(phases.data());
+        const auto rests = load<Lanes>(resting.data()) > Lanes(0);
+        const Lanes next = excitation.next_uplift(rests, phase, load<Lanes>(latest.data()));
+        const auto ground = excitation.ground(phase);
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const auto alone = excitation_of<upwards>(points[lane]);
+            expect_bits(next, lane,
+                        alone.next_uplift(resting[lane] == 1, phases[lane], latest[lane]));
+            expect_bits(horizontal_of(ground), lane, horizontal_of(alone.ground(phases[lane])));
+            if constexpr (upwards) {
+                expect_bits(ground.gravity, lane, alone.ground(phases[lane]).gravity);
+            }
+        }
+    }
+}
+
+TEST(RecordInLanes, LiftsLikeInADouble)
+{
+    expect_equal_uplifts<false>();
+    expect_equal_uplifts<true>();
+}
+
+template <bool upwards, Records records>
+void expect_equal_ends()
+{
+    std::mt19937_64 generator(42);
+    const auto run = []<class T>(const Block<T>& block, const auto& excitation) {
+        return run_forced_stage<Taylor<14>, Theory::nonlinear, records>(block, excitation, 1e-9);
+    };
+    for (int i = 0; i < 20; ++i) {
+        const Points points = random_points<upwards>(generator);
+        const Block<Lanes> block{
+            packed(points, [](const RecordPoint& p) { return p.block.slenderness; }),
+            packed(points, [](const RecordPoint& p) { return p.block.restitution; })};
+        const auto together = run(block, excitation_of<upwards>(points));
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const auto alone = run(points[lane].block, excitation_of<upwards>(points[lane]));
+            expect_bits(together.state.tilt, lane, alone.state.tilt);
+            expect_bits(together.state.rate, lane, alone.state.rate);
+            expect_bits(together.state.side, lane, alone.state.side);
+            expect_bits(together.impacts, lane, alone.impacts);
+            expect_bits(together.steps, lane, alone.steps);
+            expect_bits(together.error, lane, alone.error);
+            expect_bits(together.peak, lane, alone.peak);
+        }
+    }
+}
+
+TEST(RecordInLanes, EndsLikeInADouble)
+{
+    expect_equal_ends<false, Records{.impacts = true, .error = true}>();
+    expect_equal_ends<true, Records{.impacts = true, .error = true}>();
+    expect_equal_ends<true, Records{.peak = true}>();
+}
+
+} // namespace
+} // namespace overturn

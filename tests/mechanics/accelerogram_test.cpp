@@ -1,0 +1,84 @@
+#include "support/random_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace overturn {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool lifts(const Accelerogram& record, std::int64_t i, double scale, double threshold)
+{
+    const double upwards = record.upwards().empty() ? 0 : record.upwards()[std::size_t(i)];
+    return scale * std::abs(record.horizontal()[std::size_t(i)]) >
+           (1 + scale * upwards) * threshold;
+}
+
+TEST(Accelerogram, FindsTheFirstSampleThatLifts)
+{
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int found = 0;
+    int missed = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Accelerogram record = random_record(generator, 2 + i % 30, i % 2 == 0);
+        const double scale = uniform(generator) * std::min(record.largest_scale(), 10.0);
+        const double threshold = random_threshold(generator, record, scale);
+        for (std::int64_t first = 0; first <= record.samples(); ++first) {
+            std::int64_t expected = first;
+            while (expected < record.samples() && !lifts(record, expected, scale, threshold)) {
+                ++expected;
+            }
+            ASSERT_EQ(record.first_lifting(first, scale, threshold), expected);
+            ++(expected < record.samples() ? found : missed);
+        }
+    }
+    EXPECT_GT(found, 5000); // so that neither is trivial
+    EXPECT_GT(missed, 5000);
+}
+
+TEST(Accelerogram, ASampleAtTheThresholdDoesNotLift)
+{
+    const Accelerogram record = accelerogram({0, 0.25, -0.5});
+    EXPECT_EQ(record.first_lifting(0, 1, 0.5), 3);
+    EXPECT_EQ(record.first_lifting(0, 1, 0.25), 2);
+    EXPECT_EQ(record.first_lifting(0, 1, std::nextafter(0.25, 0)), 1);
+    // A fall of the ground by half of g halves the threshold.
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, 1), 3);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, 0.99), 2);
+}
+
+TEST(Accelerogram, LargestScaleLeavesGravityPositive)
+{
+    EXPECT_EQ(accelerogram({1, 2, -3}).largest_scale(), infinity);
+    EXPECT_EQ(accelerogram({1, 2}, {0, 5}).largest_scale(), infinity);
+    EXPECT_EQ(accelerogram({1, 2}, {4, -0.5}).largest_scale(), 2);
+    std::mt19937_64 generator(4);
+    for (int i = 0; i < 100; ++i) {
+        const Accelerogram record = random_record(generator, 20, true);
+        const auto gravity = [&](double scale) {
+            double least = infinity;
+            for (const double v : record.upwards()) {
+                least = std::min(least, 1 + scale * v);
+            }
+            return least;
+        };
+        if (record.largest_scale() < infinity) {
+            EXPECT_GT(gravity(0.999 * record.largest_scale()), 0);
+            EXPECT_LT(gravity(1.001 * record.largest_scale()), 0);
+        }
+    }
+}
+
+TEST(Accelerogram, PeaksAreTheLargestOfAllSamples)
+{
+    const Accelerogram record = accelerogram({0.5, -2, 1, 0}, {-0.25, 0.5, 0, -1});
+    EXPECT_EQ(record.peak(), 2);
+    EXPECT_EQ(record.upwards_peak(), 1);
+    EXPECT_EQ(accelerogram({1, 0}).upwards_peak(), 0);
+}
+
+} // namespace
+} // namespace overturn
