@@ -42,8 +42,8 @@ inline constexpr const char* accuracy = R"(Example:
   overturn accuracy jobs/figure_07a.toml -o accuracy.h5
   tools/plot_accuracy accuracy.h5
 
-Runs both methods at tolerances from 1e-2 to 1e-14, and with resolved verdicts, on a sample of the
-job's plane, on one core. [numerics] and the fields of the job are ignored. OUT.h5 contains these
+Runs both methods (under a record, taylor) at tolerances from 1e-2 to 1e-14, and with resolved
+verdicts at those down to 1e-8, on a sample of the job's plane, on one core. [numerics] and the fields of the job are ignored. OUT.h5 contains these
 columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if the block falls in only one of
@@ -57,7 +57,7 @@ inline constexpr const char* history = R"(Example:
   overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
   tools/plot_history history.h5
 
-Prints the region and the events; for each event, the velocity before and after it, and q
+Prints the region and the first 24 events; for each, the velocity before and after it, and q
 (Eq. 12) after it. Angles are in rad, times are tau = p t. OUT.h5 contains angle, velocity,
 acceleration, q and the ground acceleration over time. The pulse is integrated as accurately as
 doubles allow, regardless of [numerics].)";

@@ -146,8 +146,8 @@ std::vector<Dimension> dimensions_of(const Job& job)
                           {"motion", numbers, "number of the ground motion in the job", "1"});
     }
     if (job.product == Product::boundary) {
-        dimensions.push_back(
-            {"crossing", plane.amplitude, "flips of the verdict along the amplitude, from 0", "1"});
+        dimensions.push_back({"crossing", plane.amplitude,
+                              "number of the flip along the amplitude, counted from 0", "1"});
     } else {
         dimensions.push_back(
             {std::string(name_of(plane.amplitude_is)), plane.amplitude,

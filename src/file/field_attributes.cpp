@@ -36,26 +36,26 @@ Description description_of(Field field)
     switch (field) {
     case Field::region:
         return {
-            "region of the block's state at the end of the pulse", "",
+            "region of the block's state at the end of the ground motion", "",
             "S: safe within the separatrix; S_plus, S_minus: safe due to the loss at the next "
             "impact; U0: overturns without another impact; U1: overturns after one more impact; "
-            "F: falls during the pulse",
+            "F: falls during the ground motion",
             std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
             regions + " undecided not_computed"};
     case Field::status:
-        return {"flags set during the integration of the pulse", "",
+        return {"flags set during the integration of the ground motion", "",
                 "0: no flag is set; 255: not computed yet",
                 std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
                                           status::not_finite, status::unresolved,
                                           status::free_fall},
                 "came_to_rest cap_was_hit not_finite unresolved free_fall"};
     case Field::impacts:
-        return {"number of impacts during the pulse", "1", "",
+        return {"number of impacts during the ground motion", "1", "",
                 std::vector<std::uint16_t>{impact_count::largest, impact_count::not_computed,
                                            impact_count::bounce_series},
                 "this_many_or_more not_computed bounce_series"};
-    case Field::angle: return {"angle theta of the block at the end of the pulse", "rad"};
-    case Field::velocity: return {"d theta / d(p t) at the end of the pulse", "rad"};
+    case Field::angle: return {"angle theta of the block at the end of the ground motion", "rad"};
+    case Field::velocity: return {"d theta / d(p t) at the end of the ground motion", "rad"};
     case Field::margin: return {"distance from the other verdict, positive where safe", "1"};
     case Field::error:
         return {"bound of the error of the margin", "1",
@@ -63,7 +63,7 @@ Description description_of(Field field)
                 "not have happened, or was only just avoided; a verdict is certain where |margin| "
                 "is larger"};
     case Field::peak:
-        return {"largest |theta| / alpha during the pulse and after it", "1",
+        return {"largest |theta| / alpha during the ground motion and after it", "1",
                 "infinite where the block overturns"};
     case Field::fall_time:
         return {"p t from the first uplift to |theta| = pi/2", "1",

@@ -17,7 +17,7 @@ struct Quantity {
     double HistorySample::*value;
 };
 
-constexpr Quantity time_of_sample{"time", "tau = p t since the beginning of the pulse", "1",
+constexpr Quantity time_of_sample{"time", "tau = p t since the beginning of the ground motion", "1",
                                   &HistorySample::time};
 constexpr Quantity quantities[] = {
     {"angle", "theta", "rad", &HistorySample::angle},

@@ -164,7 +164,7 @@ void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
     if (path[0] == "block") {
-        erase_keys(job["plane"].as_table(), {"slenderness"});
+        erase_keys(job["plane"].as_table(), {"slenderness", "size", "frequency_parameter"});
     }
     if (path[0] == "plane" && path.size() >= 2 && path[1] == "slenderness") {
         erase_keys(&job, {"block"});
@@ -175,6 +175,11 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
             erase_keys(axis, {"first", "last", "count", "spacing"});
         } else if (path[2] == "first" || path[2] == "last" || path[2] == "count") {
             erase_keys(axis, {"values"});
+        }
+    }
+    for (const auto& [one, other] : {std::pair("scale", "pga"), {"size", "frequency_parameter"}}) {
+        if (path[0] == "plane" && path.size() >= 2 && (path[1] == one || path[1] == other)) {
+            erase_keys(job["plane"].as_table(), {path[1] == one ? other : one});
         }
     }
     if (path == Path{"scene", "record"}) {

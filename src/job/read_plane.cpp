@@ -92,18 +92,18 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
 {
     const double limit = std::asin(std::sqrt(2.0 / 3.0));
     const double last = plane.slenderness.last();
+    const char* has_slenderness = plane.block ? " has the slenderness" : " reaches";
     if (plane.restitution_of == RestitutionOf::maximum && !(last < limit)) {
-        refuse(
-            slenderness,
-            fmt::format(" reaches {} rad, but plane.restitution.of = \"maximum\" is defined only "
-                        "below arcsin sqrt(2/3) = {} rad (Eq. 17). Choose a more slender "
-                        "block, or use of = \"absolute\".",
-                        last, limit));
+        refuse(slenderness,
+               fmt::format("{} {} rad, but plane.restitution.of = \"maximum\" is defined only "
+                           "below arcsin sqrt(2/3) = {} rad (Eq. 17). Choose a more slender "
+                           "block, or use of = \"absolute\".",
+                           has_slenderness, last, limit));
     }
     if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {
-        refuse(slenderness, fmt::format(" reaches {} rad, where the largest restitution times {} "
+        refuse(slenderness, fmt::format("{} {} rad, where the largest restitution times {} "
                                         "(plane.restitution[0]) is 0. Choose a more slender block.",
-                                        last, plane.restitution.first()));
+                                        has_slenderness, last, plane.restitution.first()));
     }
     const double largest = plane.restitution_ratio(0, plane.restitution.size() - 1);
     if (!(largest <= 1)) {

@@ -133,10 +133,11 @@ RecordFile read_text_with_unit(const Lines& lines, const std::string& name,
                                 ? "is empty. Give a file with a recorded motion."
                                 : "has no samples. Give a file with a recorded motion.");
     }
-    lines.refuse(fmt::format("{} begins no known format: AT2 (NPTS and DT in line 4), V2A, SMC, or "
-                             "text of one or two columns, in which # or % precedes comments. "
-                             "Convert the file to one of these.",
-                             quoted(trimmed(lines.line()))));
+    lines.refuse(fmt::format(
+        "{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, SMC, or "
+        "text of one or two columns, in which # or % precedes comments. "
+        "Convert the file to one of these.",
+        quoted(trimmed(lines.line()))));
 }
 
 /// Refuses options that a file states itself.

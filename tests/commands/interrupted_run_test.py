@@ -11,7 +11,7 @@ from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, is
                      under_mpi, words)
 
 
-class AnInterruptedRun(Scratch):
+class ScratchWithRuns(Scratch):
     whole = None  # checksum of the uninterrupted file
 
     def setUp(self):
@@ -57,6 +57,8 @@ class AnInterruptedRun(Scratch):
         self.assert_exit(result, 0, f"resuming: {done} of 147 tiles done")
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
 
+
+class AnInterruptedRun(ScratchWithRuns):
     def test_is_not_affected_by_a_second_run_of_the_same_job(self):
         process = self.start()
         (self.folder / "link.h5").symlink_to("long.h5")
@@ -110,6 +112,39 @@ class AnInterruptedRun(Scratch):
             self.assert_exit(self.overturn("verify", "small.h5"), 0)
             (self.folder / "small.h5").unlink()
 
+    def test_resumes_after_the_death_of_mpirun(self):
+        process = self.start(ranks=2)
+        ranks = ranks_of(process.pid)
+        process.kill()
+        process.communicate(timeout=PATIENCE)
+        self.wait_for_end(ranks)
+        self.assert_resumes(ranks=3)
+
+    def test_resumes_after_the_death_of_a_rank(self):
+        process = self.start(ranks=3)
+        ranks = ranks_of(process.pid)
+        os.kill(ranks[1], signal.SIGKILL)
+        process.communicate(timeout=PATIENCE)
+        self.assertNotEqual(process.returncode, 0)
+        self.wait_for_end(ranks)
+        self.assert_resumes(ranks=None)
+
+    def test_resumes_after_a_rank_could_not_write(self):
+        process = self.start(ranks=2)
+        process.send_signal(signal.SIGUSR1)
+        process.communicate(timeout=PATIENCE)
+        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
+        for ranks in (None, 3):
+            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
+            if ranks is not None and is_mpich() and result.returncode == 9:
+                result.returncode = 74  # its launcher killed the rank that had not failed
+            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
+            if ranks is not None:
+                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
+        self.assert_resumes(ranks=2)
+
+
+class AStopInTime(ScratchWithRuns):
     def test_stops_at_once_while_its_file_is_created(self):
         command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
                    "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
@@ -157,37 +192,6 @@ class AnInterruptedRun(Scratch):
                     output, _ = process.communicate(timeout=PATIENCE / 2)
                     self.assert_stopped(process.returncode, output, ranks)
                     self.assertRegex(output, "stopped by a signal; tiles missing: ([0-9]+) of \\1")
-
-    def test_resumes_after_the_death_of_mpirun(self):
-        process = self.start(ranks=2)
-        ranks = ranks_of(process.pid)
-        process.kill()
-        process.communicate(timeout=PATIENCE)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=3)
-
-    def test_resumes_after_the_death_of_a_rank(self):
-        process = self.start(ranks=3)
-        ranks = ranks_of(process.pid)
-        os.kill(ranks[1], signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        self.assertNotEqual(process.returncode, 0)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=None)
-
-    def test_resumes_after_a_rank_could_not_write(self):
-        process = self.start(ranks=2)
-        process.send_signal(signal.SIGUSR1)
-        process.communicate(timeout=PATIENCE)
-        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
-        for ranks in (None, 3):
-            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
-            if ranks is not None and is_mpich() and result.returncode == 9:
-                result.returncode = 74  # its launcher killed the rank that had not failed
-            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
-            if ranks is not None:
-                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
-        self.assert_resumes(ranks=2)
 
 
 if __name__ == "__main__":

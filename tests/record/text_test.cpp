@@ -192,10 +192,10 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "file."},
     Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
             "a.txt:4: the time is 0.040 s, but must be 0.03 s within half a unit of its last digit: times must be "
-            "even, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
+            "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
     Refusal{"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
             "a.txt:101: the time is 0.505 s, but must be 0.5 s within half a unit of its last digit: times must be "
-            "even, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
+            "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
     Refusal{"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s does not follow 0 s, the time before. Give ascending times with enough digits, "
             "or one column and time_step."},

@@ -105,7 +105,8 @@ struct RecordExcitation {
     }
 
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
-    /// uplift `latest` [samples]; infinite if there is none.
+    /// uplift `latest` [samples]; infinite if there is none. Between two samples, the ground must
+    /// not be lifting the block at `phase`.
     T next_uplift(const mask_t<T>& lanes, const T& phase, const T& latest) const
     {
         using std::abs;
