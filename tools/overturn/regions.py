@@ -21,6 +21,7 @@ REGIONS = {
 }
 NOT_COMPUTED = 255
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
+LAST_SAFE = 2  # the largest code of a safe block
 LEFT_STANDING = 6  # the largest code of a block that is not overturned during the ground motion
 
 
