@@ -5,6 +5,7 @@ Requires OVERTURN (the binary) in the environment.
 
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -12,7 +13,7 @@ import unittest
 import h5py
 import numpy as np
 import xarray
-from tool import run_tool
+from tool import TOOLS, run_tool
 
 OVERTURN = os.environ["OVERTURN"]
 
@@ -129,6 +130,72 @@ class TestTheWhole(Spectra):
         with xarray.open_dataset(self.folder / "joined.h5") as spectrum:
             self.assertEqual(spectrum.region.sel(slenderness=0.2, restitution=0.7).shape,
                              (100, 150))
+
+
+class TestRecords(Spectra):
+    """Two records and two restitutions; the records are in a folder below that of the job."""
+
+    PLANE = """
+        [plane]
+        pga = { first = 0.2, last = 1.5, count = 30 }
+        size = { first = 0.3, last = 3.0, count = 20 }
+        restitution = { values = [0.7, 1.0], of = "maximum" }
+        """
+    BLOCK = """
+        [plane]
+        pga = { values = [0.4, 0.6] }
+        restitution = 0.9
+        [block]
+        half_width = 0.2
+        half_height = 1.0
+        """
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "suite").mkdir()
+        for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
+            shutil.copy(TOOLS.parent / "jobs" / name, self.folder / "suite")
+        self.write_job(self.PLANE)
+
+    def write_job(self, plane):
+        (self.folder / "job.toml").write_text("[scene]\nrecord = \"suite/*.AT2\"\n" + plane)
+
+    def test_join_to_the_file_of_one_run(self):
+        self.compute("outer.h5", [0.15, 0.25])
+        self.compute("inner.h5", [0.2])
+        self.compute("at_once.h5", [0.15, 0.2, 0.25])
+        self.assert_joins("outer.h5", "inner.h5")
+        self.assert_equal_files("joined.h5", "at_once.h5")
+
+    def test_are_found_from_the_folder_of_the_job(self):
+        self.compute("one.h5", [0.15])
+        (self.folder / "elsewhere").mkdir()
+        here = {"cwd": self.folder / "elsewhere"}
+        run = run_tool("join_spectra", "../one.h5", "-o", "joined.h5", **here)
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("Name the folder of the job file with --job-folder", run.stderr)
+        run = run_tool("join_spectra", "../one.h5", "-o", "joined.h5", "--job-folder=no", **here)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("there is no folder \"no\"", run.stderr)
+        run = run_tool("join_spectra", "../one.h5", "-o", "joined.h5", "--job-folder=..", **here)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(os.listdir(self.folder / "elsewhere"), ["joined.h5"])
+        self.assert_equal_files("elsewhere/joined.h5", "one.h5")
+
+    def test_that_have_changed_are_refused(self):
+        self.compute("one.h5", [0.15])
+        path = self.folder / "suite" / "synthetic.AT2"
+        path.write_text(path.read_text().replace("0.0000021", "0.0000022"))
+        run = self.join("one.h5", "-o", "joined.h5")
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("differ in more than slenderness: scene.record", run.stderr)
+
+    def test_of_blocks_in_metres_are_refused(self):
+        self.write_job(self.BLOCK)
+        self.compute("block.h5", None)
+        run = self.join("block.h5", "-o", "joined.h5")
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("\"block.h5\" has a [block], which also gives its size", run.stderr)
 
 
 class TestAJoinRefused(Spectra):

@@ -80,7 +80,7 @@ class Described(Picture):
 
     def assert_values_of(self, name, steps, folder=None):
         with h5py.File(self.folder / name) as file:
-            pairs = list(np.ndindex(file["region"].shape[:2]))
+            pairs = list(np.ndindex(file["region"].shape[:-2]))
             self.assertEqual(len(steps), len(pairs))
             for step, pair in zip(steps, pairs):
                 found = self.values(step, folder)

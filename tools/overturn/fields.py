@@ -13,6 +13,14 @@ def dimensions_of(file):
     return words or ["slenderness", "restitution", rows, "frequency"]  # of the first format
 
 
+def slenderness_and_restitution(file, outer):
+    """Returns slenderness [rad] and restitution of the block at one index of the outer
+    dimensions."""
+    place = dict(zip(dimensions_of(file), outer))
+    i, j = place["slenderness"], place["restitution"]
+    return float(file["slenderness"][i]), float(file["restitution_ratio"][i, j])
+
+
 def fields_of(file):
     """Returns the names of all variables over all dimensions."""
     rank = len(dimensions_of(file))

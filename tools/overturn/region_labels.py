@@ -6,7 +6,7 @@ import re
 import numpy as np
 from overturn.regions import CODES
 
-PATTERN = re.compile(r"(?P<text>[^=]+)=(?P<region>[^@]+)@(?P<frequency>[^,]+),(?P<amplitude>.+)")
+PATTERN = re.compile(r"(?P<text>[^=]+)=(?P<region>[^@]+)@(?P<across>[^,]+),(?P<up>.+)")
 MOST_CELLS = 400  # per side: connected pieces are found cell by cell
 
 
@@ -20,7 +20,7 @@ class Label:
                 f"\"{words}\" is not of the form III=S+@5,10 with one of {', '.join(CODES)}")
         self.text, self.code = match["text"], CODES[match["region"]]
         try:
-            self.frequency, self.amplitude = float(match["frequency"]), float(match["amplitude"])
+            self.across, self.up = float(match["across"]), float(match["up"])
         except ValueError as error:
             raise argparse.ArgumentTypeError(f"\"{words}\": {error}") from error
 
@@ -29,16 +29,16 @@ class Label:
         found = np.argwhere(codes == self.code)
         if not len(found):
             return np.zeros(codes.shape, bool)
-        aim = np.array([up.share(self.amplitude), across.share(self.frequency)])
+        aim = np.array([up.share(self.up), across.share(self.across)])
         distance = np.linalg.norm((found + 0.5) / codes.shape - aim, axis=1)
         return connected(codes == self.code, found[np.argmin(distance)])
 
 
 def add_label_argument(parser):
     parser.add_argument("--label", type=Label, action="append", default=[],
-                        metavar="TEXT=REGION@FREQUENCY,AMPLITUDE",
+                        metavar="TEXT=REGION@X,Y",
                         help="write TEXT into the connected piece of REGION (S+, U0-, ...) that is "
-                             "nearest to the point; repeatable")
+                             "nearest to the point with these values on the axes; repeatable")
 
 
 def thinned(cells):

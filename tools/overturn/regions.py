@@ -21,7 +21,8 @@ REGIONS = {
 }
 NOT_COMPUTED = 255
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
-LEFT_STANDING = 6  # the largest code of a block that is not overturned during the pulse
+LAST_SAFE = 2  # the largest code of a safe block
+LEFT_STANDING = 6  # the largest code of a block that is not overturned during the ground motion
 
 
 def coloured(codes):
@@ -32,11 +33,13 @@ def coloured(codes):
     return table[codes]
 
 
-def legend_entries(codes):
-    """One entry per region in the picture, and one per kind of point without a region."""
+def legend_entries(codes, ground="pulse"):
+    """One entry per region in the picture, and one per kind of point without a region; `ground` is
+    a word for the ground motion."""
     entries = []
     for code, (name, meaning, colour) in REGIONS.items():
         if code in codes:
+            meaning = meaning.replace("the pulse", f"the {ground}")
             label = f"{name}  {meaning}" if name else meaning
             entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
     if NOT_COMPUTED in codes:

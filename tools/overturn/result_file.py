@@ -44,9 +44,14 @@ def title_of(file, shown=()):
     return title
 
 
+def escaped(text):
+    """Returns the text with dollar signs escaped for Matplotlib."""
+    return text.replace("$", r"\$")
+
+
 def plain(title, width=90):
-    """Returns a title that fits, with dollar signs escaped for Matplotlib."""
-    return shortened(title, width).replace("$", r"\$")
+    """Returns a title that fits, escaped for Matplotlib."""
+    return escaped(shortened(title, width))
 
 
 def open_result(path, kind, wanted):

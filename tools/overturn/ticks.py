@@ -1,4 +1,5 @@
-"""Ticks of logarithmic axes. Matplotlib labels powers of ten only: just one from 1.13 to 11.3."""
+"""Scales and ticks of axes. On logarithmic axes Matplotlib labels powers of ten only: just one from
+1.13 to 11.3."""
 
 import numpy as np
 from matplotlib.ticker import FixedLocator, MaxNLocator, NullFormatter
@@ -26,3 +27,13 @@ def name_ticks(axis):
     if axis.get_scale() == "log":
         axis.set_major_locator(FixedLocator(log_ticks(*sorted(axis.get_view_interval()))))
         axis.set_minor_formatter(NullFormatter())
+
+
+def set_axes(panel, across, up):
+    """Sets scales, limits and ticks of a panel from two Axis of spectrum_file. An axis of one value
+    has one tick: the width of its cell has no meaning."""
+    panel.set(xscale=across.scale, yscale=up.scale, xlim=across.limits(), ylim=up.limits())
+    for drawn, axis in ((panel.xaxis, across), (panel.yaxis, up)):
+        name_ticks(drawn)
+        if axis.only_value is not None:
+            drawn.set_ticks([axis.only_value], [f"{axis.only_value:.6g}"])

@@ -1,0 +1,133 @@
+"""The picture of a history under a record.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import os
+import pathlib
+import runpy
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+from tool import TOOLS, run_tool
+
+OVERTURN = os.environ["OVERTURN"]
+JOB = """
+    title = "A job"
+    [scene]
+    pulse = "one_sine"
+    [plane]
+    frequency = { values = [3.0] }
+    amplitude = { values = [1.3] }
+    restitution = { values = [1.0], of = "maximum" }
+    slenderness = { values = [0.2] }
+    """
+TOOL = runpy.run_path(str(TOOLS / "plot_history"))
+IMPACT = 1  # as numbered in the file
+
+
+class TestAHistoryUnderARecord(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "job.toml").write_text(JOB)
+        subprocess.run([OVERTURN, "history", "job.toml", "-o", "history.h5"], cwd=self.folder,
+                       check=True, capture_output=True, timeout=100)
+
+    def under_a_record(self, **attributes):
+        """Replaces the pulse of the history by a record."""
+        attributes = {"scale": 0.6, "size": 3.0, **attributes}
+        with h5py.File(self.folder / "history.h5", "a") as file:
+            for name in ("pulse", "frequency", "amplitude"):
+                del file.attrs[name]
+            file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, **attributes})
+
+    def picture(self, *arguments):
+        run = run_tool("plot_history", "history.h5", "-o", "picture.svg", *arguments,
+                       cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.folder / "picture.svg").read_text("utf-8")
+
+    def history(self, start=0, until=np.inf):
+        with h5py.File(self.folder / "history.h5") as file:
+            return TOOL["History"](file, start, until)
+
+    def test_is_in_seconds_and_in_alpha(self):
+        self.under_a_record()
+        p = np.sqrt(3 * 9.81 / (4 * 3.0))
+        history = self.history()
+        with h5py.File(self.folder / "history.h5") as file:
+            np.testing.assert_allclose(history.time, file["time"][:] / p)
+            np.testing.assert_allclose(history.values["angle"], file["angle"][:] / 0.2)
+            np.testing.assert_array_equal(history.values["ground"], file["ground"][:])
+            self.assertAlmostEqual(history.end_of_ground_motion, file.attrs["end_of_pulse"] / p)
+            impacts = file["event_time"][:][file["event_kind"][:] == IMPACT]
+            np.testing.assert_allclose(history.impacts(), impacts / p)
+        self.assertEqual(history.limits("angle"), (-1, 1))
+
+    def test_takes_the_frequency_parameter_if_the_file_has_it(self):
+        self.under_a_record()
+        with h5py.File(self.folder / "history.h5", "a") as file:
+            del file.attrs["size"]
+            file.attrs["frequency_parameter"] = 2.0
+            last = file["time"][-1]
+        self.assertAlmostEqual(self.history().time[-1], last / 2)
+
+    def test_shows_ground_and_tilt_with_their_events(self):
+        self.under_a_record()
+        picture = self.picture()
+        for words in ("A job", "uplift", "at rest", "time since the start of the record  [s]"):
+            self.assertIn(f">{words}<", picture)
+        with h5py.File(self.folder / "history.h5") as file:
+            count = np.count_nonzero(file["event_kind"][:] == IMPACT)
+        self.assertRegex(picture, f">{count} impacts?<")
+        self.assertNotIn("velocity", picture)
+
+    def test_states_the_point_and_the_outcome(self):
+        for strength, words in (({"scale": 0.6}, "scale = 0.6"), ({"pga": 0.5}, "PGA = 0.5 g")):
+            with h5py.File("point", "w", driver="core", backing_store=False) as file:
+                file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, "size": 3.0,
+                                   "theory": "nonlinear", "slenderness": 0.2, "restitution": 0.9,
+                                   "region": 8, **strength})
+                self.assertEqual(TOOL["describe"](file),
+                                 rf"a_\$1\$.AT2, {words}, $R$ = 3 m, $\alpha$ = 0.2 rad, "
+                                 "$r$ = 0.9: overturns during the record (F−)")
+
+    def test_without_a_title_is_titled_by_its_record(self):
+        self.under_a_record(title="")
+        self.assertIn(">a_$1$.AT2<", self.picture())
+
+    def test_is_drawn_from_and_until_given_times(self):
+        self.under_a_record()
+        history = self.history(1.0, 2.0)
+        self.assertTrue((history.time >= 1).all() and (history.time <= 2).all())
+        self.assertTrue(all(1 <= when <= 2 for when, _, _ in history.events))
+        self.picture("--from", "1", "--until", "2")
+        run = run_tool("plot_history", "history.h5", "--from", "3", "--until", "2", cwd=self.folder)
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("has no data from 3 s to 2 s", run.stderr)
+
+    def test_without_a_size_is_damaged(self):
+        self.under_a_record()
+        with h5py.File(self.folder / "history.h5", "a") as file:
+            del file.attrs["size"]
+        run = run_tool("plot_history", "history.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("is damaged", run.stderr)
+
+    def test_under_a_pulse_keeps_its_units_and_panels(self):
+        history = self.history()
+        with h5py.File(self.folder / "history.h5") as file:
+            np.testing.assert_array_equal(history.time, file["time"][:])
+            np.testing.assert_array_equal(history.values["angle"], file["angle"][:])
+        picture = self.picture()
+        for words in ("velocity", "acceleration"):
+            self.assertIn(words, picture)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,120 @@
+"""Words in pictures: axes, ground motion, block. An index `outer` is that of one spectrum."""
+
+import functools
+import pathlib
+
+from overturn.fields import count_tiles, dimensions_of, slenderness_and_restitution
+from overturn.result_file import escaped, text_attribute, title_of
+
+PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
+          "antisymmetric_ricker": "antisymmetric Ricker wavelet"}
+AXES = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
+        "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
+        "crossing": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
+        "scale": "scale of the record",
+        "pga": "PGA [g]",
+        "size": r"size  $R$ [m]",
+        "frequency_parameter": r"$p$ [1/s]"}
+MOST_LETTERS = 32  # of the name of a record beside other words
+
+
+def is_linear(file):
+    return text_attribute(file, "theory") == "linear"
+
+
+def is_recorded(file):
+    return "record" in file.attrs
+
+
+def ground_word(file):
+    return "record" if is_recorded(file) else "pulse"
+
+
+def name_axes(file):
+    """Returns the labels of the horizontal and the vertical axis."""
+    threshold = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
+    up, across = (AXES[name].replace("{threshold}", threshold)
+                  for name in dimensions_of(file)[-2:])
+    return across, up
+
+
+def file_name(path):
+    return pathlib.PurePosixPath(path).name
+
+
+@functools.cache
+def motion_names(file):
+    """Returns the name of each record: that of its file, or path and index if several files of the
+    suite have the same name."""
+    paths = [row.tobytes().decode(errors="replace").rstrip("\0") for row in file["motion_name"][:]]
+    names = [file_name(path) for path in paths]
+    if len(set(names)) == len(names):
+        return names
+    return [f"{path} (motion {place})" for place, path in enumerate(paths)]
+
+
+def value_text(file, name, place):
+    """Returns the value of an outer dimension at an index."""
+    return motion_names(file)[place] if name == "motion" else f"{file[name][place]:g}"
+
+
+def block_text(file, outer):
+    alpha, r = slenderness_and_restitution(file, outer)
+    share = ""
+    if text_attribute(file["restitution"], "of") == "maximum":
+        value = file["restitution"][outer[dimensions_of(file).index("restitution")]]
+        share = " = r_max" if value == 1 else f" = {value:g} r_max"
+    return f"α = {alpha:.4g} rad,  r{share} = {r:.4g}"
+
+
+def motion_text(file, outer):
+    """Returns the record and, if the picture shows its scale, its peak acceleration."""
+    names = dimensions_of(file)
+    motion = outer[names.index("motion")]
+    name = motion_names(file)[motion]
+    if len(name) > MOST_LETTERS:
+        name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
+    return name + (f", PGA {file['pga'][motion]:.3g} g" if "scale" in names else "")
+
+
+def spectrum_words(file, outer):
+    """Returns what distinguishes a spectrum from others: its record, if any, and its block."""
+    motion = [motion_text(file, outer)] if is_recorded(file) else []
+    return [*motion, block_text(file, outer)]
+
+
+def panel_titles(file, spectra):
+    """Returns what differs among the spectra, for each of them."""
+    words = [spectrum_words(file, outer) for outer in spectra]
+    differs = [len(set(column)) > 1 for column in zip(*words)]
+    return [escaped("\n".join(word for word, shown in zip(each, differs) if shown))
+            for each in words]
+
+
+def subtitle(file, spectra):
+    """Returns pulse, theory, what all spectra have in common, and a note on missing tiles."""
+    words = []
+    if not is_recorded(file):
+        pulse = text_attribute(file, "pulse")
+        words.append(PULSES.get(pulse, pulse.replace("_", "-") + " pulse"))
+    if "window" in file.attrs:
+        words.append(f"window {float(file.attrs['window']):g}")
+    if is_linear(file):
+        words.append("linear theory")
+    for column in zip(*(spectrum_words(file, outer) for outer in spectra)):
+        if len(set(column)) == 1:
+            words.append(escaped(column[0]))
+    done, tiles = count_tiles(file)
+    if done < tiles:
+        words.append(f"unfinished: {done} of {tiles} tiles computed")
+    return ",  ".join(words)
+
+
+def heading(file, spectra):
+    """Returns the job's title; under records without a title, the name of the record."""
+    title = title_of(file)
+    if title or not is_recorded(file):
+        return title
+    motion = dimensions_of(file).index("motion")
+    shown = {outer[motion] for outer in spectra}
+    return motion_names(file)[shown.pop()] if len(shown) == 1 else f"{len(shown)} records"
