@@ -16,9 +16,9 @@ class ScratchWithRuns(Scratch):
 
     def setUp(self):
         super().setUp()
-        if AnInterruptedRun.whole is None:
+        if ScratchWithRuns.whole is None:
             self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
-            AnInterruptedRun.whole = checksum(self.folder / "whole.h5")
+            ScratchWithRuns.whole = checksum(self.folder / "whole.h5")
 
     def tiles_done(self):
         text = words(self.overturn("info", "long.h5").stdout)
