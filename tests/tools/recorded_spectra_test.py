@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 import numpy as np
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_PLUS, UNDECIDED,
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_PLUS, UNDECIDED,
                                 Picture, add_field, shares, where)
 from to_xdmf_test import Described, follow
 from tool import TOOLS, run_tool  # first: adds the package to the path

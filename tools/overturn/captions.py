@@ -42,6 +42,13 @@ def file_name(path):
     return pathlib.PurePosixPath(path).name
 
 
+def ground_text(file):
+    """Returns the pulse, or the file of the record."""
+    if is_recorded(file):
+        return file_name(text_attribute(file, "record"))
+    return text_attribute(file, "pulse").replace("_", "-")
+
+
 @functools.cache
 def motion_names(file):
     """Returns the name of each record: that of its file, or path and index if several files of the
@@ -95,8 +102,7 @@ def subtitle(file, spectra):
     """Returns pulse, theory, what all spectra have in common, and a note on missing tiles."""
     words = []
     if not is_recorded(file):
-        pulse = text_attribute(file, "pulse")
-        words.append(PULSES.get(pulse, pulse.replace("_", "-") + " pulse"))
+        words.append(PULSES.get(text_attribute(file, "pulse"), ground_text(file) + " pulse"))
     if "window" in file.attrs:
         words.append(f"window {float(file.attrs['window']):g}")
     if is_linear(file):
