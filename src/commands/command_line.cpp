@@ -178,7 +178,8 @@ Command read_command_line(int argc, const char* const* argv)
         ->check(CLI::PositiveNumber);
     history_command
         ->add_option("--samples", history_options.samples,
-                     "Number of evenly spaced times; events are added")
+                     "Number of evenly spaced times, at least the samples of a record; events are "
+                     "added")
         ->check(CLI::Range(2, 10000000))
         ->capture_default_str();
 

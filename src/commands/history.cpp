@@ -159,6 +159,9 @@ int history(const HistoryOptions& options)
         .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first())};
     expect_gravity(job, point.amplitude);
     HistoryView view{.samples = options.samples};
+    if (!job.motions.empty()) { // the samples of the record are shown, too
+        view.samples = int(std::max<std::int64_t>(view.samples, job.motions.front().samples));
+    }
     if (options.until > 0) {
         view.until = options.until;
     }

@@ -49,7 +49,8 @@ class Misjudged:
 
     def legend_entry(self):
         return Patch(facecolor=COLOUR, edgecolor="black", linewidth=0.5,
-                     label=f"safe, although |θ| reaches α:\n{self.total}")
+                     label="safe, although |θ| reaches α:\n"
+                     + self.total.replace(" safe points", "\nsafe points"))
 
 
 def picture(region, peak):
