@@ -230,8 +230,15 @@ class ABadRecord(ScratchWithRecords):
     def test_excludes_a_pulse_and_its_axes(self):
         self.refused("scene.window cannot be combined with scene.record", scene__window="1")
         self.refused("plane.amplitude", plane__amplitude="1")
-        self.refused("plane.pga cannot be combined with plane.scale", plane__pga="1")
         self.refused('numerics.method = "rk45" is for pulses only', numerics__method="rk45")
+
+    def test_takes_one_strength_and_one_size(self):
+        for one, other in (("scale", "pga"), ("size", "frequency_parameter")):
+            text = JOB.replace("slenderness =", f"{other} = 1\nslenderness =")
+            (self.folder / "job.toml").write_text(text)
+            self.refused(f"plane.{other} cannot be combined with plane.{one}")
+            (self.folder / "job.toml").write_text(JOB)
+            self.assert_exit(self.overturn("check", "job.toml", f"--set=plane.{other}=1"), 0, other)
 
     def test_may_be_replaced_by_a_pulse_and_back(self):
         pulse = ("--set=scene.pulse=one_sine", "--set=plane.frequency=2", "--set=plane.amplitude=3")

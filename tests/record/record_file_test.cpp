@@ -94,7 +94,8 @@ TEST(RecordText, IsRefusedIfItHasNoSamples)
 TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
 {
     EXPECT_EQ(refusal_of("# a\n\nEVENT_NAME: none\nSTATION: none\n"),
-              "a.txt:3: \"EVENT_NAME: none\" is not the beginning of a known format: AT2 (NPTS and DT in line 4), "
+              "a.txt:3: \"EVENT_NAME: none\" is not the beginning of a known format: AT2 (NPTS and "
+              "DT in line 4), "
               "V2A, SMC, or text of one or two columns, in which # or % precedes comments. Convert "
               "the file to one of these.");
 }
