@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/crossing.hpp"
-#include "overturn/integrate/event_correction.hpp"
+#include "overturn/integrate/first_event.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/mechanics/excitation.hpp"
@@ -93,11 +93,12 @@ public:
         T h = select<T>(last, left, longest);
 
         const Mask none = active && !active;
-        FirstEvent event{h, none, none};
+        FirstEvent<T> event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
-        const Mask suspect = active && may_meet(bounds, noise(h));
+        const T noise = dip_of_round_off(slenderness_, T(h * unit_));
+        const Mask suspect = active && may_meet<T>(bounds, noise);
         if (any<T>(suspect)) {
-            event = first_event_not_inlined(series, bounds, h, suspect);
+            event = first_event_not_inlined(series, bounds, h, noise, suspect);
             last = last && event.time == h;
             h = event.time;
         }
@@ -140,12 +141,6 @@ private:
         const T towards = now.side * excitation_.acceleration;
         return is_wavelet_ ? select<T>(now.phase < lost_, towards, T(S(0))) : towards;
     }
-
-    struct FirstEvent {
-        T time; ///< the end of the step: at the event, or before an event that is not yet certain
-        Mask strikes;
-        Mask falls;
-    };
 
     /// The longest step, in units: for the last four n, rate[n] h^n is at most the tolerance times
     /// the size of the motion, which is the larger of tilt + |rate| at the beginning and at the
@@ -286,75 +281,12 @@ private:
         return term * ratio / (T(S(1)) - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
     }
 
-    struct Gap {
-        T width; // [rad]
-        T rate;  // [rad per unit]
-    };
-
-    /// The gap to the ground, or to pi/2 in the lanes that fall.
-    static Gap gap_at(const Series& series, const T& time, const Mask& falls)
+    [[gnu::noinline]] FirstEvent<T> first_event_not_inlined(const Series& series,
+                                                            const Enclosure<T>& bounds, const T& h,
+                                                            const T& noise,
+                                                            const Mask& suspect) const
     {
-        const T tilt = value_of_series(series.tilt, time);
-        const T rate = value_of_series(series.rate, time);
-        return {select<T>(falls, T(pi<S>() / 2) - tilt, tilt), select<T>(falls, -rate, rate)};
-    }
-
-    T noise(const T& h) const { return dip_of_round_off(slenderness_, T(h * unit_)); }
-
-    /// Lanes in which the block may strike the ground or reach pi/2 within the step.
-    static Mask may_meet(const Enclosure<T>& tilt, const T& noise)
-    {
-        return lower_bound(tilt.lower()) < -noise ||
-               T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
-    }
-
-    /// The first impact or fall within the step. There is none before the first zero of the bound
-    /// of the enclosure. From there on, a gap g that closes at the speed v with |acceleration| <= M
-    /// is certain to close, exactly once, if v^2 > 2 M g. Otherwise the step ends there, and the
-    /// next one has a tighter enclosure.
-    FirstEvent first_event(const Series& series, const Enclosure<T>& bounds, const T& h,
-                           const Mask& suspect) const
-    {
-        const T zero(S(0));
-        const T one(S(1));
-        const T noise = this->noise(h);
-        const auto first_fall = [&](const Quintic<T>& gap) -> T {
-            const Mask may_close = suspect && lower_bound(gap) < -noise;
-            return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : one + one;
-        };
-        const T ground = first_fall(bounds.lower());
-        const T flat = first_fall(room_above(bounds.upper()));
-        const Mask falls = flat < ground;
-        const T share = select<T>(falls, flat, ground);
-        const Mask near = suspect && share <= one;
-        const T time = h * share;
-
-        const Gap here = gap_at(series, time, falls);
-        const T slope = slope_of_series(series.rate, time);
-        const T acceleration = select<T>(falls, -slope, slope);
-        const T most = steepest(series.rate, h);
-        const Mask stuck = share < T(S(0x1p-40));
-        const Mask closes =
-            here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
-        // Corrections of third order. Together with the one at the end of the step, three of them
-        // are sufficient for doubles: an error of 0.2 of the time becomes less than 1e-18.
-        T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
-        constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
-        for (int i = 0; i < more; ++i) {
-            const T somewhere = select<T>(near && closes, event_time, time); // within the step
-            const Gap there = gap_at(series, somewhere, falls);
-            event_time = event_time + event_correction(there.width, there.rate, acceleration).delay;
-        }
-        const Mask sure = near && closes && event_time <= h;
-        const T end = select<T>(near, time, h);
-        return {select<T>(sure, event_time, end), sure && !falls, sure && falls};
-    }
-
-    [[gnu::noinline]] FirstEvent first_event_not_inlined(const Series& series,
-                                                         const Enclosure<T>& bounds, const T& h,
-                                                         const Mask& suspect) const
-    {
-        return straight_line<T>([&] { return first_event(series, bounds, h, suspect); });
+        return straight_line<T>([&] { return first_event(series, bounds, h, noise, suspect); });
     }
 
     const T slenderness_;

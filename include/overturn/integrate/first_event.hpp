@@ -1,0 +1,88 @@
+// The first impact or fall within a step of a Taylor series.
+#pragma once
+
+#include "overturn/integrate/crossing.hpp"
+#include "overturn/integrate/event_correction.hpp"
+#include "overturn/integrate/power_series.hpp"
+#include "overturn/mechanics/rocking_series.hpp"
+
+namespace overturn {
+
+template <Number T>
+struct FirstEvent {
+    T time; ///< the end of the step: at the event, or before an event that is not yet certain
+    mask_t<T> strikes;
+    mask_t<T> falls;
+};
+
+/// The lanes in which the block may strike the ground or reach pi/2 within the step.
+/// tilt: encloses the tilt [rad]. noise: by how much round-off lowers a tilt of 0 [rad].
+template <Number T>
+mask_t<T> may_meet(const Enclosure<T>& tilt, const T& noise)
+{
+    using S = scalar_t<T>;
+    return lower_bound(tilt.lower()) < -noise ||
+           T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
+}
+
+/// The gap to the ground, or to pi/2.
+template <Number T>
+struct Gap {
+    T width; ///< [rad]
+    T rate;  ///< [rad per unit]
+};
+
+/// The gap in every lane, to pi/2 in those that fall.
+template <int order, Number T>
+Gap<T> gap_at(const RockingSeries<order, T>& series, const T& time, const mask_t<T>& falls)
+{
+    const T tilt = value_of_series(series.tilt, time);
+    const T rate = value_of_series(series.rate, time);
+    return {select<T>(falls, T(pi<scalar_t<T>>() / 2) - tilt, tilt), select<T>(falls, -rate, rate)};
+}
+
+/// The first impact or fall within a step of length h. There is none before the first zero of the
+/// bound of the enclosure. From there on, a gap g that closes at the speed v with
+/// |acceleration| <= M is certain to close, exactly once, if v^2 > 2 M g. Otherwise the step ends
+/// there, and the next one has a tighter enclosure.
+template <int order, Number T>
+FirstEvent<T> first_event(const RockingSeries<order, T>& series, const Enclosure<T>& bounds,
+                          const T& h, const T& noise, const mask_t<T>& suspect)
+{
+    using S = scalar_t<T>;
+    using Mask = mask_t<T>;
+    const T zero(S(0));
+    const T one(S(1));
+    const auto first_fall = [&](const Quintic<T>& gap) -> T {
+        const Mask may_close = suspect && lower_bound(gap) < -noise;
+        return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : one + one;
+    };
+    const T ground = first_fall(bounds.lower());
+    const T flat = first_fall(room_above(bounds.upper()));
+    const Mask falls = flat < ground;
+    const T share = select<T>(falls, flat, ground);
+    const Mask near = suspect && share <= one;
+    const T time = h * share;
+
+    const Gap<T> here = gap_at(series, time, falls);
+    const T slope = slope_of_series(series.rate, time);
+    const T acceleration = select<T>(falls, -slope, slope);
+    const T most = steepest(series.rate, h);
+    const Mask stuck = share < T(S(0x1p-40));
+    const Mask closes =
+        here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
+    // Corrections of third order. Together with the one at the end of the step, three of them
+    // are sufficient for doubles: an error of 0.2 of the time becomes less than 1e-18.
+    T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
+    constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
+    for (int i = 0; i < more; ++i) {
+        const T somewhere = select<T>(near && closes, event_time, time); // within the step
+        const Gap<T> there = gap_at(series, somewhere, falls);
+        event_time = event_time + event_correction(there.width, there.rate, acceleration).delay;
+    }
+    const Mask sure = near && closes && event_time <= h;
+    const T end = select<T>(near, time, h);
+    return {select<T>(sure, event_time, end), sure && !falls, sure && falls};
+}
+
+} // namespace overturn
