@@ -33,7 +33,10 @@ last of the job at which the verdict flips from safe to unsafe or back, with the
 sides. The amplitudes of the job are computed first; where they indicate more flips between them,
 the steps are halved. Each flip lies between two settled verdicts whose amplitudes differ by at
 most 1e-12 of their size, regardless of [numerics]. If a block already overturns at the first
-amplitude, overturn info reports it. The same command resumes an unfinished run.)";
+amplitude, overturn info reports it. The same command resumes an unfinished run.
+
+Under a record there is no complete list: the steps are divided down to 0.1 % of the amplitude, and
+thinner strips exist. The share of the scanned interval that overturns is stored as well.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";

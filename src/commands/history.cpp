@@ -155,7 +155,7 @@ int history(const HistoryOptions& options)
     const PlanePoint point{
         .slenderness = job.plane.slenderness.first(),
         .restitution = job.plane.restitution_ratio(0, 0),
-        .amplitude = amplitude_of_point(job.scene, job.plane, 0, job.plane.amplitude.first()),
+        .amplitude = job.plane.amplitude.first() / amplitude_unit(job.scene, job.plane, 0),
         .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first())};
     expect_gravity(job, point.amplitude);
     HistoryView view{.samples = options.samples};

@@ -34,8 +34,9 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                         : fmt::format("{} values from {} to {}{}", size, first, last, ending));
 }
 
-/// The number of lines of a boundary without a minimum overturning amplitude, and of those with
-/// undecided verdicts; empty if both are 0.
+/// What a reader of a boundary must know: the number of lines without a minimum overturning
+/// amplitude, and of those with undecided verdicts, if there are any; under a record, the share of
+/// overturning, and that the flips depend on the scan.
 inline std::string lines_text(const BoundaryLines& lines)
 {
     std::string text;
@@ -47,6 +48,12 @@ inline std::string lines_text(const BoundaryLines& lines)
     };
     add(lines.unsafe_at_first, "overturning at the first amplitude of the job");
     add(lines.undecided, "with undecided amplitudes or more flips than are stored");
+    if (lines.has_shares && lines.computed > 0) {
+        text += fmt::format("{}overturning in {:.3g} % of the scanned interval, undecided in "
+                            "{:.2g} %; strips thinner than the steps of the scan exist",
+                            text.empty() ? "" : "; ", 100 * lines.unsafe_share,
+                            100 * lines.undecided_share);
+    }
     return text;
 }
 

@@ -52,7 +52,7 @@ struct Task {
     std::int64_t items() const
     {
         const bool lines = job.product == Product::boundary;
-        return job.plane.points() / (lines ? most_crossings : 1);
+        return job.plane.points() / (lines ? most_crossings(job.scene) : 1);
     }
     std::int64_t items(std::int64_t tiles) const
     {

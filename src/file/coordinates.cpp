@@ -186,7 +186,9 @@ std::vector<Coordinate> coordinates_of(const Job& job)
     if (is_boundary) {
         all.push_back(
             coordinate_of({layout::scan, job.scan,
-                           "amplitudes that were computed first to find the flips", "1"}));
+                           fmt::format("values of {} that were computed first to find the flips",
+                                       name_of(plane.amplitude_is)),
+                           "1"}));
     }
     all.push_back(restitution_ratio(plane));
     if (plane.motions > 0) {

@@ -20,7 +20,7 @@ using hdf5::write_attribute;
 
 /// The attributes of a field. An empty text or list is left out.
 struct Description {
-    const char* long_name;
+    std::string long_name;
     const char* units;
     const char* comment = "";
     std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::uint32_t>>
@@ -28,7 +28,7 @@ struct Description {
     std::string meanings = ""; ///< of the codes, in their order
 };
 
-Description description_of(Field field)
+Description description_of(Field field, const Job& job)
 {
     const std::string regions = fmt::format("{}", fmt::join(region_names, " "));
     const std::vector<std::uint8_t> regions_or_none{0, 1, 2, 3, 4, 5, 6, 7, 8, no_flip, 254, 255};
@@ -73,16 +73,17 @@ Description description_of(Field field)
                 std::vector<std::uint32_t>{step_count::not_computed}, "not_computed"};
     case Field::flip_amplitude:
         return {
-            "amplitude at which the verdict flips, in ascending order; NaN beyond the "
-            "last flip",
+            fmt::format("{} at which the verdict flips, in ascending order; NaN beyond the last "
+                        "flip",
+                        name_of(job.plane.amplitude_is)),
             "1",
             "each flip lies between two amplitudes with settled verdicts, at most `width` apart "
             "relative to their size. If region_below or region_above is undecided, the value is "
-            "not "
-            "a flip but the settled amplitude next to the undecided range. Between neighbours of "
-            "scan_amplitude the steps were halved where margins bend or impacts change, down to "
+            "not a flip but the settled amplitude next to the undecided range. Between neighbours "
+            "of scan_amplitude the steps were halved where margins bend or impacts change, down to "
             "`finest_step` of the amplitude. Strips that are thinner, or that the neighbouring "
-            "amplitudes do not indicate, may be missed"};
+            "amplitudes do not indicate, may be missed; under a record there always are such "
+            "strips"};
     case Field::region_below:
         return {
             "region just below the flip", "",
@@ -96,15 +97,22 @@ Description description_of(Field field)
                 "undecided: verdicts could not be settled up to the next flip, or this is the last "
                 "crossing and there are more flips",
                 regions_or_none, or_none};
+    case Field::unsafe_share:
+        return {"share of the scanned interval in which the block overturns", "1",
+                "under a record there are ever more flips at ever smaller steps; this share "
+                "depends on them little. Flips beyond the last crossing are included"};
+    case Field::undecided_share:
+        return {"share of the scanned interval in which the verdict could not be settled", "1"};
     }
     return {};
 }
 
 } // namespace
 
-void write_field_attributes(hid_t dataset, Field field, const std::string& coordinates)
+void write_field_attributes(hid_t dataset, Field field, const Job& job,
+                            const std::string& coordinates)
 {
-    const Description description = description_of(field);
+    const Description description = description_of(field, job);
     write_attribute(dataset, "long_name", description.long_name);
     write_attribute(dataset, "units", description.units);
     // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
@@ -114,8 +122,9 @@ void write_field_attributes(hid_t dataset, Field field, const std::string& coord
         write_attribute(dataset, "_FillValue", *not_a_number);
     }
     if (field == Field::flip_amplitude) {
-        write_attribute(dataset, "width", flip_width);
-        write_attribute(dataset, "finest_step", finest_step);
+        const SearchResolution resolution = search_resolution(job.scene);
+        write_attribute(dataset, "width", resolution.flip_width);
+        write_attribute(dataset, "finest_step", resolution.finest_step);
     }
     std::visit(
         [&](const auto& codes) {

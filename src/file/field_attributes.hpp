@@ -3,12 +3,13 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/sweep/fields.hpp"
+#include "overturn/job/job.hpp"
 
 #include <string>
 
 namespace overturn {
 
-void write_field_attributes(hid_t dataset, Field field, const std::string& coordinates);
+void write_field_attributes(hid_t dataset, Field field, const Job& job,
+                            const std::string& coordinates);
 
 } // namespace overturn

@@ -55,13 +55,14 @@ void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& p
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
-    const std::int64_t points = tiling.points_of_tile();
-    const std::int64_t bytes = points * std::int64_t(bytes_per_point(field));
+    const std::int64_t count =
+        is_of_line(field) ? tiling.tile_shape().back() : tiling.points_of_tile();
+    const std::int64_t bytes = count * std::int64_t(bytes_per_point(field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
-    const FieldValues values = not_computed(field, points);
+    const FieldValues values = not_computed(field, count);
     for (std::int64_t number = 0; number < tiling.size(); ++number) {
         between_tiles();
-        write_chunk(dataset, tiling[number], values);
+        write_chunk(dataset, tiling[number], field, values);
         if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
@@ -72,9 +73,11 @@ Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
                  const std::string& coordinates)
 {
     const layout::StoredAs stored = layout::stored_as(field);
-    const DatasetShape shape(tiling.shape().begin(), tiling.shape().end());
-    const Shape tile = tiling.tile_shape();
-    const DatasetShape chunk(tile.begin(), tile.end());
+    const auto of_field = [&](const Shape& of_points) {
+        return dimensions_of(field, DatasetShape(of_points.begin(), of_points.end()));
+    };
+    const DatasetShape shape = of_field(tiling.shape());
+    const DatasetShape chunk = of_field(tiling.tile_shape());
 
     const Handle creation = dataset_creation();
     check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
@@ -82,8 +85,8 @@ Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
                stored.fill);
     Handle dataset =
         create_dataset(file, std::string(name_of(field)), stored.file, shape, creation);
-    attach_dimensions(file, dataset, names_of(dimensions_of(job)));
-    write_field_attributes(dataset, field, coordinates);
+    attach_dimensions(file, dataset, dimensions_of(field, names_of(dimensions_of(job))));
+    write_field_attributes(dataset, field, job, coordinates);
     return dataset;
 }
 

@@ -175,7 +175,8 @@ void SpectrumFile::forget(const Tile& tile)
     try {
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
             const Field field = open_->fields[i];
-            write_tile(open_->datasets[i], tile, field, not_computed(field, tile.points()));
+            write_tile(open_->datasets[i], tile, field,
+                       not_computed(field, count_values(field, tile)));
         }
         write_checksum(open_->checksums, tile.number, not_computed_checksum);
     } catch (const hdf5::Hdf5Error& error) {

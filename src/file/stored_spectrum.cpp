@@ -151,11 +151,12 @@ void check_field(const StoredSpectrum& spectrum, Field field)
 {
     const Handle dataset = open_own_dataset(spectrum.file, std::string(name_of(field)));
     const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == spectrum.axes.size() && has_type(dataset, layout::stored_as(field).file),
+    const std::vector<AxisSummary> axes = dimensions_of(field, spectrum.axes);
+    demand(shape.size() == axes.size() && has_type(dataset, layout::stored_as(field).file),
            "a field is malformed");
     std::uint64_t room = spectrum.bytes / bytes_per_point(field);
     for (std::size_t i = 0; i < shape.size(); ++i) {
-        demand(shape[i] == hsize_t(spectrum.axes[i].size), "a field does not fit the axes");
+        demand(shape[i] == hsize_t(axes[i].size), "a field does not fit the axes");
         demand(shape[i] <= room, "a field is larger than the file");
         room /= shape[i];
     }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace overturn {
 
 namespace {
@@ -49,7 +51,15 @@ SpectrumSummary summarize(const std::string& path)
 
 BoundaryLines count_lines(const std::string& path)
 {
+    const StoredSpectrum stored = open_stored_spectrum(path);
     BoundaryLines lines;
+    lines.has_shares =
+        std::any_of(stored.fields.begin(), stored.fields.end(),
+                    [](const FieldSummary& field) { return field.field == Field::unsafe_share; });
+    std::vector<Field> fields{Field::region_below, Field::region_above};
+    if (lines.has_shares) {
+        fields.insert(fields.end(), line_fields.begin(), line_fields.end());
+    }
     const auto count = [&](const Tile& tile, const std::vector<FieldValues>& values) {
         const auto& below = std::get<std::vector<std::uint8_t>>(values[0]);
         const auto& above = std::get<std::vector<std::uint8_t>>(values[1]);
@@ -63,10 +73,17 @@ BoundaryLines count_lines(const std::string& path)
             }
             lines.undecided += undecided;
             lines.unsafe_at_first += is_unsafe(Region(below[column]));
+            if (lines.has_shares) {
+                lines.unsafe_share += std::get<std::vector<double>>(values[2])[column];
+                lines.undecided_share += std::get<std::vector<double>>(values[3])[column];
+            }
         }
     };
     for_each_computed_tile(
-        open_stored_spectrum(path), {Field::region_below, Field::region_above}, [] {}, count);
+        stored, fields, [] {}, count);
+    const auto computed = double(std::max<std::int64_t>(1, lines.computed));
+    lines.unsafe_share /= computed;
+    lines.undecided_share /= computed;
     return lines;
 }
 

@@ -17,25 +17,25 @@ using hdf5::Handle;
 
 using Extents = std::vector<hsize_t>;
 
-Extents extents_of(const Tile& tile)
+Extents extents_of(const Tile& tile, Field field)
 {
     Extents extents(tile.outer.size(), 1);
     extents.insert(extents.end(), {hsize_t(tile.row_count), hsize_t(tile.column_count)});
-    return extents;
+    return dimensions_of(field, std::move(extents));
 }
 
-Extents begin_of(const Tile& tile)
+Extents begin_of(const Tile& tile, Field field)
 {
     Extents begin(tile.outer.begin(), tile.outer.end());
     begin.insert(begin.end(), {hsize_t(tile.row_begin), hsize_t(tile.column_begin)});
-    return begin;
+    return dimensions_of(field, std::move(begin));
 }
 
 /// The part of a dataset that a tile occupies.
-Handle selection(hid_t dataset, const Tile& tile)
+Handle selection(hid_t dataset, const Tile& tile, Field field)
 {
-    const Extents begin = begin_of(tile);
-    const Extents count = extents_of(tile);
+    const Extents begin = begin_of(tile, field);
+    const Extents count = extents_of(tile, field);
     Handle space(H5Dget_space(dataset), H5Sclose);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr));
     return space;
@@ -43,26 +43,26 @@ Handle selection(hid_t dataset, const Tile& tile)
 
 /// The tile's values in memory, in the shape of the selection: if the shapes differ, HDF5 copies
 /// point by point, which took half as long as computing the points.
-Handle in_memory(const Tile& tile)
+Handle in_memory(const Tile& tile, Field field)
 {
-    const Extents count = extents_of(tile);
+    const Extents count = extents_of(tile, field);
     return Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose);
 }
 
 } // namespace
 
-FieldValues not_computed(Field field, std::int64_t points)
+FieldValues not_computed(Field field, std::int64_t count)
 {
     const auto stored = layout::stored_as(field);
     return std::visit(
-        [&](auto value) { return FieldValues(std::vector(std::size_t(points), value)); },
+        [&](auto value) { return FieldValues(std::vector(std::size_t(count), value)); },
         stored.fill);
 }
 
-void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values)
+void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {
     constexpr std::uint32_t no_filter_skipped = 0;
-    const Extents begin = begin_of(tile);
+    const Extents begin = begin_of(tile, field);
     std::visit(
         [&](const auto& list) {
             check(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter_skipped, begin.data(),
@@ -73,11 +73,11 @@ void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values)
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {
-    const Handle place = selection(dataset, tile);
-    const Handle memory = in_memory(tile);
+    const Handle place = selection(dataset, tile, field);
+    const Handle memory = in_memory(tile, field);
     std::visit(
         [&](const auto& list) {
-            assert(std::int64_t(list.size()) == tile.points());
+            assert(std::int64_t(list.size()) == count_values(field, tile));
             check(H5Dwrite(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,
                            list.data()));
         },
@@ -86,9 +86,9 @@ void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues&
 
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field)
 {
-    const Handle place = selection(dataset, tile);
-    const Handle memory = in_memory(tile);
-    FieldValues values = make_field_values(field, std::size_t(tile.points()));
+    const Handle place = selection(dataset, tile, field);
+    const Handle memory = in_memory(tile, field);
+    FieldValues values = make_field_values(field, std::size_t(count_values(field, tile)));
     std::visit(
         [&](auto& list) {
             check(H5Dread(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,

@@ -12,11 +12,28 @@
 
 namespace overturn {
 
-/// The fill values of points that are not computed yet.
-FieldValues not_computed(Field field, std::int64_t points);
+/// One entry per dimension of the field, given one per dimension of the points: a field of a line
+/// lacks the last but one.
+template <class List>
+List dimensions_of(Field field, List of_points)
+{
+    if (is_of_line(field)) {
+        of_points.erase(of_points.end() - 2);
+    }
+    return of_points;
+}
+
+/// The number of values of the field in a tile.
+inline std::int64_t count_values(Field field, const Tile& tile)
+{
+    return is_of_line(field) ? tile.column_count : tile.points();
+}
+
+/// The fill values of a field that is not computed yet.
+FieldValues not_computed(Field field, std::int64_t count);
 
 /// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
-void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values);
+void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);

@@ -193,26 +193,26 @@ double Job::largest_scale(const Motion& motion) const
 
 Job boundary_of(Job job)
 {
-    if (!job.motions.empty()) {
-        throw JobError("scene.record: boundaries are computed under pulses only. Compute a "
-                       "spectrum with overturn run.");
-    }
     if (job.plane.amplitude.size() == 1) {
-        throw JobError(fmt::format("plane.amplitude has one value, {}, but flips are found between "
-                                   "the first and the last. Give two or more values.",
-                                   job.plane.amplitude.first()));
+        throw JobError(fmt::format("plane.{} has one value, {}, but flips are found between the "
+                                   "first and the last. Give two or more values.",
+                                   name_of(job.plane.amplitude_is), job.plane.amplitude.first()));
     }
     job.product = Product::boundary;
     job.resolved = resolved_text(job);
     job.scan = job.plane.amplitude;
-    job.plane.amplitude = Axis(AxisRange{0, double(most_crossings - 1), most_crossings});
+    const std::int64_t crossings = most_crossings(job.scene);
+    job.plane.amplitude = Axis(AxisRange{0, double(crossings - 1), crossings});
     job.fields.assign(boundary_fields.begin(), boundary_fields.end());
-    // With fewer than 64 amplitudes, the boundary is larger than the spectrum.
+    if (job.scene.is_recorded()) {
+        job.fields.insert(job.fields.end(), line_fields.begin(), line_fields.end());
+    }
+    // With fewer amplitudes than crossings, the boundary is larger than the spectrum.
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "
                                    "slenderness, whose boundaries would take {:.4g} bytes, but at "
                                    "most {:.4g} are allowed. Lower the counts.",
-                                   size.points / most_crossings, size.bytes, most_bytes));
+                                   size.points / double(crossings), size.bytes, most_bytes));
     }
     return job;
 }
@@ -222,8 +222,9 @@ Tiling tiling_of(const Job& job)
     // A line of a boundary takes longer than a tile of a spectrum: about 10 ms, and much more for
     // slow pulses, under which blocks bounce very often.
     constexpr std::int64_t lines = 1;
-    return job.product == Product::boundary ? Tiling(shape_of(job.plane), most_crossings, lines)
-                                            : Tiling(job.plane);
+    return job.product == Product::boundary
+               ? Tiling(shape_of(job.plane), most_crossings(job.scene), lines)
+               : Tiling(job.plane);
 }
 
 } // namespace overturn

@@ -6,6 +6,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -24,16 +25,25 @@ constexpr std::size_t most_undecided = 16;
 class Line {
 public:
     Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested)
-        : scene_(scene), line_(line), kernel_(kernel), drop_requested_(std::move(drop_requested))
+        : resolution(search_resolution(scene)), scene_(scene), line_(line), kernel_(kernel),
+          drop_requested_(std::move(drop_requested))
     {}
+
+    const SearchResolution resolution;
+
+    bool is_narrow(const Probe& below, const Probe& above) const
+    {
+        return overturn::is_narrow(below.amplitude, above.amplitude, resolution.flip_width);
+    }
 
     std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
     {
         std::vector<PlanePoint> points;
         for (const double amplitude : amplitudes) {
-            points.push_back({line_.slenderness, line_.restitution, amplitude, line_.frequency});
+            points.push_back(
+                {line_.slenderness, line_.restitution, amplitude / line_.unit, line_.frequency});
         }
-        const PointRun run(scene_, std::move(points), kernel_, drop_requested_);
+        const PointRun run(scene_, std::move(points), kernel_, drop_requested_, line_.motion);
         const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true});
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
@@ -47,6 +57,23 @@ public:
     }
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
+
+    /// The amplitudes below that at which the vertical motion of the record cancels gravity; all
+    /// others are undecided.
+    std::vector<double> without_free_fall(std::vector<double> amplitudes)
+    {
+        const double free_fall =
+            scene_.is_recorded()
+                ? scene_.records[std::size_t(line_.motion)]->largest_scale() * line_.unit
+                : std::numeric_limits<double>::infinity();
+        const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
+        if (first != amplitudes.end()) {
+            add_undecided(*first);
+            add_undecided(amplitudes.back());
+            amplitudes.erase(first, amplitudes.end());
+        }
+        return amplitudes;
+    }
 
     /// Amplitudes whose verdict could not be settled, in the order of computation.
     const std::vector<Probe>& undecided() const { return undecided_; }
@@ -63,8 +90,8 @@ private:
     std::vector<Probe> undecided_;
 };
 
-/// Narrows the bracket of a flip to flip_width, or until a verdict within it cannot be settled. The
-/// margin changes its sign at the flip but may jump.
+/// Narrows the bracket of a flip to the flip width, or until a verdict within it cannot be settled.
+/// The margin changes its sign at the flip but may jump.
 std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above)
 {
     Probe low = below;
@@ -80,10 +107,12 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
         return probe.margin;
     };
     std::uintmax_t most_evaluations = 100;
+    const auto is_narrow = [&](double one, double other) {
+        return overturn::is_narrow(one, other, line.resolution.flip_width);
+    };
     boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
                                       above.margin, is_narrow, most_evaluations);
-    while (settled &&
-           !is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
+    while (settled && !line.is_narrow(low, high)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
     }
     return {low, high};
@@ -91,10 +120,10 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
 
 /// Bisects between two amplitudes at which the block overturns to different sides. Returns a safe
 /// amplitude, or the two closest ones if a verdict cannot be settled or the safe strip is thinner
-/// than flip_width.
+/// than the flip width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
-    while (!is_narrow(below.amplitude, above.amplitude)) {
+    while (!line.is_narrow(below, above)) {
         const Probe middle = line.at(middle_of(below, above));
         if (is_safe(middle.region)) {
             return {middle};
@@ -132,7 +161,7 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
     return found;
 }
 
-/// Halves the steps of the scan repeatedly where it is rough, down to finest_step.
+/// Halves the steps of the scan repeatedly where it is rough, down to the finest step.
 std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t most_flips)
 {
     forget_the_useless(probes, most_flips);
@@ -148,8 +177,8 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t mo
                 const Probe& above = probes[end];
                 // Other steps were checked before.
                 const bool is_new = below.halving == time || above.halving == time;
-                const bool is_wide =
-                    above.amplitude - below.amplitude > finest_step * above.amplitude;
+                const bool is_wide = above.amplitude - below.amplitude >
+                                     line.resolution.finest_step * above.amplitude;
                 if (end > halved && is_new && is_wide) {
                     middles.push_back(middle_of(below, above));
                     halved = end;
@@ -166,6 +195,27 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t mo
         sort_by_amplitude(probes);
         forget_the_useless(probes, most_flips);
     }
+    return probes;
+}
+
+/// Divides all steps of the scan down to the finest step. Under a record, a margin says nothing
+/// about the verdicts next to it: the block has often come to rest long before the end.
+std::vector<Probe> at_equal_steps(Line& line, const std::vector<double>& amplitudes)
+{
+    std::vector<double> all;
+    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+        if (i > 0) {
+            const double below = amplitudes[i - 1];
+            const double step = amplitudes[i] - below;
+            const double parts = std::ceil(step / (line.resolution.finest_step * amplitudes[i]));
+            for (double part = 1; part < parts; ++part) {
+                all.push_back(below + step * (part / parts));
+            }
+        }
+        all.push_back(amplitudes[i]);
+    }
+    std::vector<Probe> probes = line.at(all, scanning);
+    forget_the_useless(probes, std::numeric_limits<std::size_t>::max());
     return probes;
 }
 
@@ -193,6 +243,23 @@ void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
     sort_by_amplitude(probes);
 }
 
+/// Adds the shares of the interval between the first and the last of these ascending amplitudes.
+void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
+{
+    const double interval = probes.back().amplitude - probes.front().amplitude;
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+        const Probe& below = probes[i - 1];
+        const Probe& above = probes[i];
+        const double share = (above.amplitude - below.amplitude) / interval;
+        if (!below.is_settled() || !above.is_settled()) {
+            boundary.undecided_share += share;
+        } else { // a flip is in the middle between them
+            boundary.unsafe_share +=
+                share * (is_unsafe(below.region) + is_unsafe(above.region)) / 2;
+        }
+    }
+}
+
 } // namespace
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
@@ -200,8 +267,12 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
                      DropRequested drop_requested)
 {
     Line line(scene, where, kernel, drop_requested);
-    std::vector<Probe> probes = refined(line, line.at(amplitudes, scanning), most_flips);
-    add_hidden_verdicts(line, probes);
+    std::vector<Probe> probes = scene.is_recorded()
+                                    ? at_equal_steps(line, line.without_free_fall(amplitudes))
+                                    : refined(line, line.at(amplitudes, scanning), most_flips);
+    if (!scene.is_recorded()) {
+        add_hidden_verdicts(line, probes);
+    }
     std::vector<Probe> closer;
     for (std::size_t i = 1; i < probes.size() && closer.size() < 2 * most_flips; ++i) {
         if (is_flip(probes[i - 1], probes[i])) {
@@ -215,6 +286,9 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     Boundary boundary;
     boundary.region_at_first = probes.front().region;
     boundary.complete = line.undecided().empty();
+    if (scene.is_recorded()) {
+        add_shares(probes, boundary);
+    }
     for (std::size_t i = 1; i < probes.size() && !boundary.has_more; ++i) {
         const Probe& below = probes[i - 1];
         const Probe& above = probes[i];
@@ -230,40 +304,6 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
     }
     return boundary;
-}
-
-TileFields boundary_tile(const Scene& scene, const Plane& plane,
-                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
-                         DropRequested drop_requested)
-{
-    const auto points = std::size_t(tile.points());
-    std::vector<double> amplitude(points, std::numeric_limits<double>::quiet_NaN());
-    std::vector<std::uint8_t> below(points, no_flip);
-    std::vector<std::uint8_t> above(points, no_flip);
-    const auto rows = std::size_t(tile.row_count);
-    const auto columns = std::size_t(tile.column_count);
-    for (std::size_t column = 0; column < columns; ++column) {
-        const BoundaryLine line{
-            .slenderness = plane.slenderness[tile.outer[0]],
-            .restitution = plane.restitution_ratio(tile.outer[0], tile.outer[1]),
-            .frequency = plane.frequency[tile.column_begin + std::int64_t(column)]};
-        const Boundary boundary =
-            boundary_on(scene, line, amplitudes, kernel, rows, drop_requested);
-        below[column] = std::uint8_t(boundary.region_at_first);
-        for (std::size_t row = 0; row < boundary.flips.size(); ++row) {
-            const Flip& flip = boundary.flips[row];
-            const std::size_t point = row * columns + column;
-            amplitude[point] = flip.amplitude();
-            below[point] = std::uint8_t(flip.region_below);
-            above[point] = std::uint8_t(flip.region_above);
-        }
-        if (boundary.has_more) {
-            above[(rows - 1) * columns + column] = std::uint8_t(Region::undecided);
-        }
-    }
-    TileFields fields;
-    fields.values = {std::move(amplitude), std::move(below), std::move(above)};
-    return fields;
 }
 
 } // namespace overturn

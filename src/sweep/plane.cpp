@@ -77,11 +77,10 @@ double frequency_parameter(double half_diagonal, double gravity)
     return std::sqrt(3 * gravity / (4 * half_diagonal));
 }
 
-double amplitude_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
+double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion)
 {
-    return plane.amplitude_is == AmplitudeQuantity::pga
-               ? value / scene.records[std::size_t(motion)]->peak()
-               : value;
+    return plane.amplitude_is == AmplitudeQuantity::pga ? scene.records[std::size_t(motion)]->peak()
+                                                        : 1;
 }
 
 double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)

@@ -61,11 +61,11 @@ std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const 
         frequencies.push_back(
             frequency_of_point(scene, plane, motion, plane.frequency[tile.column_begin + column]));
     }
+    const double unit = amplitude_unit(scene, plane, motion);
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
     for (std::int64_t row = 0; row < tile.row_count; ++row) {
-        const double amplitude =
-            amplitude_of_point(scene, plane, motion, plane.amplitude[tile.row_begin + row]);
+        const double amplitude = plane.amplitude[tile.row_begin + row] / unit;
         for (const double frequency : frequencies) {
             *point++ = {slenderness, restitution, amplitude, frequency};
         }

@@ -7,9 +7,9 @@
 
 namespace overturn {
 
-bool is_narrow(double below, double above)
+bool is_narrow(double below, double above, double width)
 {
-    return above - below <= flip_width * above || std::nextafter(below, above) >= above;
+    return above - below <= width * above || std::nextafter(below, above) >= above;
 }
 
 double middle_of(const Probe& below, const Probe& above)

@@ -23,8 +23,8 @@ struct Probe {
     }
 };
 
-/// Whether the two amplitudes are within flip_width or adjacent doubles.
-bool is_narrow(double below, double above);
+/// Whether the two amplitudes are within this width, relative to them, or adjacent doubles.
+bool is_narrow(double below, double above, double width);
 
 double middle_of(const Probe& below, const Probe& above);
 

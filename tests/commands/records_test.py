@@ -247,9 +247,6 @@ class ABadRecord(ScratchWithRecords):
         self.assert_exit(self.overturn("check", "small.toml", *record,
                                        "--set=numerics.method=taylor"), 0, "one.AT2", "size")
 
-    def test_has_no_boundary(self):
-        self.assert_exit(self.overturn("boundary", "job.toml"), 65, "under pulses only")
-
 
 class AHistoryUnderARecord(ScratchWithRecords):
     def test_shows_the_ground_motion_and_the_peak_of_the_spectrum(self):

@@ -16,6 +16,7 @@ std::vector<double> evenly(double first, double last, int count)
     return Axis(AxisRange{first, last, count}).values();
 }
 
+const SearchResolution resolution = search_resolution({});
 const double paper_alpha = std::atan(1 / 5.67);
 const double paper_r_max = largest_restitution(paper_alpha);
 
@@ -27,7 +28,7 @@ void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplit
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const Flip& flip = boundary.flips[i];
         EXPECT_NEAR(flip.amplitude(), amplitudes[i], tolerance);
-        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
+        EXPECT_LE(flip.above - flip.below, resolution.flip_width * flip.above);
         EXPECT_NE(is_safe(flip.region_below), is_safe(flip.region_above));
     }
 }
@@ -130,7 +131,8 @@ void compare(const Boundary& coarse, const Boundary& fine, Comparison& compariso
 {
     const auto is_missed = [&](const Flip& flip) {
         return std::none_of(coarse.flips.begin(), coarse.flips.end(), [&](const Flip& other) {
-            return std::abs(flip.amplitude() - other.amplitude()) < 2 * flip_width * flip.above;
+            return std::abs(flip.amplitude() - other.amplitude()) <
+                   2 * resolution.flip_width * flip.above;
         });
     };
     std::size_t missed = 0;
@@ -185,7 +187,7 @@ TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreThin)
     const Comparison comparison = compare_scans(0.4, 0.7);
     EXPECT_GT(comparison.flips, 500u);
     EXPECT_LE(comparison.missed, comparison.flips / 50);
-    EXPECT_LT(comparison.widest_missed, 20 * finest_step);
+    EXPECT_LT(comparison.widest_missed, 20 * resolution.finest_step);
     EXPECT_LE(comparison.missed_by_the_finer,
               comparison.flips / 50); // by chance, depending on its steps
 }
@@ -204,7 +206,7 @@ TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
     for (std::size_t i = 0; i < 5; ++i) {
         // Brackets may differ, but not the flips between them.
         EXPECT_NEAR(five.flips[i].amplitude(), all.flips[i].amplitude(),
-                    2 * flip_width * all.flips[i].above);
+                    2 * resolution.flip_width * all.flips[i].above);
     }
     EXPECT_FALSE(boundary_on(scene, line, scan, widest_kernel(), all.flips.size()).has_more);
 }
@@ -225,7 +227,7 @@ void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
         EXPECT_EQ(verdict(flip.region_below), verdict(before));
         EXPECT_NE(verdict(flip.region_above), verdict(flip.region_below));
         EXPECT_LE(reached, flip.below);
-        EXPECT_LE(flip.above - flip.below, flip_width * flip.above);
+        EXPECT_LE(flip.above - flip.below, resolution.flip_width * flip.above);
         if (flip.region_below != Region::undecided) {
             EXPECT_EQ(region_at(line, flip.below), flip.region_below);
         }

@@ -10,7 +10,6 @@ PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet"}
 AXES = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
         "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
-        "crossing": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
         "scale": "scale of the record",
         "pga": "PGA [g]",
         "size": r"size  $R$ [m]",
@@ -30,12 +29,19 @@ def ground_word(file):
     return "record" if is_recorded(file) else "pulse"
 
 
+def scales_records(file):
+    """Returns whether an axis is the scale of records, not their peak acceleration."""
+    return is_recorded(file) and "record_pga" not in file
+
+
 def name_axes(file):
-    """Returns the labels of the horizontal and the vertical axis."""
+    """Returns the labels of the horizontal and the vertical axis; that of a boundary is the
+    amplitude of its flips."""
+    up, across = dimensions_of(file)[-2:]
+    if up == "crossing":
+        up = "scale" if scales_records(file) else "pga" if is_recorded(file) else "amplitude"
     threshold = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
-    up, across = (AXES[name].replace("{threshold}", threshold)
-                  for name in dimensions_of(file)[-2:])
-    return across, up
+    return tuple(AXES[name].replace("{threshold}", threshold) for name in (across, up))
 
 
 def file_name(path):
@@ -81,7 +87,7 @@ def motion_text(file, outer):
     name = motion_names(file)[motion]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
-    return name + (f", PGA {file['pga'][motion]:.3g} g" if "scale" in names else "")
+    return name + (f", PGA {file['pga'][motion]:.3g} g" if scales_records(file) else "")
 
 
 def spectrum_words(file, outer):

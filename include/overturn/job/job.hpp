@@ -24,8 +24,11 @@ public:
 /// What a job computes over its plane.
 enum class Product { spectrum, boundary };
 
-/// Maximum number of flips of a boundary that are stored for a block at one frequency.
-inline constexpr std::int64_t most_crossings = 64;
+/// Maximum number of flips of a boundary that are stored for a block at one frequency or size.
+inline std::int64_t most_crossings(const Scene& scene)
+{
+    return scene.is_recorded() ? 256 : 64;
+}
 
 /// A recorded ground motion of a job. A job read from a result file describes its records, but does
 /// not contain their accelerations.

@@ -26,17 +26,28 @@ struct Flip {
     double amplitude() const { return below + (above - below) / 2; }
 };
 
-/// The relative distance of the two amplitudes of a flip, unless they are adjacent doubles [1].
-inline constexpr double flip_width = 1e-12;
+/// How closely a line is searched for flips; both over the amplitude [1].
+struct SearchResolution {
+    double finest_step; ///< steps of the scan that are smaller are not halved
+    double flip_width;  ///< of the two amplitudes of a flip, unless they are adjacent doubles
+};
 
-/// The smallest step of a scan, over the amplitude; smaller steps are not halved [1].
-inline constexpr double finest_step = 1e-6;
+/// Under a record there are ever more flips at ever smaller steps, and the verdicts next to a flip
+/// need ever more digits.
+inline SearchResolution search_resolution(const Scene& scene)
+{
+    return scene.is_recorded() ? SearchResolution{.finest_step = 1e-3, .flip_width = 1e-4}
+                               : SearchResolution{.finest_step = 1e-6, .flip_width = 1e-12};
+}
 
 /// One line through a plane: all coordinates except the amplitude.
 struct BoundaryLine {
-    double slenderness; ///< [rad]
-    double restitution; ///< r [1]
-    double frequency;   ///< Omega [1]
+    double slenderness;      ///< [rad]
+    double restitution;      ///< r [1]
+    double frequency;        ///< see PlanePoint
+    std::int64_t motion = 0; ///< the number of the record, if there are any
+    double unit = 1;         ///< amplitudes over that of a PlanePoint: the peak of the record for
+                             ///< peak ground accelerations [1]
 };
 
 struct Boundary {
@@ -44,15 +55,21 @@ struct Boundary {
     std::vector<Flip> flips;                    ///< in ascending order
     bool complete = true;                       ///< all computed verdicts could be settled
     bool has_more = false;                      ///< there are flips above the last one
+    /// The shares of the interval of amplitudes at which the block overturns, and in which verdicts
+    /// could not be settled; under a record only, otherwise 0 [1].
+    double unsafe_share = 0;
+    double undecided_share = 0;
 };
 
 /// The lowest flips, at most most_flips, between the first and the last of these ascending
 /// amplitudes, all of which are computed.
-/// Steps are halved where the margin bends or the number of impacts changes, down to finest_step.
+/// Steps are halved where the margin bends or the number of impacts changes, down to the finest
+/// step of the search resolution.
 /// If the verdicts of two neighbours differ, there is a flip between them. If both overturn to
 /// different sides, there is a safe strip between them, however thin. If |margin| has a local
 /// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
-/// thinner than two steps of the scan that satisfies none of these criteria can be missed.
+/// thinner than two steps of the scan that satisfies none of these criteria can be missed. Under a
+/// record there are always such strips.
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
@@ -62,7 +79,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
 inline constexpr std::uint8_t no_flip = 253;
 
 /// The boundaries of a tile whose rows are the flips of a line in ascending order and whose columns
-/// are frequencies. Values in the order of boundary_fields; NaN and no_flip after the last flip,
+/// are frequencies. Values in the order of boundary_fields, then of the fields of a line under a
+/// record; NaN and no_flip after the last flip,
 /// except that region_below of a line without flips is the region at the first amplitude. If there
 /// are more flips than rows, the last region_above is undecided.
 TileFields boundary_tile(const Scene& scene, const Plane& plane,

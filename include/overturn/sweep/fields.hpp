@@ -26,13 +26,17 @@ enum class Field {
     // Fields of a boundary:
     flip_amplitude,
     region_below,
-    region_above
+    region_above,
+    // Fields of a line of a boundary under a record:
+    unsafe_share,
+    undecided_share
 };
 
 /// Names in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 13> field_names{
-    "region",  "angle", "velocity", "margin",         "error",        "peak",        "fall_time",
-    "impacts", "steps", "status",   "flip_amplitude", "region_below", "region_above"};
+inline constexpr std::array<std::string_view, 15> field_names{
+    "region",         "angle",        "velocity",     "margin",       "error",
+    "peak",           "fall_time",    "impacts",      "steps",        "status",
+    "flip_amplitude", "region_below", "region_above", "unsafe_share", "undecided_share"};
 
 /// The fields that a job can request: all except those of a boundary.
 inline constexpr auto spectrum_field_names = [] {
@@ -41,9 +45,16 @@ inline constexpr auto spectrum_field_names = [] {
     return names;
 }();
 
-/// The fields of a boundary.
+/// The fields of a boundary, and those that it also has under a record.
 inline constexpr std::array boundary_fields{Field::flip_amplitude, Field::region_below,
                                             Field::region_above};
+inline constexpr std::array line_fields{Field::unsafe_share, Field::undecided_share};
+
+/// Whether the field has one value per line of a boundary: it lacks the dimension `crossing`.
+constexpr bool is_of_line(Field field)
+{
+    return std::find(line_fields.begin(), line_fields.end(), field) != line_fields.end();
+}
 
 constexpr std::string_view name_of(Field field)
 {

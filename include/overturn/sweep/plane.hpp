@@ -69,10 +69,10 @@ double frequency_parameter(double half_diagonal, double gravity);
 
 struct Plane;
 
-/// PlanePoint::amplitude and PlanePoint::frequency of a value of an axis; motion: the number of the
-/// record.
-double amplitude_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
-                          double value);
+/// The value of the amplitude axis at PlanePoint::amplitude = 1; motion: the number of the record.
+double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion);
+
+/// PlanePoint::frequency of a value of the frequency axis; motion: the number of the record.
 double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
                           double value);
 
