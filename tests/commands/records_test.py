@@ -131,6 +131,16 @@ class ASpectrumUnderARecord(ScratchWithRecords):
         self.assertTrue(np.array_equal(safe[certain], later[certain]))
         self.assertLess((resolved.region.values == 254).mean(), 0.01)
 
+    def test_ends_with_a_verdict_or_a_flag_if_impacts_lose_no_energy(self):
+        self.run_job("--set", 'plane.restitution={ values = [1.0], of = "absolute" }', "--set",
+                     "plane.scale.count=9", "--set", "plane.size.count=9", "--set",
+                     "numerics.resolve=true")
+        data = self.opened()
+        undecided = data.region.values == 254
+        self.assertTrue((data.region.values[~undecided] <= 8).all())
+        self.assertTrue(np.array_equal(undecided, data.status.values & (2 | 8) != 0))
+        self.assertLess(undecided.mean(), 0.1)
+
 
 class OtherAxes(ScratchWithRecords):
     def test_pga_and_frequency_parameter_are_the_same_points(self):

@@ -3,6 +3,7 @@
 #include "point_run.hpp"
 #include "support/every_scene.hpp"
 #include "support/one_point.hpp"
+#include "support/random_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -89,6 +90,28 @@ TEST(ResolvedVerdicts, AreUndecidedIfMoreDigitsDoNotHelp)
     const Found found = compute(resolved_taylor, {0.3, 1, 0.02, 1.00002});
     EXPECT_EQ(found.region, Region::undecided);
     EXPECT_EQ(found.flags, status::unresolved);
+}
+
+TEST(ResolvedVerdicts, AreThoseOfAtMost32PointsUnderARecordIn50Digits)
+{
+    std::mt19937_64 generator(7);
+    RecordPoint point = random_record_point(generator, 150, false);
+    for (int i = 0; i < 245; ++i) { // the first one that needs 50 digits and takes few steps
+        point = random_record_point(generator, 150, false);
+    }
+    Scene scene;
+    scene.records = {std::make_shared<const Accelerogram>(point.record)};
+    const auto resolved = [&](std::size_t count) {
+        const PlanePoint block{point.block.slenderness, 1, point.scale, point.frequency};
+        const std::vector<PlanePoint> points(count, block);
+        return ends_of(PointRun(scene, points, widest_kernel()), resolved_taylor, {.region = true});
+    };
+    EXPECT_EQ(resolved(1).flags[0], 0);
+    const Ends ends = resolved(34);
+    for (std::size_t i = 0; i < 34; ++i) {
+        EXPECT_EQ(ends.flags[i] & end_flag::unresolved, i < 32 ? 0 : end_flag::unresolved) << i;
+        EXPECT_EQ(Region(ends.region[i]) == Region::undecided, i >= 32) << i;
+    }
 }
 
 TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
