@@ -3,12 +3,12 @@
 
     kills.py [--kills N] [--seed S]
 
-Each kill hits a run of 1, 2 or 4 ranks that creates or resumes a file: at a random write to the
-file (including writes that create it and those between a tile's values and its checksum; in half of
-the cases after half of the bytes), or a rank, mpirun, or all processes at a random time. After each
-kill, tiles marked as done must be correct, byte for byte, and each completed file must equal that
-of an undisturbed run. Requires OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the
-environment."""
+Half of the kills hit runs under a pulse, half runs under records. Each hits a run of 1, 2 or 4
+ranks that creates or resumes a file: at a random write to the file (including writes that create it
+and those between a tile's values and its checksum; in half of the cases after half of the bytes),
+or a rank, mpirun, or all processes at a random time. After each kill, tiles marked as done must be
+correct, byte for byte, and each completed file must equal that of an undisturbed run. Requires
+OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the environment."""
 
 import argparse
 import collections
@@ -30,22 +30,33 @@ from program import (ENVIRONMENT, OVERTURN, PATIENCE, from_environment,  # noqa:
                      under_mpi)
 
 LIBRARY = from_environment("FAULTY_DISK")
-SIDE = 64  # of a tile
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 FIELDS = ("region", "velocity", "margin")
-JOB = f"""
+COMMON = f"""
+[output]
+fields = {list(FIELDS)}
+""".replace("'", '"')
+PULSE = COMMON + """
 [scene]
 pulse = "one_sine"
 theory = "nonlinear"
 [plane]
-frequency = {{ first = 0.5, last = 8.0, count = 320 }}
-amplitude = {{ first = 0.5, last = 12.0, count = 250 }}
-restitution = {{ values = [0.7, 0.85, 1.0], of = "maximum" }}
-slenderness = {{ values = [0.1745716] }}
+frequency = { first = 0.5, last = 8.0, count = 320 }
+amplitude = { first = 0.5, last = 12.0, count = 250 }
+restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
+slenderness = { values = [0.1745716] }
 [numerics]
 tolerance = 1e-12
-[output]
-fields = {list(FIELDS)}
-""".replace("'", '"')
+"""
+RECORDS = COMMON + f"""
+[scene]
+record = ["{JOBS}/synthetic.AT2", "{JOBS}/synthetic_vertical.AT2"]
+[plane]
+scale = {{ first = 0.5, last = 4.0, count = 150 }}
+size = {{ first = 0.2, last = 3.0, count = 120 }}
+restitution = {{ values = [0.9, 1.0], of = "maximum" }}
+slenderness = {{ values = [0.2] }}
+"""
 
 
 class Loss(Exception):
@@ -53,11 +64,11 @@ class Loss(Exception):
 
 
 class Runs:
-    """Runs of one job in a folder, disturbed and undisturbed."""
+    """Runs of a job in a folder, disturbed and undisturbed."""
 
-    def __init__(self, folder, chance):
+    def __init__(self, folder, job, chance):
         self.folder, self.chance = pathlib.Path(folder), chance
-        (self.folder / "job.toml").write_text(JOB)
+        (self.folder / "job.toml").write_text(job)
         self.file = self.folder / "killed.h5"
         self.counts = collections.Counter()
         self.torn_checksums = set()
@@ -66,8 +77,9 @@ class Runs:
         self.seconds = time.monotonic() - began
         self.whole = (self.folder / "whole.h5").read_bytes()
         with h5py.File(self.folder / "whole.h5") as file:
-            self.values = {name: file[name][0] for name in FIELDS}
+            self.values = values_of(file)
             self.tiles = len(file["checksum"])
+            self.side = int(file["checksum"].attrs["tile_shape"][-1])
         # A tile consists of whole rows of its chunk and takes a write per field and one for its
         # checksum; the other writes create the file.
         self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
@@ -153,7 +165,7 @@ class Runs:
         self.note_torn_checksums(verdict)
         with h5py.File(self.file) as file:
             done = np.flatnonzero(file["checksum"][:])
-            stored = {name: file[name][0] for name in FIELDS}
+            stored = values_of(file)
         for tile in set(done) - self.torn_checksums:
             for name in FIELDS:
                 place = self.place(tile)
@@ -173,10 +185,11 @@ class Runs:
         self.torn_checksums = damaged
 
     def place(self, tile):
-        rows, columns = (-(-extent // SIDE) for extent in self.values["region"].shape[1:])
+        rows, columns = (-(-extent // self.side) for extent in self.values["region"].shape[1:])
         row, column = divmod(tile % (rows * columns), columns)
-        return (tile // (rows * columns), slice(row * SIDE, (row + 1) * SIDE),
-                slice(column * SIDE, (column + 1) * SIDE))
+        side = self.side
+        return (tile // (rows * columns), slice(row * side, (row + 1) * side),
+                slice(column * side, (column + 1) * side))
 
     def finish(self):
         self.run_undisturbed(self.file.name, self.chance.choice((1, 2, 3)))
@@ -201,6 +214,11 @@ class Runs:
             self.counts[f"  {where}"] += 1
         if self.last == 0 or self.chance.random() < 0.3:
             self.finish()
+
+
+def values_of(file):
+    """Returns the fields, with one plane per index of all outer dimensions."""
+    return {name: file[name][:].reshape(-1, *file[name].shape[-2:]) for name in FIELDS}
 
 
 def children(pid):
@@ -233,19 +251,25 @@ def main():
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        runs = Runs(folder, random.Random(arguments.seed))
-        try:
-            while runs.counts["kills"] < arguments.kills:
-                before = runs.counts["kills"]
-                runs.kill_once()
-                if runs.counts["kills"] % 20 == 0 and runs.counts["kills"] > before:
-                    print(f"{runs.counts['kills']} of {arguments.kills} kills", flush=True)
-            runs.finish()
-        except Loss as loss:
-            sys.exit(f"LOST after {runs.counts['kills']} kills (seed {arguments.seed}): {loss}")
-    for what in sorted(runs.counts, key=lambda name: (name[0] == " ", name)):
-        print(f"{runs.counts[what]:5d} {what}")
+    chance = random.Random(arguments.seed)
+    counts = collections.Counter()
+    for name, job in (("a pulse", PULSE), ("records", RECORDS)):
+        with tempfile.TemporaryDirectory() as folder:
+            runs = Runs(folder, job, chance)
+            wanted = arguments.kills // 2
+            try:
+                while runs.counts["kills"] < wanted:
+                    before = runs.counts["kills"]
+                    runs.kill_once()
+                    if runs.counts["kills"] % 20 == 0 and runs.counts["kills"] > before:
+                        print(f"{runs.counts['kills']} of {wanted} kills under {name}", flush=True)
+                runs.finish()
+            except Loss as loss:
+                sys.exit(f"LOST after {runs.counts['kills']} kills under {name} (seed "
+                         f"{arguments.seed}): {loss}")
+            counts += runs.counts
+    for what in sorted(counts, key=lambda name: (name[0] == " ", name)):
+        print(f"{counts[what]:5d} {what}")
     print("    0 tiles or runs lost, 0 bytes differ from an undisturbed run")
 
 
