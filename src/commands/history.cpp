@@ -19,9 +19,9 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> axis_names{
-    "frequency", "amplitude", "restitution", "slenderness",
-    "scale",     "pga",       "size",        "frequency_parameter"};
+constexpr std::array<std::string_view, 10> axis_names{
+    "frequency", "pulse_period", "pulse_frequency",     "amplitude",   "pga",
+    "scale",     "size",         "frequency_parameter", "restitution", "slenderness"};
 
 std::string trimmed(std::string text)
 {
@@ -152,10 +152,12 @@ int history(const HistoryOptions& options)
     if (refusal != exit_code::complete) {
         return refusal;
     }
+    const double slenderness = job.plane.slenderness.first();
     const PlanePoint point{
-        .slenderness = job.plane.slenderness.first(),
+        .slenderness = slenderness,
         .restitution = job.plane.restitution_ratio(0, 0),
-        .amplitude = job.plane.amplitude.first() / amplitude_unit(job.scene, job.plane, 0),
+        .amplitude =
+            job.plane.amplitude.first() / amplitude_unit(job.scene, job.plane, 0, slenderness),
         .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first())};
     expect_gravity(job, point.amplitude);
     HistoryView view{.samples = options.samples};

@@ -15,6 +15,17 @@ constexpr double exact = 0;
 constexpr double of_one_function = 4; // the error of each library is at most two
 constexpr double of_several = 100;    // largest_restitution amplifies those of its sine
 
+constexpr const char* long_name_of_frequency =
+    "angular frequency of the pulse, over the block's frequency parameter p";
+constexpr const char* long_name_of_pga = "peak ground acceleration, over g";
+
+/// Under a pulse.
+const char* long_name_of_amplitude(const Job& job)
+{
+    return job.scene.theory == Theory::linear ? "peak ground acceleration, over g alpha"
+                                              : "peak ground acceleration, over g tan(alpha)";
+}
+
 Coordinate coordinate_of(const Dimension& dimension)
 {
     const auto& [name, axis, long_name, units] = dimension;
@@ -51,23 +62,45 @@ Coordinate along(const char* dimension, const Axis& axis, const char* name,
     return {{name, {dimension}, {values.size()}, values, long_name, units}, of_several};
 }
 
-/// For a job whose block is given in metres.
-Coordinate pulse_period(const Job& job)
+/// Under a pulse, for blocks of known size: the period of every Omega, or Omega of every period or
+/// frequency in Hz.
+Coordinate other_frequency(const Job& job)
 {
+    const Plane& plane = job.plane;
     const double gravity = job.scene.gravity;
-    const double p = frequency_parameter(half_diagonal(*job.plane.block), gravity);
-    return along("frequency", job.plane.frequency, "pulse_period",
-                 fmt::format("period of the pulse, 2 pi / omega_p, with g = {} m/s2", gravity), "s",
-                 [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
+    if (plane.frequency_is == FrequencyQuantity::frequency) {
+        const double p = frequency_parameter(*plane.size, gravity);
+        return along("frequency", plane.frequency, "pulse_period",
+                     fmt::format("period of the pulse, 2 pi / omega_p, with g = {} m/s2", gravity),
+                     "s", [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
+    }
+    return along(name_of(plane.frequency_is).data(), plane.frequency, "frequency",
+                 fmt::format("{}, with g = {} m/s2", long_name_of_frequency, gravity), "1",
+                 [&](double value) { return frequency_of_point(job.scene, plane, 0, value); });
 }
 
-/// For a job whose block is given in metres.
-Coordinate peak_ground_acceleration(const Job& job)
+/// Under a pulse, for blocks of known size: the peak ground acceleration of every amplitude, or the
+/// amplitude of every peak ground acceleration; for each slenderness if there are several.
+Coordinate other_amplitude(const Job& job)
 {
-    const double threshold = uplift_threshold(job.scene.theory, job.plane.slenderness.first());
-    return along("amplitude", job.plane.amplitude, "peak_ground_acceleration",
-                 "peak ground acceleration, over g", "1",
-                 [&](double amplitude) { return amplitude * threshold; });
+    const Plane& plane = job.plane;
+    const bool is_pga = plane.amplitude_is == AmplitudeQuantity::pga;
+    std::vector<double> values;
+    for (const double slenderness : plane.slenderness.values()) {
+        const double threshold = uplift_threshold(job.scene.theory, slenderness);
+        for (const double value : plane.amplitude.values()) {
+            values.push_back(is_pga ? value / threshold : value * threshold);
+        }
+    }
+    std::vector<std::string> dimensions{std::string(name_of(plane.amplitude_is))};
+    netcdf::DatasetShape shape{hsize_t(plane.amplitude.size())};
+    if (plane.slenderness.size() > 1) {
+        dimensions.insert(dimensions.begin(), "slenderness");
+        shape.insert(shape.begin(), hsize_t(plane.slenderness.size()));
+    }
+    return {{is_pga ? "amplitude" : "pga", dimensions, shape, std::move(values),
+             is_pga ? long_name_of_amplitude(job) : long_name_of_pga, "1"},
+            of_several};
 }
 
 /// Under a record: R of every p, or p of every R.
@@ -97,11 +130,11 @@ Coordinate other_strength(const Job& job)
             values.push_back(is_scale ? value * peak : value / peak);
         }
     }
-    return {{is_scale ? "peak_ground_acceleration" : "scale",
+    return {{is_scale ? "scaled_pga" : "scale",
              {"motion", std::string(name_of(job.plane.amplitude_is))},
              {hsize_t(job.motions.size()), hsize_t(job.plane.amplitude.size())},
              std::move(values),
-             is_scale ? "peak ground acceleration, over g" : "factor on the record",
+             is_scale ? long_name_of_pga : "factor on the record",
              "1"},
             exact};
 }
@@ -132,7 +165,6 @@ void add_measures(const Job& job, std::vector<Coordinate>& all)
 std::vector<Dimension> dimensions_of(const Job& job)
 {
     const Plane& plane = job.plane;
-    const bool linear = job.scene.theory == Theory::linear;
     std::vector<Dimension> dimensions{
         {"slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
         {"restitution", plane.restitution,
@@ -152,9 +184,8 @@ std::vector<Dimension> dimensions_of(const Job& job)
         dimensions.push_back(
             {std::string(name_of(plane.amplitude_is)), plane.amplitude,
              plane.amplitude_is == AmplitudeQuantity::scale ? "factor on the record"
-             : plane.amplitude_is == AmplitudeQuantity::pga ? "peak ground acceleration, over g"
-             : linear ? "peak ground acceleration, over g alpha"
-                      : "peak ground acceleration, over g tan(alpha)",
+             : plane.amplitude_is == AmplitudeQuantity::pga ? long_name_of_pga
+                                                            : long_name_of_amplitude(job),
              "1"});
     }
     const auto column = [&](const char* long_name, const char* units) {
@@ -162,11 +193,18 @@ std::vector<Dimension> dimensions_of(const Job& job)
             {std::string(name_of(plane.frequency_is)), plane.frequency, long_name, units});
     };
     switch (plane.frequency_is) {
+    case FrequencyQuantity::pulse_period: column("period of the pulse", "s"); break;
+    case FrequencyQuantity::pulse_frequency: column("frequency of the pulse", "s-1"); break;
     case FrequencyQuantity::size: column("half diagonal R of the block", "m"); break;
     case FrequencyQuantity::frequency_parameter: column("p = sqrt(3g / 4R)", "s-1"); break;
-    default: column("angular frequency of the pulse, over the block's frequency parameter p", "1");
+    case FrequencyQuantity::frequency: column(long_name_of_frequency, "1");
     }
     return dimensions;
+}
+
+std::string name_of_scan(const Job& job)
+{
+    return layout::scan_prefix + std::string(name_of(job.plane.amplitude_is));
 }
 
 std::vector<Coordinate> coordinates_of(const Job& job)
@@ -185,7 +223,7 @@ std::vector<Coordinate> coordinates_of(const Job& job)
     }
     if (is_boundary) {
         all.push_back(
-            coordinate_of({layout::scan, job.scan,
+            coordinate_of({name_of_scan(job), job.scan,
                            fmt::format("values of {} that were computed first to find the flips",
                                        name_of(plane.amplitude_is)),
                            "1"}));
@@ -197,10 +235,10 @@ std::vector<Coordinate> coordinates_of(const Job& job)
             all.push_back(other_strength(job));
         }
         add_measures(job, all);
-    } else if (plane.block) {
-        all.push_back(pulse_period(job));
+    } else if (plane.size) {
+        all.push_back(other_frequency(job));
         if (!is_boundary) { // a boundary has crossings instead of amplitudes
-            all.push_back(peak_ground_acceleration(job));
+            all.push_back(other_amplitude(job));
         }
     }
     return all;

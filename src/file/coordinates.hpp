@@ -26,6 +26,9 @@ struct Dimension {
 /// Slowest first.
 std::vector<Dimension> dimensions_of(const Job& job);
 
+/// The coordinate of a boundary that contains the values computed first.
+std::string name_of_scan(const Job& job);
+
 /// In the order of the file: those of the dimensions first.
 std::vector<Coordinate> coordinates_of(const Job& job);
 

@@ -75,19 +75,22 @@ Description description_of(Field field, const Job& job)
         return {
             fmt::format("{} at which the verdict flips, in ascending order; NaN beyond the last "
                         "flip",
-                        name_of(job.plane.amplitude_is)),
+                        job.scene.is_recorded() ? "scale" : "amplitude"),
             "1",
             "each flip lies between two amplitudes with settled verdicts, at most `width` apart "
             "relative to their size. If region_below or region_above is undecided, the value is "
             "not a flip but the settled amplitude next to the undecided range. Between neighbours "
-            "of scan_amplitude the steps were halved where margins bend or impacts change, down to "
+            "of the scan the steps were halved where margins bend or impacts change, down to "
             "`finest_step` of the amplitude. Strips that are thinner, or that the neighbouring "
             "amplitudes do not indicate, may be missed; under a record there always are such "
             "strips"};
+    case Field::flip_pga:
+        return {"peak ground acceleration at which the verdict flips, over g", "1"};
     case Field::region_below:
         return {
             "region just below the flip", "",
-            "if there is no flip, the first crossing has the region at the first scan_amplitude. "
+            "if there is no flip, the first crossing has the region at the first amplitude of the "
+            "scan. "
             "A first flip above a safe region is the minimum overturning amplitude. If the first "
             "crossing has an unsafe region below, the block overturns at the first amplitude of "
             "the job",

@@ -27,7 +27,7 @@ inline constexpr const char* name_of(FileKind kind)
 inline constexpr char format_version[] = "format_version";
 inline constexpr std::int64_t newest_format = 2;
 
-inline constexpr char scan[] = "scan_amplitude";
+inline constexpr char scan_prefix[] = "scan_"; ///< followed by amplitude, scale or pga
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";

@@ -63,7 +63,6 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
         const std::size_t count = job.motions.size();
         write_attribute(file, "record",
                         count == 1 ? job.motions.front().file : fmt::format("{} records", count));
-        write_attribute(file, "gravity", job.scene.gravity);
     } else {
         write_attribute(file, "pulse", name_of(job.scene.pulse));
         if (has_window(job.scene.pulse)) {
@@ -71,6 +70,12 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
         }
     }
     write_attribute(file, "theory", name_of(job.scene.theory));
+    if (job.scene.is_recorded() || job.plane.size) {
+        write_attribute(file, "gravity", job.scene.gravity);
+    }
+    if (job.plane.size) {
+        write_attribute(file, "half_diagonal", *job.plane.size);
+    }
     if (job.plane.block) {
         write_attribute(file, "half_width", job.plane.block->half_width);
         write_attribute(file, "half_height", job.plane.block->half_height);

@@ -184,9 +184,10 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
             longest = std::max(longest, motion.file.size());
         }
         bytes += motions * Count(longest);
-    } else if (plane.block) {
-        bytes +=
-            2400 + (Count(plane.frequency.size()) + Count(plane.amplitude.size())) * sizeof(double);
+    } else if (plane.size) {
+        bytes += 2400 + (Count(plane.frequency.size()) +
+                         Count(plane.slenderness.size() * plane.amplitude.size())) *
+                            sizeof(double);
     }
     if (job.product == Product::boundary) {
         bytes += 1200 + Count(job.scan.size()) * sizeof(double);

@@ -252,6 +252,14 @@ StoredSpectrum read_spectrum(Handle file, const std::string& path)
     return spectrum;
 }
 
+/// `pga` was named peak_ground_acceleration before version 1.0.
+std::string stored_name_of(const std::string& coordinate, hid_t file)
+{
+    const bool has_old_name =
+        coordinate == "pga" && check(H5Lexists(file, "pga", H5P_DEFAULT)) == 0;
+    return has_old_name ? "peak_ground_acceleration" : coordinate;
+}
+
 /// Throws Hdf5Error, which foreign_coordinates() converts.
 std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
 {
@@ -266,13 +274,15 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
             foreign.emplace_back(dimension.name);
         }
     }
-    if (job.product == Product::boundary && !has_shape(layout::scan, {hsize_t(job.scan.size())})) {
-        foreign.emplace_back(layout::scan);
+    const std::string scan = name_of_scan(job);
+    if (job.product == Product::boundary && !has_shape(scan, {hsize_t(job.scan.size())})) {
+        foreign.push_back(scan);
     }
     if (!foreign.empty()) {
         return foreign;
     }
-    for (const Coordinate& coordinate : coordinates_of(job)) {
+    for (Coordinate coordinate : coordinates_of(job)) {
+        coordinate.name = stored_name_of(coordinate.name, stored.file);
         std::vector<double> values(coordinate.values.size());
         if (has_shape(coordinate.name, coordinate.shape)) {
             const Handle dataset = open_own_dataset(stored.file, coordinate.name);

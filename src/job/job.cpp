@@ -1,5 +1,7 @@
 #include "overturn/job/job.hpp"
 
+#include "overturn/sweep/boundary.hpp"
+
 #include "deep_key.hpp"
 #include "read_steps.hpp"
 #include "toml_text.hpp"
@@ -203,10 +205,7 @@ Job boundary_of(Job job)
     job.scan = job.plane.amplitude;
     const std::int64_t crossings = most_crossings(job.scene);
     job.plane.amplitude = Axis(AxisRange{0, double(crossings - 1), crossings});
-    job.fields.assign(boundary_fields.begin(), boundary_fields.end());
-    if (job.scene.is_recorded()) {
-        job.fields.insert(job.fields.end(), line_fields.begin(), line_fields.end());
-    }
+    job.fields = boundary_fields(job.scene, job.plane);
     // With fewer amplitudes than crossings, the boundary is larger than the spectrum.
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         throw JobError(fmt::format("plane has {:.4g} lines of one frequency, restitution and "

@@ -160,6 +160,20 @@ void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys
     }
 }
 
+/// Keys of a table of which a job gives at most one.
+struct Alternatives {
+    std::string_view table;
+    std::vector<std::string_view> keys;
+};
+
+const std::array<Alternatives, 5> alternatives{{
+    {"plane", {"amplitude", "scale", "pga"}},
+    {"plane", {"frequency", "pulse_period", "pulse_frequency"}},
+    {"plane", {"size", "frequency_parameter"}},
+    {"block", {"width", "half_width"}},
+    {"block", {"height", "half_height"}},
+}};
+
 /// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
@@ -177,19 +191,29 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
             erase_keys(axis, {"values"});
         }
     }
-    for (const auto& [one, other] : {std::pair("scale", "pga"), {"size", "frequency_parameter"}}) {
-        if (path[0] == "plane" && path.size() >= 2 && (path[1] == one || path[1] == other)) {
-            erase_keys(job["plane"].as_table(), {path[1] == one ? other : one});
+    if (path.size() >= 2) {
+        for (const Alternatives& group : alternatives) {
+            if (path[0] == group.table &&
+                std::find(group.keys.begin(), group.keys.end(), path[1]) != group.keys.end()) {
+                for (const std::string_view key : group.keys) {
+                    if (key != path[1]) {
+                        erase_keys(job[group.table].as_table(), {key});
+                    }
+                }
+            }
         }
     }
     if (path == Path{"scene", "record"}) {
         erase_keys(job["scene"].as_table(), {"pulse", "window"});
-        erase_keys(job["plane"].as_table(), {"amplitude", "frequency"});
+        erase_keys(job["plane"].as_table(),
+                   {"amplitude", "frequency", "pulse_period", "pulse_frequency"});
     }
     if (path == Path{"scene", "pulse"}) {
-        erase_keys(job["scene"].as_table(),
-                   {"record", "component", "vertical", "time_step", "units"});
-        erase_keys(job["plane"].as_table(), {"scale", "pga", "size", "frequency_parameter"});
+        if (job["scene"]["record"]) {
+            erase_keys(job["scene"].as_table(),
+                       {"record", "component", "vertical", "time_step", "units"});
+            erase_keys(job["plane"].as_table(), {"scale", "pga", "size", "frequency_parameter"});
+        }
         const auto name =
             std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
         if (name != pulse_names.end() && !has_window(PulseKind(name - pulse_names.begin()))) {

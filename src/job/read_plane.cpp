@@ -10,21 +10,40 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> pulse_plane_keys{"frequency", "amplitude", "restitution",
-                                                           "slenderness"};
+constexpr std::array<std::string_view, 8> pulse_plane_keys{
+    "frequency", "pulse_period", "pulse_frequency", "amplitude",
+    "pga",       "restitution",  "slenderness",     "size"};
 constexpr std::array<std::string_view, 6> record_plane_keys{
     "scale", "pga", "size", "frequency_parameter", "restitution", "slenderness"};
 constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   "last",
                                                            "count",  "spacing", "of"};
-constexpr std::array<std::string_view, 2> block_keys{"half_width", "half_height"};
+constexpr std::array<std::string_view, 4> block_keys{"width", "height", "half_width",
+                                                     "half_height"};
 
 constexpr std::string_view axis_advice =
     "Give a number, { first, last, count } or { values = [...] }.";
 
 constexpr double right_angle = std::numbers::pi / 2;
 
+/// The only one of two entries; nullopt if there is neither.
+std::optional<Entry> only_one_of(const Entry& table, std::string_view one, std::string_view other)
+{
+    const auto first = find(table, one);
+    const auto second = find(table, other);
+    if (first && second) {
+        refuse(*second, fmt::format(" cannot be combined with {}, which gives the same. Remove one "
+                                    "of them.",
+                                    first->key));
+    }
+    return first ? first : second;
+}
+
 const AxisRule frequency_rule{"(0, inf)", [](double value) { return value > 0; },
                               "The frequency of a pulse must be positive."};
+const AxisRule pulse_period_rule{"(0, inf)", [](double value) { return value > 0; },
+                                 "It is the period of the pulse in seconds."};
+const AxisRule pulse_frequency_rule{"(0, inf)", [](double value) { return value > 0; },
+                                    "It is the frequency of the pulse in Hz."};
 const AxisRule amplitude_rule{"[0, inf)", [](double value) { return value >= 0; },
                               "It is the magnitude of the peak ground acceleration."};
 const AxisRule scale_rule{"[0, inf)", [](double value) { return value >= 0; },
@@ -42,16 +61,20 @@ const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return valu
 // Below 1e-100, squares of velocity over alpha exceed the range of a double.
 const AxisRule slenderness_rule{"[1e-100, pi/2)",
                                 [](double value) { return value >= 1e-100 && value < right_angle; },
-                                "It is arctan(half width / half height) in radians."};
+                                "It is arctan(width / height) in radians; a degree is 0.01745."};
 
-double read_size(const Entry& block, std::string_view name)
+constexpr std::string_view block_advice = "Give width and height, or their halves, in metres.";
+
+/// Half of a side of the block [m], given whole or as the half.
+double read_half(const Entry& block, std::string_view whole, std::string_view half)
 {
-    const Entry entry = require(block, name, "Give half_width and half_height in metres.");
-    const double size = number_of(entry);
-    if (!(size > 0)) {
-        refuse(entry, fmt::format(" = {} is outside (0, inf). It is a length in metres.", size));
+    const auto entry = only_one_of(block, whole, half);
+    const Entry given = entry ? *entry : require(block, whole, block_advice);
+    const double length = number_of(given);
+    if (!(length > 0 && std::isfinite(length))) {
+        refuse(given, fmt::format(" = {} is outside (0, inf). It is a length in metres.", length));
     }
-    return size;
+    return given.key == block.key + "." + std::string(whole) ? length / 2 : length;
 }
 
 /// The slenderness arctan(b / h) [rad] of the block.
@@ -60,9 +83,9 @@ double slenderness_of(const Entry& entry, const BlockSize& block)
     const double slenderness = std::atan(block.half_width / block.half_height);
     if (!slenderness_rule.allows(slenderness)) {
         refuse(entry,
-               fmt::format(" has half_width = {} and half_height = {}: its slenderness {} is "
-                           "outside {}. Choose a ratio closer to 1.",
-                           block.half_width, block.half_height, slenderness,
+               fmt::format(" is {} m wide and {} m high: its slenderness {} is outside {}. Choose "
+                           "a ratio closer to 1.",
+                           2 * block.half_width, 2 * block.half_height, slenderness,
                            slenderness_rule.interval));
     }
     return slenderness;
@@ -82,7 +105,7 @@ Entry slenderness_entry(const Entry& job, const Entry& plane)
         return *block;
     }
     return require(plane, "slenderness",
-                   fmt::format("{} Or add [block] with half_width and half_height.", axis_advice));
+                   fmt::format("{} Or add [block] with width and height.", axis_advice));
 }
 
 /// With of = "maximum", r_max (Eq. 17), which decreases with the slenderness, must be positive, and
@@ -114,19 +137,6 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
     }
 }
 
-/// The only one of two entries; nullopt if there is neither.
-std::optional<Entry> only_one_of(const Entry& plane, std::string_view one, std::string_view other)
-{
-    const auto first = find(plane, one);
-    const auto second = find(plane, other);
-    if (first && second) {
-        refuse(*second, fmt::format(" cannot be combined with plane.{}, which gives the same. "
-                                    "Remove one of them.",
-                                    one));
-    }
-    return first ? first : second;
-}
-
 /// The strength and the size under a record.
 void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
 {
@@ -147,8 +157,8 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
     plane.frequency_is = FrequencyQuantity::size;
     if (!size && !has_block) {
         require(entry, "size",
-                fmt::format("{} Or give frequency_parameter [1/s], or [block] with half_width and "
-                            "half_height.",
+                fmt::format("{} Or give frequency_parameter [1/s], or [block] with width and "
+                            "height.",
                             axis_advice));
     }
     if (size) {
@@ -157,6 +167,65 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
             is_size ? FrequencyQuantity::size : FrequencyQuantity::frequency_parameter;
         plane.frequency = read_axis(*size, is_size ? size_rule : parameter_rule);
     }
+}
+
+/// The strength and the frequency under a pulse. Period, frequency in Hz and peak acceleration
+/// belong to a block of known size.
+void read_pulse_axes(const Entry& entry, Plane& plane)
+{
+    const auto of_known_size = [&](const Entry& axis, const AxisRule& rule) {
+        if (!plane.size) {
+            refuse(axis, " needs the dimensions of the block. Add [block] with width and height, "
+                         "or the half diagonal plane.size, in metres.");
+        }
+        return read_axis(axis, rule);
+    };
+    if (const auto pga = only_one_of(entry, "amplitude", "pga"); pga && pga->key == "plane.pga") {
+        plane.amplitude_is = AmplitudeQuantity::pga;
+        plane.amplitude = of_known_size(*pga, pga_rule);
+    } else {
+        plane.amplitude =
+            read_axis(require(entry, "amplitude",
+                              fmt::format("{} Or give pga [g] and [block].", axis_advice)),
+                      amplitude_rule);
+    }
+    only_one_of(entry, "frequency", "pulse_period");
+    only_one_of(entry, "frequency", "pulse_frequency");
+    only_one_of(entry, "pulse_period", "pulse_frequency");
+    if (const auto period = find(entry, "pulse_period")) {
+        plane.frequency_is = FrequencyQuantity::pulse_period;
+        plane.frequency = of_known_size(*period, pulse_period_rule);
+    } else if (const auto hertz = find(entry, "pulse_frequency")) {
+        plane.frequency_is = FrequencyQuantity::pulse_frequency;
+        plane.frequency = of_known_size(*hertz, pulse_frequency_rule);
+    } else {
+        plane.frequency = read_axis(
+            require(entry, "frequency",
+                    fmt::format("{} Or give pulse_period [s] or pulse_frequency [Hz], and [block].",
+                                axis_advice)),
+            frequency_rule);
+    }
+}
+
+/// R [m] of all blocks under a pulse, if it is given.
+std::optional<double> read_size_of_blocks(const Entry& entry, const Plane& plane)
+{
+    const auto size = find(entry, "size");
+    if (!size) {
+        return plane.block ? std::optional(half_diagonal(*plane.block)) : std::nullopt;
+    }
+    if (plane.block) {
+        refuse(*size, " cannot be combined with [block], which also gives the size. Remove one of "
+                      "them.");
+    }
+    const Axis axis = read_axis(*size, size_rule);
+    if (axis.size() > 1) {
+        refuse(*size, fmt::format(" has {} values, but under a pulse all blocks have the same "
+                                  "size. Give one value, and pulse_period or pulse_frequency as "
+                                  "an axis.",
+                                  axis.size()));
+    }
+    return axis.first();
 }
 
 } // namespace
@@ -173,9 +242,6 @@ Plane read_plane(const Entry& job, std::int64_t motions)
     plane.motions = motions;
     if (is_recorded) {
         read_record_axes(job, entry, plane);
-    } else {
-        plane.frequency = read_axis(require(entry, "frequency", axis_advice), frequency_rule);
-        plane.amplitude = read_axis(require(entry, "amplitude", axis_advice), amplitude_rule);
     }
 
     const Entry restitution = require(entry, "restitution", axis_advice);
@@ -190,8 +256,8 @@ Plane read_plane(const Entry& job, std::int64_t motions)
     const Entry slenderness = slenderness_entry(job, entry);
     if (slenderness.key == "block") {
         expect_table(slenderness, block_keys);
-        plane.block = BlockSize{.half_width = read_size(slenderness, "half_width"),
-                                .half_height = read_size(slenderness, "half_height")};
+        plane.block = BlockSize{.half_width = read_half(slenderness, "width", "half_width"),
+                                .half_height = read_half(slenderness, "height", "half_height")};
         plane.slenderness = Axis(AxisList{slenderness_of(slenderness, *plane.block)});
         if (is_recorded) {
             plane.frequency = Axis(AxisList{half_diagonal(*plane.block)});
@@ -200,6 +266,10 @@ Plane read_plane(const Entry& job, std::int64_t motions)
         plane.slenderness = read_axis(slenderness, slenderness_rule);
     }
     check_restitution(slenderness, restitution, plane);
+    if (!is_recorded) {
+        plane.size = read_size_of_blocks(entry, plane);
+        read_pulse_axes(entry, plane);
+    }
     return plane;
 }
 

@@ -63,7 +63,7 @@ std::string scene_text(const Job& job)
         text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
     }
     text += fmt::format("theory = \"{}\"\n", name_of(scene.theory));
-    if (scene.is_recorded() || scene.gravity != Scene().gravity) {
+    if (scene.is_recorded() || job.plane.size || scene.gravity != Scene().gravity) {
         text += fmt::format("gravity = {}\n", float_text(scene.gravity));
     }
     if (!scene.is_recorded() && has_window(scene.pulse)) {
@@ -88,6 +88,9 @@ std::string plane_text(const Plane& plane)
                         float_text(plane.block->half_width), float_text(plane.block->half_height));
     } else {
         text += fmt::format("slenderness = {{ {} }}\n", definition_text(plane.slenderness));
+        if (plane.size) {
+            text += fmt::format("size = {}\n", float_text(*plane.size));
+        }
     }
     return text;
 }

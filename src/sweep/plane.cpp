@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace overturn {
 
@@ -77,21 +78,36 @@ double frequency_parameter(double half_diagonal, double gravity)
     return std::sqrt(3 * gravity / (4 * half_diagonal));
 }
 
-double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion)
+double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double slenderness)
 {
-    return plane.amplitude_is == AmplitudeQuantity::pga ? scene.records[std::size_t(motion)]->peak()
-                                                        : 1;
+    return scene.is_recorded() ? scene.records[std::size_t(motion)]->peak()
+                               : uplift_threshold(scene.theory, slenderness);
+}
+
+double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
+                      double slenderness)
+{
+    return plane.amplitude_is == AmplitudeQuantity::pga
+               ? pga_of_unit_amplitude(scene, motion, slenderness)
+               : 1;
 }
 
 double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
 {
-    if (plane.frequency_is == FrequencyQuantity::frequency) {
-        return value;
+    const auto samples_per_unit = [&](double p) {
+        return 1 / (p * scene.records[std::size_t(motion)]->time_step());
+    };
+    switch (plane.frequency_is) {
+    case FrequencyQuantity::frequency: break;
+    case FrequencyQuantity::pulse_period:
+        return 2 * std::numbers::pi / (value * frequency_parameter(*plane.size, scene.gravity));
+    case FrequencyQuantity::pulse_frequency:
+        return 2 * std::numbers::pi * value / frequency_parameter(*plane.size, scene.gravity);
+    case FrequencyQuantity::size:
+        return samples_per_unit(frequency_parameter(value, scene.gravity));
+    case FrequencyQuantity::frequency_parameter: return samples_per_unit(value);
     }
-    const double p = plane.frequency_is == FrequencyQuantity::size
-                         ? frequency_parameter(value, scene.gravity)
-                         : value;
-    return 1 / (p * scene.records[std::size_t(motion)]->time_step());
+    return value;
 }
 
 double uplift_threshold(Theory theory, double slenderness)

@@ -61,7 +61,7 @@ std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const 
         frequencies.push_back(
             frequency_of_point(scene, plane, motion, plane.frequency[tile.column_begin + column]));
     }
-    const double unit = amplitude_unit(scene, plane, motion);
+    const double unit = amplitude_unit(scene, plane, motion, slenderness);
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
     for (std::int64_t row = 0; row < tile.row_count; ++row) {

@@ -48,7 +48,7 @@ class ABoundaryUnderARecord(ScratchWithRecords):
         whole = self.boundary("--set", "plane.scale={ first = 1.0, last = 1.5, count = 501 }")
         divided = self.boundary("--set", "plane.scale={ first = 1.0, last = 1.5, count = 2 }",
                                 out="divided.h5")
-        self.assertEqual(len(divided.scan_amplitude), 2)
+        self.assertEqual(len(divided.scan_scale), 2)
         step = whole.flip_amplitude.finest_step * 1.5
         compared = 0
         for column in range(3):
@@ -68,7 +68,9 @@ class ABoundaryUnderARecord(ScratchWithRecords):
         pga = self.boundary("--set", f"plane.pga={{ first = {peak}, last = {1.5 * peak}, "
                             "count = 11 }", out="pga.h5", ranks=2)
         self.assertTrue(np.array_equal(scale.region_above, pga.region_above))
-        self.assertTrue(np.allclose(scale.flip_amplitude * peak, pga.flip_amplitude, rtol=2e-4,
+        for field in ("flip_amplitude", "flip_pga"):
+            self.assertTrue(np.allclose(scale[field], pga[field], rtol=2e-4, equal_nan=True))
+        self.assertTrue(np.allclose(scale.flip_amplitude * peak, scale.flip_pga, rtol=1e-12,
                                     equal_nan=True))
         self.assertTrue(np.allclose(scale.unsafe_share, pga.unsafe_share, atol=1e-3))
 

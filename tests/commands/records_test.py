@@ -63,7 +63,7 @@ class ASpectrumUnderARecord(ScratchWithRecords):
         self.assertAlmostEqual(float(data.pga[0]), 0.4, places=6)
         p = np.sqrt(3 * 9.81 / (4 * data["size"].values))
         self.assertTrue(np.allclose(data.frequency_parameter, p, rtol=1e-15))
-        self.assertTrue(np.allclose(data.peak_ground_acceleration[0], 0.4 * data.scale, rtol=1e-6))
+        self.assertTrue(np.allclose(data.scaled_pga[0], 0.4 * data.scale, rtol=1e-6))
         self.assertIn("one.AT2", str(data.records.values))
         self.assertIn("SYNTHETIC RECORD", str(data.records.values))
         safe = data.region.values <= 2

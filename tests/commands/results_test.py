@@ -34,7 +34,7 @@ class AFinishedFile(Scratch):
                 # p = 1.130441 rad/s, that of the paper's block.
                 product = (period * found.frequency * 1.130441).values
                 self.assertTrue(np.allclose(product, 2 * np.pi, rtol=1e-6))
-                acceleration = found.region.coords["peak_ground_acceleration"]
+                acceleration = found.region.coords["pga"]
                 self.assertTrue(np.allclose((acceleration / found.amplitude).values, 1 / 5.67))
         self.overturn("run", "small.toml")
         with h5py.File(self.folder / "small.h5") as found:

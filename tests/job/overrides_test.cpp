@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(Arguments, AnOverrideIsRefused, testing::ValuesIn(std::
     {"WithANumberForATable", "scene=3", {"scene is the integer 3", "a table"}},
     {"WithAnUnknownPulse", "scene.pulse=one_sin", {"scene.pulse = \"one_sin\" is unknown", "\"one_sine\"?"}},
     {"WithAWindowForAPulseThatEnds", "scene.window=2.0", {"scene.window has no meaning"}},
-    {"WithHalfABlock", "block.half_width=2", {"block.half_height is missing"}},
+    {"WithHalfABlock", "block.half_width=2", {"block.height is missing"}},
     {"WithACountForASingleValue", "plane.frequency.count=1", {"count = 1 needs first = last"}}}),
     [](const testing::TestParamInfo<Unusable>& unusable) { return unusable.param.name; });
 // clang-format on

@@ -108,7 +108,10 @@ MISTAKES(MissingKeys,
     {"TheCount", 5, "frequency = { first = 1, last = 2 }", "5:13", {"plane.frequency.count is missing", "or values"}},
     {"TheLast", 5, "frequency = { first = 1, count = 2 }", "5:13", {"plane.frequency.last is missing"}},
     {"EverythingOfAnAxis", 7, "restitution = { of = \"maximum\" }", "7:15", {"plane.restitution.first is missing", "or values"}},
-    {"TheHalfHeight", 8, "[block]\nhalf_width = 1", "8:1", {"block.half_height is missing", "metres"}});
+    {"TheHalfHeight", 8, "[block]\nhalf_width = 1", "8:1", {"block.height is missing", "metres"}},
+    {"TheBlockOfAPeriod", 5, "pulse_period = 0.5", "5:16", {"plane.pulse_period needs the dimensions of the block", "[block]", "plane.size"}},
+    {"TheBlockOfAFrequencyInHz", 5, "pulse_frequency = 2", "5:19", {"plane.pulse_frequency needs the dimensions"}},
+    {"TheBlockOfAPeakAcceleration", 6, "pga = 0.4", "6:7", {"plane.pga needs the dimensions of the block", "[block]"}});
 
 MISTAKES(Lists,
     {"NoValues", 6, "amplitude = { values = [] }", "6:24", {"plane.amplitude.values is empty"}},
@@ -162,8 +165,14 @@ MISTAKES(Physics,
     {"AZeroHalfWidth", 8, "[block]\nhalf_width = 0\nhalf_height = 2", "9:14", {"block.half_width = 0 is outside (0, inf)"}},
     {"ANegativeHalfHeight", 8, "[block]\nhalf_width = 1\nhalf_height = -2", "10:15", {"block.half_height = -2 is outside (0, inf)"}},
     {"AnInfiniteHalfHeight", 8, "[block]\nhalf_width = 1\nhalf_height = inf", "10:15", {"block.half_height = inf is not finite"}},
-    {"ABlockWithoutAngle", 8, "[block]\nhalf_width = 1e-300\nhalf_height = 1e300", "8:1", {"block has half_width = 1e-300", "slenderness 0"}},
-    {"ABlockLyingFlat", 8, "[block]\nhalf_width = 1e300\nhalf_height = 1e-300", "8:1", {"block has half_width = 1e+300", "pi/2"}});
+    {"ABlockWithoutAngle", 8, "[block]\nhalf_width = 1e-300\nhalf_height = 1e300", "8:1", {"block is 2e-300 m wide and 2e+300 m high", "slenderness 0"}},
+    {"ABlockLyingFlat", 8, "[block]\nhalf_width = 1e300\nhalf_height = 1e-300", "8:1", {"block is 2e+300 m wide", "pi/2"}},
+    {"ABlockOfWidth0", 8, "[block]\nwidth = 0\nheight = 1", "9:9", {"block.width = 0 is outside (0, inf)", "metres"}},
+    {"AWidthAndItsHalf", 8, "[block]\nwidth = 1\nhalf_width = 0.5\nheight = 3", "10:14", {"block.half_width cannot be combined with block.width"}},
+    {"TwoFrequencies", 5, "frequency = 2\npulse_period = 1\nsize = 1", "6:16", {"plane.pulse_period cannot be combined with plane.frequency"}},
+    {"TwoStrengths", 6, "amplitude = 2\npga = 1\nsize = 1", "7:7", {"plane.pga cannot be combined with plane.amplitude"}},
+    {"SeveralSizesUnderAPulse", 6, "amplitude = 2\nsize = { values = [1, 2] }", "7:8", {"plane.size has 2 values", "same size"}},
+    {"ASizeBesideABlock", 8, "size = 1\n[block]\nwidth = 1\nheight = 3", "8:8", {"plane.size cannot be combined with [block]"}});
 
 MISTAKES(Scene,
     {"AnUnknownPulse", 3, "pulse = \"one-sine\"", "3:9", {"scene.pulse = \"one-sine\" is unknown", "Did you mean \"one_sine\"?", "antisymmetric_ricker"}},

@@ -10,6 +10,8 @@ PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet"}
 AXES = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
         "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
+        "pulse_period": "pulse period [s]",
+        "pulse_frequency": "pulse frequency [Hz]",
         "scale": "scale of the record",
         "pga": "PGA [g]",
         "size": r"size  $R$ [m]",
@@ -34,12 +36,17 @@ def scales_records(file):
     return is_recorded(file) and "record_pga" not in file
 
 
+def scanned_quantity(file):
+    """Returns the name of the axis of the job along which a boundary was scanned."""
+    return next(name for name in ("amplitude", "scale", "pga") if f"scan_{name}" in file)
+
+
 def name_axes(file):
     """Returns the labels of the horizontal and the vertical axis; that of a boundary is the
     amplitude of its flips."""
     up, across = dimensions_of(file)[-2:]
     if up == "crossing":
-        up = "scale" if scales_records(file) else "pga" if is_recorded(file) else "amplitude"
+        up = scanned_quantity(file)
     threshold = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
     return tuple(AXES[name].replace("{threshold}", threshold) for name in (across, up))
 

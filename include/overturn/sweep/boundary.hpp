@@ -46,8 +46,7 @@ struct BoundaryLine {
     double restitution;      ///< r [1]
     double frequency;        ///< see PlanePoint
     std::int64_t motion = 0; ///< the number of the record, if there are any
-    double unit = 1;         ///< amplitudes over that of a PlanePoint: the peak of the record for
-                             ///< peak ground accelerations [1]
+    double unit = 1;         ///< of the amplitudes, see amplitude_unit()
 };
 
 struct Boundary {
@@ -78,9 +77,12 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
 /// Value of region_below and region_above, in addition to the region codes, if there is no flip.
 inline constexpr std::uint8_t no_flip = 253;
 
+/// The fields of a boundary: flip_amplitude, region_below, region_above; flip_pga if the peak
+/// ground acceleration is known; and those of a line under a record.
+std::vector<Field> boundary_fields(const Scene& scene, const Plane& plane);
+
 /// The boundaries of a tile whose rows are the flips of a line in ascending order and whose columns
-/// are frequencies. Values in the order of boundary_fields, then of the fields of a line under a
-/// record; NaN and no_flip after the last flip,
+/// are frequencies. Values in the order of boundary_fields(); NaN and no_flip after the last flip,
 /// except that region_below of a line without flips is the region at the first amplitude. If there
 /// are more flips than rows, the last region_above is undecided.
 TileFields boundary_tile(const Scene& scene, const Plane& plane,

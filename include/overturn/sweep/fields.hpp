@@ -27,16 +27,17 @@ enum class Field {
     flip_amplitude,
     region_below,
     region_above,
+    flip_pga,
     // Fields of a line of a boundary under a record:
     unsafe_share,
     undecided_share
 };
 
 /// Names in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 15> field_names{
-    "region",         "angle",        "velocity",     "margin",       "error",
-    "peak",           "fall_time",    "impacts",      "steps",        "status",
-    "flip_amplitude", "region_below", "region_above", "unsafe_share", "undecided_share"};
+inline constexpr std::array<std::string_view, 16> field_names{
+    "region",       "angle",    "velocity",     "margin",         "error",          "peak",
+    "fall_time",    "impacts",  "steps",        "status",         "flip_amplitude", "region_below",
+    "region_above", "flip_pga", "unsafe_share", "undecided_share"};
 
 /// The fields that a job can request: all except those of a boundary.
 inline constexpr auto spectrum_field_names = [] {
@@ -45,9 +46,7 @@ inline constexpr auto spectrum_field_names = [] {
     return names;
 }();
 
-/// The fields of a boundary, and those that it also has under a record.
-inline constexpr std::array boundary_fields{Field::flip_amplitude, Field::region_below,
-                                            Field::region_above};
+/// The fields of a line of a boundary under a record.
 inline constexpr std::array line_fields{Field::unsafe_share, Field::undecided_share};
 
 /// Whether the field has one value per line of a boundary: it lacks the dimension `crossing`.

@@ -69,8 +69,14 @@ double frequency_parameter(double half_diagonal, double gravity);
 
 struct Plane;
 
-/// The value of the amplitude axis at PlanePoint::amplitude = 1; motion: the number of the record.
-double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion);
+/// The peak ground acceleration over g at PlanePoint::amplitude = 1: that of the record, or the
+/// least one under a pulse that lifts a block of this slenderness [rad]. motion: the number of the
+/// record.
+double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double slenderness);
+
+/// The value of the amplitude axis at PlanePoint::amplitude = 1.
+double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
+                      double slenderness);
 
 /// PlanePoint::frequency of a value of the frequency axis; motion: the number of the record.
 double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
@@ -79,15 +85,22 @@ double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t m
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
-/// What the axes `amplitude` and `frequency` of a plane contain. Under a pulse: a and Omega. Under
-/// a record: a factor on it or its peak ground acceleration; the size of the block or its p.
+/// What the axes `amplitude` and `frequency` of a plane contain. Under a pulse: a or the peak
+/// ground acceleration over g; Omega, the period or the frequency of the pulse. Under a record: a
+/// factor on it or its peak ground acceleration over g; the size of the block or its p.
 enum class AmplitudeQuantity { amplitude, scale, pga };
-enum class FrequencyQuantity { frequency, size, frequency_parameter };
+enum class FrequencyQuantity {
+    frequency,
+    pulse_period,
+    pulse_frequency,
+    size,
+    frequency_parameter
+};
 
 /// Names in job files and result files, in the order of the enumerators.
 inline constexpr std::array<std::string_view, 3> amplitude_names{"amplitude", "scale", "pga"};
-inline constexpr std::array<std::string_view, 3> frequency_names{"frequency", "size",
-                                                                 "frequency_parameter"};
+inline constexpr std::array<std::string_view, 5> frequency_names{
+    "frequency", "pulse_period", "pulse_frequency", "size", "frequency_parameter"};
 
 constexpr std::string_view name_of(AmplitudeQuantity quantity)
 {
@@ -107,7 +120,8 @@ struct PlanePoint {
 };
 
 struct Plane {
-    Axis frequency;   ///< Omega = omega_p / p [1], or see frequency_is: R [m] or p [1/s]
+    Axis frequency;   ///< Omega = omega_p / p [1], or see frequency_is: period [s], frequency [Hz],
+                      ///< R [m] or p [1/s]
     Axis amplitude;   ///< a = a_p / (g tan alpha), linear theory a_p / (g alpha) [1], or see
                       ///< amplitude_is: factor [1] or peak ground acceleration over g [1]
     Axis restitution; ///< r, or r / r_max(alpha), see restitution_of [1]
@@ -118,6 +132,7 @@ struct Plane {
     std::int64_t motions =
         0; ///< number of records, the slowest dimension; 0: a pulse, no dimension
     std::optional<BlockSize> block; ///< set if the slenderness was computed from it
+    std::optional<double> size;     ///< R [m] of all blocks under a pulse, if the job gives it
 
     /// Number of points; checked for overflow when the job is read.
     std::int64_t points() const;
