@@ -15,13 +15,25 @@ struct Gap {
     S width, rate, acceleration;
 };
 
+/// Whether a gap may close and open again within a step h at whose ends it is open: it narrows and
+/// widens, or its rate changes its sign twice. The latter needs rates that exceed the mean rate:
+/// for a cubic, their sum is more than 3 times as large; the rest is for what is left out.
+template <class S>
+bool may_dip(const S& width, const S& rate, const S& width_after, const S& rate_after, const S& h)
+{
+    const S sum = h * (rate + rate_after);
+    const S excess = sum - S(2.75) * (width_after - width);
+    return (rate < 0 && rate_after > 0) || (rate > 0 && rate_after > 0 && excess > 0) ||
+           (rate < 0 && rate_after < 0 && excess < 0);
+}
+
 /// Position of the event within a step, 0 to 1, by the quintic that matches value, rate and
 /// acceleration of the gap at both ends of a step h; more than 1 if it stays open. Also finds gaps
 /// that close and open again within the step.
 template <class S>
 S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
 {
-    const bool dips = before.rate < 0 && after.rate > 0;
+    const bool dips = may_dip(before.width, before.rate, after.width, after.rate, h);
     if (after.width >= 0 && !dips) {
         return 2;
     }
@@ -40,17 +52,33 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
     const auto slope = [&](const S& s) {
         return c[1] + s * (2 * c[2] + s * (3 * c[3] + s * (4 * c[4] + s * 5 * c[5])));
     };
-    S low = 0, high = 1;
-    if (after.width >= 0) { // check whether the lowest point of the dip is below zero
-        // At 1/1024 of the step from the lowest point, the gap is higher by 1e-6 of its bend.
+    const auto bend = [&](const S& s) {
+        return 2 * c[2] + s * (6 * c[3] + s * (12 * c[4] + s * 20 * c[5]));
+    };
+    // Where the function changes its sign, accurate to 1/1024 of the step: at this distance from
+    // the lowest point of a dip, the gap is higher by 1e-6 of its bend. rises: to positive.
+    const auto root = [](const auto& function, S low, S high, bool rises) {
         while (high - low > S(1) / 1024) {
             const S middle = (low + high) / 2;
-            (slope(middle) < 0 ? low : high) = middle;
+            ((function(middle) < 0) == rises ? low : high) = middle;
         }
-        if (value(high) >= 0) {
+        return high;
+    };
+    S low = 0, high = 1;
+    if (dips) { // check whether the lowest point of the dip is below zero
+        S first = 0, last = 1;
+        if (b0 > 0) {
+            first = root(bend, S(0), S(1), true); // the least rate
+        } else if (b1 < 0) {
+            last = root(bend, S(0), S(1), false); // the largest rate
+        }
+        const bool is_a_dip = (first == 0 || slope(first) < 0) && (last == 1 || slope(last) > 0);
+        const S lowest = is_a_dip ? root(slope, first, last, true) : S(1);
+        if (is_a_dip && value(lowest) < 0) {
+            high = lowest;
+        } else if (after.width >= 0) {
             return 2;
         }
-        low = 0;
     }
     S s = high;
     for (int i = 0; i < 60 && high - low > std::numeric_limits<S>::epsilon(); ++i) {
@@ -69,16 +97,16 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
 
 template <class S>
 struct StepEvent {
-    Outcome outcome; ///< impact or fall; pulse_end if there is no event
+    Outcome outcome; ///< impact or fall; piece_end if there is no event
     Moment<S> moment;
 };
 
 /// Finds the first event in the step from `before` to `after`. `step_to(h)` returns the state after
 /// a step h from `before`. The time of the event is accurate to about `sharpness`, as a share of
 /// the step.
-template <class S, Sines sines, class StepTo>
-StepEvent<S> event_in_step(const Rocking<S, sines>& rocking, const Moment<S>& before,
-                           const Moment<S>& after, const S& sharpness, StepTo&& step_to)
+template <class S, class StepTo>
+StepEvent<S> event_in_step(const auto& rocking, const Moment<S>& before, const Moment<S>& after,
+                           const S& sharpness, StepTo&& step_to)
 {
     const S h = after.time - before.time;
     const S flat = pi<S>() / 2;
@@ -88,12 +116,13 @@ StepEvent<S> event_in_step(const Rocking<S, sines>& rocking, const Moment<S>& be
                     : Gap<S>{moment.state[0], moment.state[1], acceleration};
     };
     const bool fall = after.state[0] > flat;
-    if (!fall && after.state[0] >= 0 && !(before.state[1] < 0 && after.state[1] > 0)) {
-        return {Outcome::pulse_end, after};
+    if (!fall && after.state[0] >= 0 &&
+        !may_dip(before.state[0], before.state[1], after.state[0], after.state[1], h)) {
+        return {Outcome::piece_end, after};
     }
     S share = guessed_event(gap(before, fall), gap(after, fall), h);
     if (share > 1) {
-        return {Outcome::pulse_end, after};
+        return {Outcome::piece_end, after};
     }
     Moment<S> moment = before;
     for (int i = 0; i < 10; ++i) {

@@ -12,12 +12,11 @@ namespace overturn::benchmarks {
 
 namespace {
 
-template <Sines sines>
+template <class RockingBlock>
 int rocking_derivative(double time, const double state[], double derivative[], void* rocking)
 {
     derivative[0] = state[1];
-    derivative[1] =
-        static_cast<const Rocking<double, sines>*>(rocking)->acceleration(state[0], time);
+    derivative[1] = static_cast<const RockingBlock*>(rocking)->acceleration(state[0], time);
     return GSL_SUCCESS;
 }
 
@@ -39,13 +38,15 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double t
     const double first_step = std::pow(tolerance, 1.0 / 8);
     double h = 0; // the next step; kept from flight to flight
 
-    const auto fly = [&](const Rocking<double, sines>& rocking, Moment<double>& now,
-                         bool from_rest) {
-        const gsl_odeiv2_system system{rocking_derivative<sines>, nullptr, 2,
-                                       const_cast<Rocking<double, sines>*>(&rocking)};
-        gsl_odeiv2_evolve_reset(evolve.get());
-        if (from_rest) {
-            h = first_step / std::max(1.0, rocking.frequency());
+    const auto fly = [&]<class RockingBlock>(const RockingBlock& rocking, Moment<double>& now,
+                                             Start start) {
+        const gsl_odeiv2_system system{rocking_derivative<RockingBlock>, nullptr, 2,
+                                       const_cast<RockingBlock*>(&rocking)};
+        if (start != Start::sample) { // at a sample, the derivative is known
+            gsl_odeiv2_evolve_reset(evolve.get());
+        }
+        if (start == Start::uplift) {
+            h = first_step / rocking.fastest();
         }
         while (now.time < rocking.end()) {
             const Moment<double> before = now;
@@ -63,12 +64,12 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double t
                 return state;
             };
             const auto event = event_in_step(rocking, before, now, tolerance / 8, step_to);
-            if (event.outcome != Outcome::pulse_end) {
+            if (event.outcome != Outcome::piece_end) {
                 now = event.moment;
                 return event.outcome;
             }
         }
-        return Outcome::pulse_end;
+        return Outcome::piece_end;
     };
     return run_points<double, sines>(problem, fly);
 }

@@ -19,7 +19,7 @@ void sweep_one_tile(benchmark::State& state, const Numerics& numerics, Kernel ke
     const Tile tile = Tiling(problem.plane)[0];
     for ([[maybe_unused]] const auto round : state) {
         benchmark::DoNotOptimize(
-            sweep_tile(Scene{}, numerics, problem.plane, tile, {Field::region}, kernel));
+            sweep_tile(problem.scene, numerics, problem.plane, tile, {Field::region}, kernel));
     }
     using benchmark::Counter;
     state.counters["seconds_per_point"] =

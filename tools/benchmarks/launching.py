@@ -10,7 +10,8 @@ import time
 
 from building import SOURCE, fail
 
-JOB = SOURCE / "jobs" / "figure_07a.toml"
+JOB, AXES = SOURCE / "jobs" / "figure_07a.toml", ("frequency", "amplitude")
+RECORD_JOB, RECORD_AXES = SOURCE / "jobs" / "synthetic.toml", ("size", "scale")
 
 
 def launcher(ranks):
@@ -27,11 +28,11 @@ def environment():
     return {**os.environ, **extra}
 
 
-def measured_run(overturn, side, settings, start=()):
-    """Runs the job at side x side points with further settings; `start` is the command prefix.
+def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES):
+    """Runs a job at side x side points with further settings; `start` is the command prefix.
     Returns the wall time from the start of the command to its exit, and the sidecar."""
-    settings = [f"plane.frequency.count={side}", f"plane.amplitude.count={side}", *settings]
-    command = [*start, str(overturn), "run", str(JOB), "-o", "bench.h5",
+    settings = [*(f"plane.{axis}.count={side}" for axis in axes), *settings]
+    command = [*start, str(overturn), "run", str(job), "-o", "bench.h5",
                *(word for setting in settings for word in ("--set", setting))]
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()

@@ -20,9 +20,9 @@ namespace odeint = boost::numeric::odeint;
 using Stepper = odeint::runge_kutta_dopri5<RockingState<double>>;
 
 /// The first step of a flight from rest.
-double first_step(double tolerance, double frequency)
+double first_step(double tolerance, double fastest)
 {
-    return std::pow(tolerance, 0.2) / std::max(1.0, frequency);
+    return std::pow(tolerance, 0.2) / fastest;
 }
 
 double allowed_error(double tolerance, const Problem& problem)
@@ -35,13 +35,17 @@ double allowed_error(double tolerance, const Problem& problem)
 std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, double tolerance)
 {
     auto dense = odeint::make_dense_output<Stepper>(allowed_error(tolerance, problem), tolerance);
-    const auto fly = [&](const Rocking<double>& rocking, Moment<double>& now, bool from_rest) {
-        dense.initialize(now.state, now.time,
-                         from_rest ? first_step(tolerance, rocking.frequency())
-                                   : dense.current_time_step());
+    double h = 0; // the next step; kept from flight to flight
+    const auto fly = [&](const auto& rocking, Moment<double>& now, Start start) {
+        if (start == Start::uplift) {
+            h = first_step(tolerance, rocking.fastest());
+        }
+        dense.initialize(now.state, now.time, h);
         while (true) {
+            const double wanted = dense.current_time_step();
             const double left = rocking.end() - dense.current_time();
-            if (dense.current_time_step() > left) {
+            const double reached_last = dense.current_time() + left; // rounded
+            if (wanted > left) {
                 // A step beyond the end with interpolation is no faster.
                 dense.initialize(dense.current_state(), dense.current_time(), left);
             }
@@ -51,18 +55,20 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, doub
             if (!(now.time > before.time)) {
                 return Outcome::failure;
             }
+            const bool last = now.time >= reached_last;
+            h = last ? std::max(wanted, dense.current_time_step()) : dense.current_time_step();
             const auto step_to = [&](double length) {
                 RockingState<double> state;
                 dense.calc_state(before.time + length, state);
                 return state;
             };
             const auto event = event_in_step(rocking, before, now, tolerance / 8, step_to);
-            if (event.outcome != Outcome::pulse_end) {
+            if (event.outcome != Outcome::piece_end) {
                 now = event.moment;
                 return event.outcome;
             }
-            if (now.time >= rocking.end()) {
-                return Outcome::pulse_end;
+            if (last) {
+                return Outcome::piece_end;
             }
         }
     };
@@ -77,19 +83,21 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
         odeint::make_controlled<Stepper>(allowed_error(tolerance, problem), tolerance);
     Stepper plain;
     double h = 0; // the next step; kept from flight to flight
+    // At `now`: the last stage of a step is the first stage of the next.
+    RockingState<double> derivative;
 
-    const auto fly = [&](const Rocking<double, sines>& rocking, Moment<double>& now,
-                         bool from_rest) {
+    const auto fly = [&](const auto& rocking, Moment<double>& now, Start start) {
         const auto system = std::cref(rocking);
-        if (from_rest) {
-            h = first_step(tolerance, rocking.frequency());
+        if (start == Start::uplift) {
+            h = first_step(tolerance, rocking.fastest());
         }
-        // At `now`: the last stage of a step is the first stage of the next.
-        RockingState<double> derivative;
-        rocking(now.state, derivative, now.time);
+        if (start != Start::sample) {
+            rocking(now.state, derivative, now.time);
+        }
         while (true) {
             const Moment<double> before = now;
             const double left = rocking.end() - now.time;
+            const double wanted = h;
             const bool last = left <= h;
             h = last ? left : h;
             if (now.time + h == now.time && !last) {
@@ -110,14 +118,15 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
                 return state;
             };
             const auto event = event_in_step(rocking, before, now, tolerance / 8, step_to);
-            if (event.outcome != Outcome::pulse_end) {
+            if (event.outcome != Outcome::piece_end) {
                 now = event.moment;
                 return event.outcome;
             }
-            if (last) {
-                return Outcome::pulse_end;
-            }
             derivative = derivative_after;
+            if (last) {
+                h = std::max(h, wanted);
+                return Outcome::piece_end;
+            }
         }
     };
     return run_points<double, sines>(problem, fly);

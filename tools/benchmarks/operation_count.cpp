@@ -94,7 +94,7 @@ namespace overturn::benchmarks {
 namespace {
 
 /// The same excitation as in the kernel.
-Excitation<Counted> excitation_of(const PeerPoint& point)
+Excitation<Counted> excitation_of(const PlanePoint& point)
 {
     const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
         ground_motion(PulseKind::one_sine, 1.0), point.slenderness, point.amplitude,
@@ -109,7 +109,7 @@ Excitation<Counted> excitation_of(const PeerPoint& point)
 }
 
 template <class Method>
-PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
+PeerEnd<double> end_of_point(const PlanePoint& point, double tolerance)
 {
     const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
     const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Records{}>(
@@ -127,7 +127,7 @@ PeerEnd<double> end_of_point(const PeerPoint& point, double tolerance)
             end.fell ? fallen : Region(int(code))};
 }
 
-PeerEnd<double> end_of_point(const PeerPoint& point, const Numerics& numerics)
+PeerEnd<double> end_of_point(const PlanePoint& point, const Numerics& numerics)
 {
     switch (integrator_of({}, numerics)) {
     case Integrator::taylor_14: return end_of_point<Taylor<14>>(point, numerics.tolerance);

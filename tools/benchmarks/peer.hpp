@@ -1,22 +1,16 @@
 // Input and output of every solver in the benchmark: the points of a plane, and the state of each
-// block at the end of the pulse. Dimensionless: velocities are d theta / d(p t).
+// block at the end of the ground motion. Dimensionless: velocities are d theta / d(p t).
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/scene.hpp"
 
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace overturn::benchmarks {
-
-struct PeerPoint {
-    double slenderness; ///< alpha [rad]
-    double restitution; ///< r [1]
-    double amplitude;   ///< a [1]
-    double frequency;   ///< Omega [1]
-};
 
 /// The end of the forced stage of one point.
 template <class S>
@@ -26,14 +20,21 @@ struct PeerEnd {
     Region region; ///< undecided if the solver failed
 };
 
-/// The plane and the list of its points, frequency fastest.
+/// A plane under a ground motion, and the list of its points, frequency fastest.
 struct Problem {
+    Scene scene;
     Plane plane;
-    std::vector<PeerPoint> points;
+    double error_unit; ///< of the errors of angle and velocity [rad]
+    std::vector<PlanePoint> points;
 };
 
 /// The paper's block under a one-sine pulse, nonlinear theory, r = r_max: count x count points.
+/// Errors are in radians.
 Problem paper_block_problem(int count);
+
+/// Blocks of different sizes under a record in g, multiplied by a scale, nonlinear theory, r =
+/// r_max: count x count points. Errors are over the slenderness. Throws RecordError.
+Problem record_problem(const std::string& path, int count);
 
 /// Computes the ends of all points; tolerance: local error per step over the slenderness [1].
 using Solve = std::function<std::vector<PeerEnd<double>>(const Problem& problem, double tolerance)>;
@@ -43,11 +44,18 @@ struct Solver {
     Solve solve;
 };
 
-/// Overturn's methods first, then the peers.
-std::vector<Solver> all_solvers();
+/// Overturn's methods for pulses or for records first, then the peers.
+std::vector<Solver> all_solvers(bool recorded);
 
-std::vector<Solver> overturn_solvers();
+std::vector<Solver> overturn_solvers(bool recorded);
 std::vector<PeerEnd<double>> solve_by_overturn(const Problem& problem, const Numerics& numerics);
+
+/// What overturn knows about its solution of a point.
+struct PointEffort {
+    double error; ///< bound of the error of the margin [1]
+    double steps;
+};
+std::vector<PointEffort> efforts_of_overturn(const Problem& problem, const Numerics& numerics);
 
 /// The sine and cosine that a peer uses in the equation of motion: those of the C library, or
 /// overturn's polynomials.

@@ -19,17 +19,21 @@ std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double
     auto controlled = odeint::make_controlled<Stepper>(allowed, S(tolerance));
     Stepper plain;
 
-    const auto fly = [&](const Rocking<S>& rocking, Moment<S>& now, bool) {
+    S h = 0; // the next step; kept from sample to sample
+    const auto fly = [&](const auto& rocking, Moment<S>& now, Start start) {
         const auto system = std::cref(rocking);
         // Short compared with the pulse and with the time unit of the block: the quintic of a step
         // shows every gap that closes and opens again within it.
-        const S longest = S(1) / 10 / std::max(S(1), rocking.frequency());
-        S h = longest;
+        const S longest = S(1) / 10 / rocking.fastest();
+        if (start != Start::sample) {
+            h = longest;
+        }
         while (true) {
             const Moment<S> before = now;
             const S left = rocking.end() - now.time;
-            const bool last = left <= std::min(h, longest);
-            h = last ? left : std::min(h, longest);
+            const S wanted = std::min(h, longest);
+            const bool last = left <= wanted;
+            h = last ? left : wanted;
             if (h < longest * std::numeric_limits<S>::epsilon() && !last) {
                 return Outcome::failure;
             }
@@ -43,12 +47,13 @@ std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double
             };
             const S sharpness = std::numeric_limits<S>::epsilon() / 1024;
             const auto event = event_in_step(rocking, before, now, sharpness, step_to);
-            if (event.outcome != Outcome::pulse_end) {
+            if (event.outcome != Outcome::piece_end) {
                 now = event.moment;
                 return event.outcome;
             }
             if (last) {
-                return Outcome::pulse_end;
+                h = std::max(h, wanted);
+                return Outcome::piece_end;
             }
         }
     };

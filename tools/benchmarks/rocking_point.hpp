@@ -1,7 +1,7 @@
 // One point for a general ODE solver: the equation of motion on one side (Eq. 47), and the handling
 // of uplift, impact, rest and fall. All peers share it, so they differ only in the integration.
 // State: tilt |theta| and its rate d|theta|/d tau [rad]; time tau = p t since the beginning of the
-// pulse [1/p].
+// ground motion [1/p].
 #pragma once
 
 #include "peer.hpp"
@@ -9,6 +9,7 @@
 #include "overturn/mechanics/bounce_series.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 
 #include <array>
 #include <cmath>
@@ -16,7 +17,7 @@
 
 namespace overturn::benchmarks {
 
-/// The region of a block that the pulse left standing.
+/// The region of a block that the ground motion left standing.
 template <Theory theory, class T>
 Region region_after_pulse(const State<T>& state, const Block<T>& block)
 {
@@ -32,31 +33,68 @@ struct Moment {
     RockingState<S> state;
 };
 
-/// The end of a flight, which is the motion between two events.
-enum class Outcome { impact, fall, pulse_end, failure };
+/// The end of a flight, which is the motion between two events within a smooth piece of the ground
+/// motion: a pulse, or the interval between two samples of a record.
+enum class Outcome { impact, fall, piece_end, failure };
 
-/// The equation of motion on the side on which the block rocks.
-template <class S, Sines sines = Sines::library>
+/// The beginning of a flight. At a sample, it continues the previous one: the acceleration has a
+/// kink, but no jump.
+enum class Start { uplift, impact, sample };
+
+/// The acceleration of the ground over g towards the side of the tilt, over time, on the piece that
+/// contains or begins at the phase. towards: the peak of the acceleration, or the factor on the
+/// record, with the sign of the side [1].
+template <class GroundOf, Sines sines>
+class Push;
+
+template <class S, Sines sines>
+class Push<Excitation<S>, sines> {
+public:
+    Push(const Excitation<S>& excitation, const S& towards, const S&)
+        : towards_(towards), frequency_(excitation.frequency)
+    {}
+    S at(const S& time) const
+    {
+        const S phase = time * frequency_;
+        return towards_ * (sines == Sines::overturn ? OneSine::value(phase) : S(std::sin(phase)));
+    }
+
+private:
+    S towards_, frequency_;
+};
+
+template <class S, Sines sines>
+class Push<RecordExcitation<S, false>, sines> {
+public:
+    Push(const RecordExcitation<S, false>& excitation, const S& towards, const S& phase)
+        : begin_(phase / excitation.frequency),
+          line_(excitation.template series<1>(towards, phase, excitation.frequency))
+    {}
+    S at(const S& time) const { return line_.at(time - begin_); }
+
+private:
+    S begin_; // of the piece, or of the flight within it [1/p]
+    LinearPush<S> line_;
+};
+
+/// The equation of motion on the side on which the block rocks. GroundOf: Excitation, or
+/// RecordExcitation without vertical motion.
+template <class S, class GroundOf, Sines sines>
 class Rocking {
 public:
-    explicit Rocking(const PeerPoint& point)
-        : block_{S(point.slenderness), S(point.restitution)},
-          excitation_(excitation_of<Theory::nonlinear>(ground_motion(PulseKind::one_sine, S(1)),
-                                                       block_.slenderness, S(point.amplitude),
-                                                       S(point.frequency))),
-          end_(excitation_.motion.end / excitation_.frequency), push_(excitation_.acceleration)
+    Rocking(const S& slenderness, const GroundOf& excitation)
+        : slenderness_(slenderness), excitation_(excitation), end_(0),
+          push_(excitation, S(0), excitation.motion.begin)
     {}
 
     // All calls are inlined; otherwise they cost a peer up to 10 % of its time.
     [[gnu::flatten]] S acceleration(const S& tilt, const S& time) const
     {
-        const S phase = time * excitation_.frequency;
+        const S push = push_.at(time);
         if constexpr (sines == Sines::overturn) {
-            const S push = push_ * OneSine::value(phase);
-            return rocking_acceleration<Theory::nonlinear>(tilt, block_.slenderness, push);
+            return rocking_acceleration<Theory::nonlinear>(tilt, slenderness_, push);
         } else {
-            const S push = push_ * std::sin(phase);
-            const S y = block_.slenderness - tilt;
+            const S y = slenderness_ - tilt;
             return -(std::sin(y) + push * std::cos(y));
         }
     }
@@ -65,50 +103,59 @@ public:
         derivative = {state[1], acceleration(state[0], time)};
     }
 
-    void set_side(const S& side) { push_ = side * excitation_.acceleration; }
+    /// Sets the side and the piece that contains or begins at the phase.
+    void begin(const S& side, const S& phase)
+    {
+        end_ = excitation_.motion.end_of_piece(phase) / excitation_.frequency;
+        push_ = Push<GroundOf, sines>(excitation_, side * excitation_.acceleration, phase);
+    }
 
-    const Block<S>& block() const { return block_; }
-    const Excitation<S>& excitation() const { return excitation_; }
-    S end() const { return end_; }
-    S frequency() const { return excitation_.frequency; }
+    S end() const { return end_; } ///< time at which the piece ends [1/p]
+
+    /// The faster of the motion of the block and a pulse [p]. A record limits steps by its samples.
+    S fastest() const
+    {
+        return std::is_same_v<GroundOf, Excitation<S>> && excitation_.frequency > 1
+                   ? excitation_.frequency
+                   : S(1);
+    }
 
 private:
-    Block<S> block_;
-    Excitation<S> excitation_;
-    S end_;  // time at which the pulse ends
-    S push_; // a_p/g with the sign of the side
+    const S slenderness_;
+    const GroundOf& excitation_;
+    S end_;
+    Push<GroundOf, sines> push_;
 };
 
-/// The forced stage of one point. `fly(rocking, moment, from_rest)` integrates from `moment` to the
-/// next event or the end of the pulse, stores the end in `moment`, and returns the outcome;
-/// `from_rest` is true for the flight after an uplift. The tilt of 0 at the beginning of a flight
-/// is not an event.
-template <class S, Sines sines, class Fly>
-PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
+/// The forced stage of one point. `fly(rocking, moment, start)` integrates from `moment` to the
+/// next event or the end of the piece, stores the end in `moment`, and returns the outcome. The
+/// tilt of 0 at the beginning of a flight is not an event.
+template <class S, Sines sines, class GroundOf, class Fly>
+PeerEnd<S> run_point(const Block<S>& block, const GroundOf& excitation, Fly&& fly)
 {
     using std::sqrt;
-    Rocking<S, sines> rocking(point);
-    const Block<S>& block = rocking.block();
-    const Excitation<S>& excitation = rocking.excitation();
+    Rocking<S, GroundOf, sines> rocking(block.slenderness, excitation);
+    const auto& motion = excitation.motion;
     const S sqrt_restitution = sqrt(block.restitution);
     State<S> end{S(0), S(0), S(1)};
-    S phase = excitation.motion.begin;
+    S phase = motion.begin;
+    S uplift = -std::numeric_limits<S>::infinity();
     while (true) {
-        S uplift = std::numeric_limits<S>::infinity();
-        for (const S& candidate : excitation.uplifts) {
-            uplift = candidate >= phase && candidate < uplift ? candidate : uplift;
+        uplift = excitation.next_uplift(true, phase, uplift);
+        if (!(uplift < motion.end)) {
+            break; // at rest until the ground motion ends
         }
-        if (!(uplift < excitation.motion.end)) {
-            break; // at rest until the pulse ends
-        }
+        phase = uplift;
         end.side = excitation.ground(uplift) < 0 ? S(1) : S(-1);
         Moment<S> now{uplift / excitation.frequency, {S(0), S(0)}};
-        bool from_rest = true;
+        Start start = Start::uplift;
         while (true) {
-            rocking.set_side(end.side);
-            const Outcome outcome =
-                now.time < rocking.end() ? fly(rocking, now, from_rest) : Outcome::pulse_end;
-            from_rest = false;
+            rocking.begin(end.side, phase);
+            Outcome outcome = Outcome::piece_end;
+            if (now.time < rocking.end()) {
+                outcome = fly(rocking, now, start);
+                start = Start::sample;
+            }
             if (outcome == Outcome::failure) {
                 const S none = std::numeric_limits<S>::quiet_NaN();
                 return {none, none, Region::undecided};
@@ -117,7 +164,12 @@ PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
                 return {end.side * pi<S>() / 2, end.side * now.state[1],
                         end.side > 0 ? Region::F_plus : Region::F_minus};
             }
-            if (outcome == Outcome::pulse_end) {
+            if (outcome == Outcome::piece_end) {
+                phase = motion.end_of_piece(phase);
+                if (phase < motion.end) {
+                    now.time = rocking.end();
+                    continue;
+                }
                 end.tilt = now.state[0] > 0 ? now.state[0] : S(0);
                 end.rate = now.state[1];
                 return {end.side * end.tilt, end.side * end.rate,
@@ -125,6 +177,7 @@ PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
             }
             end = state_after_impact<S>({S(0), now.state[1], end.side}, sqrt_restitution);
             now.state = {end.tilt, end.rate};
+            start = Start::impact;
             phase = now.time * excitation.frequency;
             if (bounces_die_out<Theory::nonlinear>(block, excitation, phase, end.rate)) {
                 break;
@@ -135,14 +188,34 @@ PeerEnd<S> run_point(const PeerPoint& point, Fly&& fly)
             region_after_pulse<Theory::nonlinear>(State<S>{S(0), S(0), end.side}, block)};
 }
 
+/// Calls visit(excitation) for one point of a problem.
+template <class S, class Visitor>
+auto with_excitation(const Scene& scene, const PlanePoint& point, const Visitor& visit)
+{
+    const S slenderness(point.slenderness);
+    if (scene.is_recorded()) {
+        return visit(RecordExcitation<S, false>{
+            .motion = record_motion<S>(*scene.records.front()),
+            .acceleration = S(point.amplitude),
+            .frequency = S(point.frequency),
+            .threshold = uplift_acceleration<Theory::nonlinear>(slenderness)});
+    }
+    return visit(excitation_of<Theory::nonlinear>(ground_motion(PulseKind::one_sine, S(1)),
+                                                  slenderness, S(point.amplitude),
+                                                  S(point.frequency)));
+}
+
 /// The forced stage of every point; see run_point().
 template <class S, Sines sines = Sines::library, class Fly>
 std::vector<PeerEnd<S>> run_points(const Problem& problem, Fly&& fly)
 {
     std::vector<PeerEnd<S>> ends;
     ends.reserve(problem.points.size());
-    for (const PeerPoint& point : problem.points) {
-        ends.push_back(run_point<S, sines>(point, fly));
+    for (const PlanePoint& point : problem.points) {
+        const Block<S> block{S(point.slenderness), S(point.restitution)};
+        ends.push_back(with_excitation<S>(problem.scene, point, [&](const auto& excitation) {
+            return run_point<S, sines>(block, excitation, fly);
+        }));
     }
     return ends;
 }

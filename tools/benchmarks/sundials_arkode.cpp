@@ -13,8 +13,9 @@ namespace overturn::benchmarks {
 std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tolerance)
 {
     SundialsState state;
-    const Rocking<double>* current = nullptr;
-    void* memory = ERKStepCreate(rocking_derivative, 0, state.vector(), state.context());
+    const void* current = nullptr;
+    void* memory =
+        ERKStepCreate(rocking_derivative_of(problem), 0, state.vector(), state.context());
     if (memory == nullptr) {
         throw std::bad_alloc();
     }
@@ -27,15 +28,17 @@ std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tole
     ERKStepSetRootDirection(memory, const_cast<int*>(closing_gaps));
     ERKStepSetNoInactiveRootWarn(memory);
 
-    const auto fly = [&](const Rocking<double>& rocking, Moment<double>& now, bool from_rest) {
+    const auto fly = [&](const auto& rocking, Moment<double>& now, Start start) {
         current = &rocking;
-        double h = first_step / std::max(1.0, rocking.frequency());
-        if (!from_rest) {
-            ERKStepGetCurrentStep(memory, &h);
+        if (start != Start::sample) { // at a sample, it continues
+            double h = first_step / rocking.fastest();
+            if (start != Start::uplift) {
+                ERKStepGetCurrentStep(memory, &h);
+            }
+            state.set(now.state);
+            ERKStepReset(memory, now.time, state.vector());
+            ERKStepSetInitStep(memory, std::min(h, rocking.end() - now.time));
         }
-        state.set(now.state);
-        ERKStepReset(memory, now.time, state.vector());
-        ERKStepSetInitStep(memory, std::min(h, rocking.end() - now.time));
         ERKStepSetStopTime(memory, rocking.end());
         const int result =
             ERKStepEvolve(memory, rocking.end(), state.vector(), &now.time, ARK_NORMAL);
@@ -43,7 +46,7 @@ std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tole
         if (result == ARK_ROOT_RETURN) {
             return outcome_at_root(now.state);
         }
-        return result >= 0 ? Outcome::pulse_end : Outcome::failure;
+        return result >= 0 ? Outcome::piece_end : Outcome::failure;
     };
     std::vector<PeerEnd<double>> ends = run_points<double>(problem, fly);
     ERKStepFree(&memory);

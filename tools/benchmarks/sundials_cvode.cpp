@@ -12,12 +12,12 @@ namespace overturn::benchmarks {
 std::vector<PeerEnd<double>> solve_by_cvode_adams(const Problem& problem, double tolerance)
 {
     SundialsState state;
-    const Rocking<double>* current = nullptr;
+    const void* current = nullptr;
     void* memory = CVodeCreate(CV_ADAMS, state.context());
     if (memory == nullptr) {
         throw std::bad_alloc();
     }
-    CVodeInit(memory, rocking_derivative, 0, state.vector());
+    CVodeInit(memory, rocking_derivative_of(problem), 0, state.vector());
     SUNNonlinearSolver corrector = SUNNonlinSol_FixedPoint(state.vector(), 0, state.context());
     CVodeSetNonlinearSolver(memory, corrector);
     CVodeSetUserData(memory, &current);
@@ -27,17 +27,19 @@ std::vector<PeerEnd<double>> solve_by_cvode_adams(const Problem& problem, double
     CVodeSetRootDirection(memory, const_cast<int*>(closing_gaps));
     CVodeSetNoInactiveRootWarn(memory);
 
-    const auto fly = [&](const Rocking<double>& rocking, Moment<double>& now, bool) {
+    const auto fly = [&](const auto& rocking, Moment<double>& now, Start start) {
         current = &rocking;
-        state.set(now.state);
-        CVodeReInit(memory, now.time, state.vector());
+        if (start != Start::sample) { // at a sample, it continues: order 1 would cost more
+            state.set(now.state);
+            CVodeReInit(memory, now.time, state.vector());
+        }
         CVodeSetStopTime(memory, rocking.end());
         const int result = CVode(memory, rocking.end(), state.vector(), &now.time, CV_NORMAL);
         now.state = state.get();
         if (result == CV_ROOT_RETURN) {
             return outcome_at_root(now.state);
         }
-        return result >= 0 ? Outcome::pulse_end : Outcome::failure;
+        return result >= 0 ? Outcome::piece_end : Outcome::failure;
     };
     std::vector<PeerEnd<double>> ends = run_points<double>(problem, fly);
     SUNNonlinSolFree(corrector);

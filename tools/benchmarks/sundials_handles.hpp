@@ -42,13 +42,25 @@ private:
     N_Vector vector_ = nullptr;
 };
 
-inline int rocking_derivative(double time, N_Vector state, N_Vector derivative, void* rocking)
+/// rocking: the address of a pointer to the current point.
+template <class RockingBlock>
+int rocking_derivative(double time, N_Vector state, N_Vector derivative, void* rocking)
 {
     const double* y = NV_DATA_S(state);
     double* change = NV_DATA_S(derivative);
     change[0] = y[1];
-    change[1] = (*static_cast<const Rocking<double>* const*>(rocking))->acceleration(y[0], time);
+    const void* current = *static_cast<const void* const*>(rocking);
+    change[1] = static_cast<const RockingBlock*>(current)->acceleration(y[0], time);
     return 0;
+}
+
+/// The right-hand side for the ground motion of a problem.
+inline auto* rocking_derivative_of(const Problem& problem)
+{
+    return problem.scene.is_recorded()
+               ? rocking_derivative<
+                     Rocking<double, RecordExcitation<double, false>, Sines::library>>
+               : rocking_derivative<Rocking<double, Excitation<double>, Sines::library>>;
 }
 
 /// The gaps to the ground and to pi/2; each closes at an event.
