@@ -1,5 +1,6 @@
 // Prints what a job would compute and store, and its estimated time. Writes nothing.
 #include "commands.hpp"
+#include "dimension_lines.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
 #include "output_lines.hpp"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -97,10 +99,8 @@ void print_plane(const Plane& plane)
     const auto print = [](std::string_view name, const Axis& axis, std::string_view ending) {
         print_axis(name, axis.size(), axis.first(), axis.last(), ending);
     };
-    print(name_of(plane.frequency_is), plane.frequency,
-          plane.frequency_is == FrequencyQuantity::size                  ? " m"
-          : plane.frequency_is == FrequencyQuantity::frequency_parameter ? " 1/s"
-                                                                         : "");
+    constexpr std::array units{"", " s", " Hz", " m", " 1/s"}; // in the order of the quantities
+    print(name_of(plane.frequency_is), plane.frequency, units[std::size_t(plane.frequency_is)]);
     print(name_of(plane.amplitude_is), plane.amplitude,
           plane.amplitude_is == AmplitudeQuantity::pga ? " g" : "");
     print("restitution", plane.restitution,
@@ -132,6 +132,12 @@ int check(const JobSource& source)
     }
     print_scene(job);
     print_plane(job.plane);
+    const std::vector<std::string> lines = dimension_lines(job);
+    print_row("block", lines[0]);
+    print_row("ground", lines[1]);
+    for (const std::string& line : dimension_warnings(job)) {
+        print_row("warning", line);
+    }
     for (const std::string& line : free_fall_lines(job)) {
         print_row("note", line);
     }

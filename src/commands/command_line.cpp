@@ -74,6 +74,58 @@ CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& p
     return command.add_option(name, path, "Result file")->required();
 }
 
+/// CLI::PositiveNumber would print the largest double as the upper limit.
+const CLI::Validator is_positive(
+    [](const std::string& text) {
+        double value = 0;
+        const bool is_valid = CLI::detail::lexical_cast(text, value) && value > 0;
+        return is_valid ? "" : fmt::format("{} is not a positive number.", text);
+    },
+    "");
+
+void add_topple_arguments(CLI::App& command, ToppleOptions& options)
+{
+    const auto number = [&](const char* name, auto& value, const char* unit, const char* text) {
+        return command.add_option(name, value, text)->type_name(unit)->check(is_positive);
+    };
+    number("--width", options.width, "M", "Width of the block [m]")->required();
+    number("--height", options.height, "M", "Height of the block [m]")->required();
+    number("--period", options.period, "S", "Period of the pulse [s]");
+    number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges");
+    command
+        .add_option_function<std::string>(
+            "--pulse",
+            [&options](const std::string& pulse) {
+                options.pulse = pulse;
+                options.has_pulse = true;
+            },
+            "Pulse; default: one_sine")
+        ->type_name("NAME");
+    command.add_option("--record", options.record, "Recorded motion instead of a pulse")
+        ->type_name("FILE");
+    command
+        .add_option("--component", options.component, "Name or number in the record; default: 1")
+        ->type_name("NAME");
+    number("--scale", options.scale, "X", "Factor on the record, instead of --pga");
+    number("--restitution", options.restitution, "R",
+           "Energy ratio r at an impact, the square of the ratio of velocities");
+    command
+        .add_option_function<double>(
+            "--restitution-of-maximum",
+            [&options](double share) {
+                options.restitution_of_maximum = share;
+                options.has_share = true;
+            },
+            "r over r_max (Eq. 17); default: 1")
+        ->type_name("X")
+        ->check(is_positive);
+    number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration that is searched")
+        ->capture_default_str();
+    command.add_flag("--json", options.json, "Print JSON for programs");
+    command.add_option("--plot", options.plot, "Draw the history (needs --pga or --scale)")
+        ->type_name("PICTURE");
+}
+
 /// All parsed options; must live as long as the parser.
 struct Arguments {
     RunOptions run;
@@ -81,6 +133,7 @@ struct Arguments {
     JobSource check;
     AccuracyOptions accuracy;
     HistoryOptions history;
+    ToppleOptions topple;
     std::string info;
     std::string verify;
 };
@@ -182,6 +235,12 @@ Command read_command_line(int argc, const char* const* argv)
                      "added")
         ->check(CLI::Range(2, 10000000))
         ->capture_default_str();
+
+    ToppleOptions& topple_options = arguments->topple;
+    add_topple_arguments(*add_command("topple",
+                                      "Answer whether one block topples, and at which PGA",
+                                      help::topple, topple, topple_options),
+                         topple_options);
 
     add_result_file(
         *add_command("info", "Print a summary of a result file", help::info, info, arguments->info),

@@ -1,6 +1,7 @@
 // The subcommands, one file each. They return an exit code, and throw an exception on error.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,26 @@ struct HistoryOptions {
     int samples = 2000;
 };
 int history(const HistoryOptions& options);
+
+/// Answers whether one block topples under one motion, and at which peak accelerations.
+struct ToppleOptions {
+    double width = 0;  ///< [m]
+    double height = 0; ///< [m]
+    std::string pulse = "one_sine";
+    bool has_pulse = false;       ///< --pulse was given
+    std::optional<double> period; ///< of the pulse [s]
+    std::string record;           ///< path; empty: a pulse
+    std::string component;        ///< of the record, its name or number
+    std::optional<double> pga;    ///< over g [1]
+    std::optional<double> scale;  ///< of the record [1]
+    std::optional<double> restitution;
+    double restitution_of_maximum = 1;
+    bool has_share = false; ///< --restitution-of-maximum was given
+    double pga_max = 5;     ///< the largest acceleration searched, over g [1]
+    bool json = false;
+    std::string plot; ///< path of a picture of the history; empty: none
+};
+int topple(const ToppleOptions& options);
 
 /// Prints a summary of a result file.
 int info(const std::string& path);

@@ -38,6 +38,15 @@ amplitude, overturn info reports it. The same command resumes an unfinished run.
 Under a record there is no complete list: the steps are divided down to 0.1 % of the amplitude, and
 thinner strips exist. The share of the scanned interval that overturns is stored as well.)";
 
+inline constexpr const char* topple = R"(Examples:
+  overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
+  overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --plot tilt.png
+
+Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
+it, and every range of the PGA, up to --pga-max, in which it topples: for the given restitution, and
+for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2. The exit code is 0
+whatever the verdict. Spectra and suites of records need a job file: see overturn run.)";
+
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
 

@@ -1,7 +1,9 @@
 // The motion of one block: the forced stage, then the analytical free stage.
 #include "child_process.hpp"
 #include "commands.hpp"
+#include "dimension_lines.hpp"
 #include "exit_code.hpp"
+#include "one_point.hpp"
 #include "output_lines.hpp"
 
 #include "overturn/file/sole_writer.hpp"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 namespace overturn {
@@ -102,38 +105,60 @@ void expect_gravity(const Job& job, double scale)
     }
 }
 
-void print_event(const HistoryEvent& event)
+/// The units of printed values: seconds and degrees if p is known, otherwise 1/p and radians.
+struct Units {
+    explicit Units(const std::optional<double>& p)
+        : per_second(p.value_or(1)), per_angle(p ? in_degrees(1) : 1), time(p ? "s" : "1/p"),
+          angle(p ? "deg" : "rad")
+    {}
+
+    double per_second; ///< p [1/s]
+    double per_angle;
+    const char* time;
+    const char* angle;
+};
+
+void print_event(const HistoryEvent& event, const Units& units)
 {
     // A tiny negative angle would print as -0.
-    const auto shown = [](double angle) { return std::abs(angle) < 5e-6 ? 0 : angle; };
-    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>13.5f}{:>12.5f}{:>12.3e}\n", event.after.time,
-               event_names[std::size_t(event.kind)], shown(event.after.angle),
-               shown(event.before.velocity), shown(event.after.velocity), event.after.q);
+    const auto shown = [&](double value) {
+        const double scaled = value * units.per_angle;
+        return std::abs(scaled) < 5e-6 ? 0 : scaled;
+    };
+    const auto rate = [&](double value) { return shown(value) * units.per_second; };
+    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>13.5f}{:>12.5f}{:>12.3e}\n",
+               event.after.time / units.per_second, event_names[std::size_t(event.kind)],
+               shown(event.after.angle), rate(event.before.velocity), rate(event.after.velocity),
+               event.after.q);
 }
 
-void print_events(const History& history)
+void print_events(const History& history, const Units& units)
 {
     constexpr std::size_t most_lines = 24;
-    fmt::print("\n{:>10}  {:<13}{:>10}{:>13}{:>12}{:>12}\n", "time [1/p]", "event", "angle",
-               "vel. before", "vel. after", "q after");
+    fmt::print("\n{:>10}  {:<13}{:>10}{:>13}{:>12}{:>12}\n", fmt::format("time [{}]", units.time),
+               "event", fmt::format("angle [{}]", units.angle), "vel. before", "vel. after",
+               "q after");
     const std::size_t shown = std::min(most_lines, history.events.size());
     for (std::size_t i = 0; i < shown; ++i) {
-        print_event(history.events[i]);
+        print_event(history.events[i], units);
     }
     if (shown < history.events.size()) {
         fmt::print("{:>10}  and {} more\n", "", history.events.size() - shown);
     }
 }
 
-void print_outcome(const History& history)
+void print_outcome(const History& history, double slenderness, double peak,
+                   const std::optional<double>& p)
 {
-    const auto time = [](double value) {
+    const auto time = [&](double value) {
         return std::isnan(value)   ? std::string("unknown")
                : std::isinf(value) ? std::string("never")
+               : p                 ? fmt::format("after {:.6g} s", value / *p)
                                    : fmt::format("after {:.6g} / p", value);
     };
     print_row("region", name_of(history.region));
     print_row("margin", fmt::format("{:.6g}, error at most {:.1g}", history.margin, history.error));
+    print_row("peak", peak_text(peak, slenderness));
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
     if (history.shortened) {
@@ -153,24 +178,17 @@ int history(const HistoryOptions& options)
         return refusal;
     }
     const double slenderness = job.plane.slenderness.first();
-    const PlanePoint point{
-        .slenderness = slenderness,
-        .restitution = job.plane.restitution_ratio(0, 0),
-        .amplitude =
-            job.plane.amplitude.first() / amplitude_unit(job.scene, job.plane, 0, slenderness),
-        .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first())};
+    const PlanePoint point = only_point_of(job);
     expect_gravity(job, point.amplitude);
     HistoryView view{.samples = options.samples};
-    if (!job.motions.empty()) { // the samples of the record are shown, too
-        view.samples = int(std::max<std::int64_t>(view.samples, job.motions.front().samples));
-    }
     if (options.until > 0) {
         view.until = options.until;
     }
-    const History history = history_of(job.scene, point, view);
+    const History history = history_of_only_point(job, view);
     expect_finite(history, job.plane);
-    print_outcome(history);
-    print_events(history);
+    const std::optional<double> p = parameter_of_only_block(job);
+    print_outcome(history, slenderness, peak_of_only_point(job), p);
+    print_events(history, Units(p));
     write_history_file(options.output, job, history);
     fmt::print("\n{0}: written; draw it with tools/plot_history {0}\n", options.output);
     return exit_code::complete;

@@ -72,6 +72,28 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
     }
 }
 
+/// Under a pulse, a and Omega if the job gives others in their place, and p [1/s] if it is known.
+void add_equivalents(hid_t file, const Job& job)
+{
+    const Plane& plane = job.plane;
+    if (job.scene.is_recorded()) {
+        return;
+    }
+    if (plane.amplitude_is != AmplitudeQuantity::amplitude) {
+        write_attribute(file, "amplitude",
+                        plane.amplitude.first() /
+                            amplitude_unit(job.scene, plane, 0, plane.slenderness.first()));
+    }
+    if (plane.frequency_is != FrequencyQuantity::frequency) {
+        write_attribute(file, "frequency",
+                        frequency_of_point(job.scene, plane, 0, plane.frequency.first()));
+    }
+    if (plane.size) {
+        write_attribute(file, "frequency_parameter",
+                        frequency_parameter(*plane.size, job.scene.gravity));
+    }
+}
+
 /// The point and its outcome.
 void add_outcome(hid_t file, const Job& job, const History& history)
 {
@@ -81,6 +103,7 @@ void add_outcome(hid_t file, const Job& job, const History& history)
                     job.plane.amplitude.first());
     write_attribute(file, std::string(name_of(job.plane.frequency_is)).c_str(),
                     job.plane.frequency.first());
+    add_equivalents(file, job);
     write_attribute(file, "region", std::int64_t(history.region));
     write_attribute(file, "margin", history.margin);
     write_attribute(file, "margin_error", history.error);

@@ -24,8 +24,9 @@ constexpr std::size_t most_undecided = 16;
 
 class Line {
 public:
-    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested)
-        : resolution(search_resolution(scene)), scene_(scene), line_(line), kernel_(kernel),
+    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested,
+         const SearchResolution& search)
+        : resolution(search), scene_(scene), line_(line), kernel_(kernel),
           drop_requested_(std::move(drop_requested))
     {}
 
@@ -44,7 +45,9 @@ public:
                 {line_.slenderness, line_.restitution, amplitude / line_.unit, line_.frequency});
         }
         const PointRun run(scene_, std::move(points), kernel_, drop_requested_, line_.motion);
-        const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true});
+        Numerics limited = numerics;
+        limited.most_in_50_digits = resolution.most_in_50_digits;
+        const Ends ends = ends_of(run, limited, {.impacts = true, .region = true, .margin = true});
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back(
@@ -264,9 +267,9 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
                      const std::vector<double>& amplitudes, Kernel kernel, std::size_t most_flips,
-                     DropRequested drop_requested)
+                     DropRequested drop_requested, std::optional<SearchResolution> resolution)
 {
-    Line line(scene, where, kernel, drop_requested);
+    Line line(scene, where, kernel, drop_requested, resolution.value_or(search_resolution(scene)));
     std::vector<Probe> probes = scene.is_recorded()
                                     ? at_equal_steps(line, line.without_free_fall(amplitudes))
                                     : refined(line, line.at(amplitudes, scanning), most_flips);

@@ -53,12 +53,7 @@ bool settle_in(const PointRun& run, int point, Ends& ends)
     return !(ends.flags[std::size_t(point)] & (end_flag::in_doubt | end_flag::undecided));
 }
 
-/// Of the points of a tile under a record. A point takes about a second in 50 digits: 8192 samples
-/// take 0.4 s to 1.3 s. Of 256 points under the GeoNet record WTMC, at most 5 need them if r =
-/// r_max, and 26 if r = 1.
-constexpr int most_in_50_digits = 32;
-
-void resolve(const PointRun& run, Ends& ends)
+void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
 {
     std::vector<int> all(ends.tilt.size());
     std::iota(all.begin(), all.end(), 0);
@@ -67,7 +62,7 @@ void resolve(const PointRun& run, Ends& ends)
         run.run(finest_in_doubles, ends, OnUnknownError::go_on, &in_doubt);
     }
     in_doubt = settle_capped(run, in_doubt, ends);
-    int left = run.intervals() > 0 ? most_in_50_digits : run.size();
+    int left = run.intervals() > 0 ? numerics.most_in_50_digits : run.size();
     for (const int point : in_doubt) {
         const bool settled = run.settle_low_bounces(point, ends) ||
                              settle_in<long double>(run, point, ends) ||
@@ -89,7 +84,7 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
     Ends ends(std::size_t(points.size()), recorded);
     points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);
     if (numerics.resolve) {
-        resolve(points, ends);
+        resolve(points, numerics, ends);
     }
     if (records.peak && !recorded.peak) {
         Ends with_peaks(ends.tilt.size(), {.peak = true});

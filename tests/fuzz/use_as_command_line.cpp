@@ -35,6 +35,10 @@ int history(const HistoryOptions&)
 {
     refuse_to_run();
 }
+int topple(const ToppleOptions&)
+{
+    refuse_to_run();
+}
 int info(const std::string&)
 {
     refuse_to_run();

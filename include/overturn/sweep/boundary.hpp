@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace overturn {
@@ -30,6 +31,7 @@ struct Flip {
 struct SearchResolution {
     double finest_step; ///< steps of the scan that are smaller are not halved
     double flip_width;  ///< of the two amplitudes of a flip, unless they are adjacent doubles
+    int most_in_50_digits = Numerics().most_in_50_digits; ///< see Numerics; per step of the search
 };
 
 /// Under a record there are ever more flips at ever smaller steps, and the verdicts next to a flip
@@ -68,11 +70,12 @@ struct Boundary {
 /// different sides, there is a safe strip between them, however thin. If |margin| has a local
 /// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
 /// thinner than two steps of the scan that satisfies none of these criteria can be missed. Under a
-/// record there are always such strips.
+/// record there are always such strips. resolution: default: search_resolution().
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
-                     DropRequested drop_requested = nullptr);
+                     DropRequested drop_requested = nullptr,
+                     std::optional<SearchResolution> resolution = std::nullopt);
 
 /// Value of region_below and region_above, in addition to the region codes, if there is no flip.
 inline constexpr std::uint8_t no_flip = 253;

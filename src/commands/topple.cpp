@@ -1,0 +1,286 @@
+// Whether one block topples under one motion, and at which peak accelerations. The job is made from
+// the command line; everything is computed as by `run`, `boundary` and `history`.
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "one_point.hpp"
+#include "output_lines.hpp"
+#include "printable.hpp"
+#include "toppling_ranges.hpp"
+
+#include "overturn/file/study_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <fcntl.h>
+#include <filesystem>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace overturn {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string quoted(const std::string& text)
+{
+    std::string result;
+    for (const char letter : text) {
+        result +=
+            letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
+    }
+    return '"' + result + '"';
+}
+
+/// The text of a job with a single point. If the command line gives no strength, the point is at
+/// the largest PGA.
+std::string job_text(const ToppleOptions& options)
+{
+    const bool is_recorded = !options.record.empty();
+    std::string text = "[scene]\n";
+    text += is_recorded ? fmt::format("record = {}\n", quoted(options.record))
+                        : fmt::format("pulse = {}\n", quoted(options.pulse));
+    if (!options.component.empty()) {
+        const bool is_number =
+            options.component.find_first_not_of("0123456789") == std::string::npos;
+        text += fmt::format("component = {}\n",
+                            is_number ? options.component : quoted(options.component));
+    }
+    text += "[plane]\n";
+    text += options.scale ? fmt::format("scale = {}\n", *options.scale)
+                          : fmt::format("pga = {}\n", options.pga.value_or(options.pga_max));
+    if (!is_recorded) {
+        text += fmt::format("pulse_period = {}\n", *options.period);
+    }
+    const bool is_share = !options.restitution;
+    text += fmt::format("restitution = {{ values = [{}], of = \"{}\" }}\n",
+                        is_share ? options.restitution_of_maximum : *options.restitution,
+                        is_share ? "maximum" : "absolute");
+    return text + fmt::format("[block]\nwidth = {}\nheight = {}\n", options.width, options.height);
+}
+
+void expect_consistent(const ToppleOptions& options)
+{
+    const auto refuse_if = [](bool wrong, const char* message) {
+        if (wrong) {
+            throw UsageError(message);
+        }
+    };
+    const bool is_recorded = !options.record.empty();
+    refuse_if(is_recorded && options.period,
+              "--period is that of a pulse, and --record gives a recorded motion. Remove one.");
+    refuse_if(is_recorded && options.has_pulse,
+              "--pulse and --record exclude each other. Remove one.");
+    refuse_if(!is_recorded && !options.period,
+              "the ground motion is missing. Give --period with the period of a pulse [s], or "
+              "--record with the file of a recorded motion.");
+    refuse_if(!is_recorded && options.scale,
+              "--scale is a factor on a record. Give --pga for a pulse, or --record.");
+    refuse_if(!is_recorded && !options.component.empty(),
+              "--component is that of a record. Remove it, or give --record.");
+    refuse_if(options.scale && options.pga, "--scale and --pga exclude each other. Remove one.");
+    refuse_if(!options.plot.empty() && !options.pga && !options.scale,
+              "--plot draws the history at one acceleration. Give --pga or --scale.");
+    refuse_if(options.restitution && options.has_share,
+              "--restitution and --restitution-of-maximum exclude each other. Remove one.");
+}
+
+/// The answer for one restitution.
+struct Restituted {
+    double share; ///< r / r_max
+    double ratio; ///< r
+    TopplingRanges ranges;
+};
+
+struct Answer {
+    std::string verdict; ///< "topples", "does not topple" or "undecided"; empty if not asked
+    double peak = 0;     ///< |theta| / alpha
+    double pga = 0;      ///< of the asked point
+    double lifting_pga = 0;
+    std::vector<Restituted> restituted; ///< the asked one first
+};
+
+Answer answer_of(const Job& job, const ToppleOptions& options)
+{
+    Answer answer;
+    const double alpha = job.plane.slenderness.first();
+    const double unit = pga_of_unit_amplitude(job.scene, 0, alpha);
+    answer.pga = job.plane.amplitude.first() * (options.scale ? unit : 1);
+    if (options.pga || options.scale) {
+        answer.peak = peak_of_only_point(job);
+        answer.verdict = std::isnan(answer.peak)   ? "undecided"
+                         : std::isinf(answer.peak) ? "topples"
+                                                   : "does not topple";
+    }
+    answer.lifting_pga = uplift_threshold(job.scene.theory, alpha);
+    const double r_max = largest_restitution(alpha);
+    const double asked = job.plane.restitution_ratio(0, 0);
+    std::vector<double> ratios{asked};
+    for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
+        ratios.push_back(share * r_max);
+    }
+    for (const double ratio : ratios) {
+        if (!answer.restituted.empty() && ratio == asked) {
+            answer.restituted.push_back(answer.restituted.front());
+            continue;
+        }
+        const BoundaryLine line{
+            .slenderness = alpha,
+            .restitution = ratio,
+            .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first()),
+            .unit = unit};
+        answer.restituted.push_back(
+            {ratio / r_max, ratio,
+             toppling_ranges(job.scene, line, answer.lifting_pga, options.pga_max, answer.pga)});
+    }
+    return answer;
+}
+
+double most_undecided_of(const std::vector<Restituted>& restituted)
+{
+    double most = 0;
+    for (const Restituted& each : restituted) {
+        most = std::max(most, each.ranges.undecided_share);
+    }
+    return most;
+}
+
+void print_answer(const Job& job, const ToppleOptions& options, const Answer& answer)
+{
+    const double alpha = job.plane.slenderness.first();
+    const Restituted& asked = answer.restituted.front();
+    const bool is_recorded = job.scene.is_recorded();
+    print_row("block", fmt::format("{} m x {} m, {}", options.width, options.height,
+                                   dimension_lines(job)[0]));
+    print_row("motion", is_recorded
+                            ? printable(fmt::format("{}, unscaled peak {:.4g} g", options.record,
+                                                    job.motions.front().measures.pga))
+                            : fmt::format("{}, period {} s", options.pulse, *options.period));
+    print_row("restitution", asked.share == 1 ? fmt::format("r = r_max = {:.4g}", asked.ratio)
+                                              : fmt::format("r = {:.4g} = {:.4g} r_max",
+                                                            asked.ratio, asked.share));
+    if (!answer.verdict.empty()) {
+        print_row("verdict", fmt::format("{} at {:.4g} g", answer.verdict, answer.pga));
+        print_row("peak tilt", peak_text(answer.peak, alpha));
+    }
+    print_row("lifts from", fmt::format("{:.4f} g", answer.lifting_pga));
+    print_row("topples", asked.ranges.text());
+    fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration, up to {} g, of\n", "r/r_max",
+               "r", options.pga_max);
+    for (std::size_t i = 1; i < answer.restituted.size(); ++i) {
+        const Restituted& other = answer.restituted[i];
+        fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio, other.ranges.text(6));
+    }
+    if (is_recorded) {
+        fmt::print(
+            "\nUnder a record thinner ranges exist, between the steps of {:.1g} %. Undecided are "
+            "up to {:.2g} % of the accelerations.\n",
+            100 * toppling_step, 100 * most_undecided_of(answer.restituted));
+    }
+}
+
+void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
+{
+    const auto number = [](double value) {
+        return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
+    };
+    const double alpha = job.plane.slenderness.first();
+    const auto ranges_of = [&](const Restituted& restituted) {
+        return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
+                           "\"toppling_pga\": {}, \"undecided_share\": {}",
+                           restituted.ratio, restituted.share, restituted.ranges.json(),
+                           restituted.ranges.undecided_share);
+    };
+    std::string others;
+    for (std::size_t i = 1; i < answer.restituted.size(); ++i) {
+        others += fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", ranges_of(answer.restituted[i]));
+    }
+    const bool is_asked = !answer.verdict.empty();
+    fmt::print("{{\n"
+               "  \"topples\": {},\n"
+               "  \"pga\": {},\n"
+               "  \"peak_of_alpha\": {},\n"
+               "  \"peak_degrees\": {},\n"
+               "  \"slenderness\": {},\n"
+               "  \"frequency_parameter\": {},\n"
+               "  \"gravity\": {},\n"
+               "  \"lifting_pga\": {},\n"
+               "  \"pga_max\": {},\n"
+               "  \"thinner_ranges_exist\": {},\n"
+               "  {},\n"
+               "  \"by_restitution\": [{}\n  ]\n"
+               "}}\n",
+               answer.verdict == "topples"           ? "true"
+               : answer.verdict == "does not topple" ? "false"
+                                                     : "null",
+               is_asked ? number(answer.pga) : "null", is_asked ? number(answer.peak) : "null",
+               is_asked ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
+               *parameter_of_only_block(job), job.scene.gravity, answer.lifting_pga,
+               options.pga_max, job.scene.is_recorded(), ranges_of(answer.restituted.front()),
+               others);
+}
+
+/// plot_history of the folder in which this program is installed, or of its source folder.
+fs::path plotting_tool()
+{
+    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+    for (const fs::path& path :
+         {folder / "overturn-plot-history", folder / "../tools/plot_history"}) {
+        if (fs::exists(path)) {
+            return path;
+        }
+    }
+    throw UsageError("--plot: the tool overturn-plot-history is not installed beside overturn. "
+                     "Install it, or leave out --plot.");
+}
+
+void plot(const Job& job, const std::string& picture)
+{
+    const std::string tool = plotting_tool().string();
+    std::string folder = (fs::temp_directory_path() / "overturn-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) {
+        throw FileError(fmt::format("cannot create a folder in {}.", folder));
+    }
+    std::string file = folder + "/history.h5";
+    write_history_file(file, job, history_of_only_point(job));
+    std::string output = "-o";
+    std::string target = picture;
+    std::string program = tool;
+    std::array<char*, 5> arguments{program.data(), file.data(), output.data(), target.data(),
+                                   nullptr};
+    pid_t child = 0;
+    int status = 0;
+    posix_spawn_file_actions_t silent; // only the answer is printed
+    posix_spawn_file_actions_init(&silent);
+    posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const bool ran =
+        posix_spawn(&child, tool.c_str(), &silent, nullptr, arguments.data(), environ) == 0 &&
+        waitpid(child, &status, 0) == child;
+    posix_spawn_file_actions_destroy(&silent);
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    if (!ran || status != 0) {
+        throw FileError(fmt::format("{} could not draw \"{}\".", tool, picture));
+    }
+}
+
+} // namespace
+
+int topple(const ToppleOptions& options)
+{
+    expect_consistent(options);
+    const Job job = read_job_text(job_text(options), "the command line", {});
+    const Answer answer = answer_of(job, options);
+    (options.json ? print_json : print_answer)(job, options, answer);
+    if (!options.plot.empty()) {
+        plot(job, options.plot);
+    }
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,118 @@
+"""overturn topple: the statue of the documentation, records, and refusals."""
+
+import json
+import math
+import time
+import unittest
+
+import h5py
+
+from program import Scratch
+from records_test import JOBS
+
+STATUE = ("--width", "0.6", "--height", "1.8")
+PULSE = (*STATUE, "--period", "0.5")
+RECORD = (*STATUE, "--record", str(JOBS / "synthetic.AT2"))
+
+
+class Toppling(Scratch):
+    def topple(self, *arguments):
+        result = self.overturn("topple", *arguments)
+        self.assert_exit(result, 0)
+        return result.stdout
+
+    def answer(self, *arguments):
+        return json.loads(self.topple(*arguments, "--json"))
+
+    def test_of_a_statue_is_answered_in_a_few_lines(self):
+        text = self.topple(*PULSE, "--pga", "0.4")
+        for words in ("does not topple at 0.4 g", "0.8868 degrees, 4.81 % of alpha",
+                      "lifts from   0.3333 g", "1.1114 to 1.6445 g, above 2.1297 g"):
+            self.assertIn(words, text)
+        self.assertLess(len(text.splitlines()), 16)
+        self.assertIn("verdict      topples at 1.2 g",
+                      self.topple(*PULSE, "--pga", "1.2", "--restitution-of-maximum", "0.9"))
+
+    def test_agrees_with_the_job_in_dimensionless_numbers(self):
+        answer = self.answer(*PULSE, "--pga", "1.2", "--restitution", "0.65")
+        alpha, p = math.atan(1 / 3), math.sqrt(3 * 9.81 / (4 * math.hypot(0.3, 0.9)))
+        self.assertAlmostEqual(answer["slenderness"], alpha, places=15)
+        self.assertAlmostEqual(answer["frequency_parameter"], p, places=14)
+        one = ("--set", f"plane.frequency={2 * math.pi / (0.5 * p)}", "--set",
+               f"plane.slenderness={alpha}", "--set", "plane.restitution={ values = [0.65], "
+               'of = "absolute" }')
+        self.assert_exit(self.overturn(
+            "boundary", "small.toml", "-o", "b.h5", *one,
+            "--set", "plane.amplitude={ first = 1, last = 15, count = 141 }"), 0)
+        with h5py.File(self.folder / "b.h5") as file:
+            flips = file["flip_amplitude"][0, 0, :3, 0] * math.tan(alpha)
+        (first, last), (above, end) = answer["toppling_pga"]
+        for mine, theirs in zip((first, last, above), flips):
+            self.assertLess(abs(mine - theirs), 1e-10)
+        self.assertIsNone(end)
+        self.assertTrue(first < 1.2 < last and answer["topples"])
+
+    def test_without_an_acceleration_gives_the_ranges_only(self):
+        answer = self.answer(*PULSE)
+        self.assertIsNone(answer["topples"])
+        self.assertEqual(len(answer["toppling_pga"]), 2)
+        shares = [each["restitution_of_maximum"] for each in answer["by_restitution"]]
+        self.assertEqual([round(share, 12) for share in shares], [0.8, 0.85, 0.9, 0.95, 1])
+        self.assertEqual(self.answer(*PULSE, "--pga-max", "0.3")["toppling_pga"], [])
+
+    def test_under_a_record_says_that_thinner_ranges_exist(self):
+        began = time.monotonic()
+        text = self.topple(*RECORD, "--scale", "1.5")
+        self.assertLess(time.monotonic() - began, 60)
+        self.assertIn("does not topple at 0.6 g", text)
+        self.assertIn("thinner ranges exist", text)
+        self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["thinner_ranges_exist"])
+
+    def test_under_a_record_has_the_verdict_of_the_spectrum_in_its_ranges(self):
+        (self.folder / "job.toml").write_text(f"""
+            [scene]
+            record = "{JOBS}/synthetic.AT2"
+            [plane]
+            pga = {{ values = [0.7, 0.9, 1.0, 2.0] }}
+            restitution = {{ values = [1.0], of = "maximum" }}
+            [block]
+            width = 0.6
+            height = 1.8
+            [numerics]
+            resolve = true
+            """)
+        self.assert_exit(self.overturn("run", "job.toml", "-o", "s.h5"), 0)
+        with h5py.File(self.folder / "s.h5") as file:
+            for pga, code in zip(file["pga"][:], file["region"][:].ravel()):
+                answer = self.answer(*RECORD, "--pga", str(pga))
+                self.assertEqual(answer["topples"], bool(code > 2))
+                self.assertEqual(answer["topples"],
+                                 any(first <= pga <= (last or math.inf)
+                                     for first, last in answer["toppling_pga"]), pga)
+
+    def test_draws_the_history(self):
+        self.topple(*PULSE, "--pga", "0.9", "--plot", "tilt.svg")
+        self.assertIn("<svg", (self.folder / "tilt.svg").read_text())
+        self.assertNotIn("history.h5", self.files())
+
+    def test_refuses_what_contradicts_itself(self):
+        for arguments, words in (
+                ((*RECORD, "--period", "0.5"), "--period is that of a pulse"),
+                ((*RECORD, "--pulse", "one_sine"), "exclude each other"),
+                ((*STATUE, "--pga", "0.4"), "Give --period"),
+                ((*PULSE, "--scale", "2"), "--scale is a factor on a record"),
+                ((*PULSE, "--component", "2"), "--component is that of a record"),
+                ((*RECORD, "--scale", "2", "--pga", "1"), "exclude each other"),
+                ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
+                ((*PULSE, "--plot", "a.png"), "Give --pga or --scale"),
+                ((*PULSE, "--width", "0"), "0 is not a positive number"),
+                ((*PULSE, "--pga-max", "nan"), "nan is not a positive number")):
+            self.assert_exit(self.overturn("topple", *arguments), 2, words)
+        self.assert_exit(self.overturn("topple", *PULSE, "--restitution", "1.2"), 65,
+                         "outside (0, 1]")
+        self.assert_exit(self.overturn("topple", *PULSE, "--pulse", "sinus"), 65, "is unknown")
+        self.assert_exit(self.overturn("topple", *STATUE, "--record", "none.AT2"), 65, "none.AT2")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
