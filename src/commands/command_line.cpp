@@ -121,6 +121,9 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
         ->check(is_positive);
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration that is searched")
         ->capture_default_str();
+    command.add_option("--set", options.overrides, "Set a key of [scene]; repeatable")
+        ->type_name("scene.KEY=VALUE")
+        ->allow_extra_args(false);
     command.add_flag("--json", options.json, "Print JSON for programs");
     command.add_option("--plot", options.plot, "Draw the history (needs --pga or --scale)")
         ->type_name("PICTURE");

@@ -59,8 +59,9 @@ struct ToppleOptions {
     std::optional<double> scale;  ///< of the record [1]
     std::optional<double> restitution;
     double restitution_of_maximum = 1;
-    bool has_share = false; ///< --restitution-of-maximum was given
-    double pga_max = 5;     ///< the largest acceleration searched, over g [1]
+    bool has_share = false;             ///< --restitution-of-maximum was given
+    std::vector<std::string> overrides; ///< of keys of [scene]
+    double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
     bool json = false;
     std::string plot; ///< path of a picture of the history; empty: none
 };

@@ -44,8 +44,8 @@ inline constexpr const char* topple = R"(Examples:
 
 Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
 it, and every range of the PGA, up to --pga-max, in which it topples: for the given restitution, and
-for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2. The exit code is 0
-whatever the verdict. Spectra and suites of records need a job file: see overturn run.)";
+for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2, unless --set scene.gravity=... changes it.
+The exit code is 0 whatever the verdict. Spectra and suites of records need a job file: see overturn run.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";

@@ -84,6 +84,12 @@ void expect_consistent(const ToppleOptions& options)
     refuse_if(!is_recorded && !options.component.empty(),
               "--component is that of a record. Remove it, or give --record.");
     refuse_if(options.scale && options.pga, "--scale and --pga exclude each other. Remove one.");
+    for (const std::string& argument : options.overrides) {
+        refuse_if(!argument.starts_with("scene.") || argument.starts_with("scene.pulse") ||
+                      argument.starts_with("scene.record"),
+                  "--set takes keys of [scene] here, such as scene.gravity. The other options give "
+                  "the block and the motion.");
+    }
     refuse_if(!options.plot.empty() && !options.pga && !options.scale,
               "--plot draws the history at one acceleration. Give --pga or --scale.");
     refuse_if(options.restitution && options.has_share,
@@ -274,7 +280,7 @@ void plot(const Job& job, const std::string& picture)
 int topple(const ToppleOptions& options)
 {
     expect_consistent(options);
-    const Job job = read_job_text(job_text(options), "the command line", {});
+    const Job job = read_job_text(job_text(options), "the command line", options.overrides);
     const Answer answer = answer_of(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
     if (!options.plot.empty()) {

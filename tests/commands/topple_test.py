@@ -90,6 +90,16 @@ class Toppling(Scratch):
                                  any(first <= pga <= (last or math.inf)
                                      for first, last in answer["toppling_pga"]), pga)
 
+    def test_takes_keys_of_the_scene(self):
+        moon = self.answer(*PULSE, "--set", "scene.gravity=1.62")
+        self.assertEqual(moon["gravity"], 1.62)
+        self.assertEqual(moon["lifting_pga"], self.answer(*PULSE)["lifting_pga"])
+        # With t -> t sqrt(9.81 / 1.62), accelerations over g are the same.
+        period = str(0.5 * math.sqrt(1.62 / 9.81))
+        earth = self.answer(*STATUE, "--period", period)
+        for one, other in zip(moon["toppling_pga"], earth["toppling_pga"], strict=True):
+            self.assertLess(abs(one[0] / other[0] - 1), 1e-11)
+
     def test_draws_the_history(self):
         self.topple(*PULSE, "--pga", "0.9", "--plot", "tilt.svg")
         self.assertIn("<svg", (self.folder / "tilt.svg").read_text())
@@ -105,6 +115,7 @@ class Toppling(Scratch):
                 ((*RECORD, "--scale", "2", "--pga", "1"), "exclude each other"),
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
                 ((*PULSE, "--plot", "a.png"), "Give --pga or --scale"),
+                ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
                 ((*PULSE, "--width", "0"), "0 is not a positive number"),
                 ((*PULSE, "--pga-max", "nan"), "nan is not a positive number")):
             self.assert_exit(self.overturn("topple", *arguments), 2, words)
