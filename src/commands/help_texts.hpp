@@ -70,9 +70,9 @@ inline constexpr const char* history = R"(Example:
   tools/plot_history history.h5
 
 Prints the region and the first 24 events; for each, the velocity before and after it, and q
-(Eq. 12) after it. Angles are in rad, times are tau = p t. OUT.h5 contains angle, velocity,
-acceleration, q and the ground acceleration over time. The pulse is integrated as accurately as
-doubles allow, regardless of [numerics].)";
+(Eq. 12) after it; in seconds and degrees if the job gives the size of the block, otherwise in 1/p
+and rad. OUT.h5 contains angle, velocity, acceleration, q and the ground acceleration over tau = p t,
+in rad. The motion is integrated as accurately as doubles allow, regardless of [numerics].)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";
