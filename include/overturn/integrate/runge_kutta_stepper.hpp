@@ -129,8 +129,10 @@ public:
             const T one(S(1));
             const auto sample_at = [&](const T& share) -> MotionSample<T> {
                 const Quintic<T> before = restricted(tilt, zero_, share);
-                const T slope = before[5] - before[4];
-                const T bend = slope - (before[4] - before[3]);
+                const Mask at_start = share == zero_; // of the whole step, as nothing is before
+                const T slope = select<T>(at_start, tilt[1] - tilt[0], before[5] - before[4]);
+                const T bend = select<T>(at_start, (tilt[2] - tilt[1]) - slope,
+                                         slope - (before[4] - before[3]));
                 const T part = one / select<T>(share > zero_, share, one);
                 return {before[5], T(S(5)) * slope * part, T(S(20)) * bend * part * part};
             };
