@@ -160,6 +160,16 @@ void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys
     }
 }
 
+/// Removes these numbers of a pulse from [scene].
+void erase_numbers(toml::table* scene, const auto& is_erased)
+{
+    for (const auto& [name, number] : shape_numbers) {
+        if (is_erased(number)) {
+            erase_keys(scene, {name});
+        }
+    }
+}
+
 /// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
@@ -183,7 +193,8 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
         }
     }
     if (path == Path{"scene", "record"}) {
-        erase_keys(job["scene"].as_table(), {"pulse", "window"});
+        erase_keys(job["scene"].as_table(), {"pulse"});
+        erase_numbers(job["scene"].as_table(), [](ShapeNumber) { return true; });
         erase_keys(job["plane"].as_table(), {"amplitude", "frequency"});
     }
     if (path == Path{"scene", "pulse"}) {
@@ -192,8 +203,10 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
         erase_keys(job["plane"].as_table(), {"scale", "pga", "size", "frequency_parameter"});
         const auto name =
             std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
-        if (name != pulse_names.end() && !has_window(PulseKind(name - pulse_names.begin()))) {
-            erase_keys(job["scene"].as_table(), {"window"});
+        if (name != pulse_names.end()) {
+            const auto pulse = PulseKind(name - pulse_names.begin());
+            erase_numbers(job["scene"].as_table(),
+                          [&](ShapeNumber number) { return !has_number(pulse, number); });
         }
     }
 }

@@ -41,7 +41,7 @@ class Rocking {
 public:
     explicit Rocking(const PeerPoint& point)
         : block_{S(point.slenderness), S(point.restitution)},
-          excitation_(excitation_of<Theory::nonlinear>(ground_motion(PulseKind::one_sine, S(1)),
+          excitation_(excitation_of<Theory::nonlinear>(ground_motion<S>(PulseKind::one_sine),
                                                        block_.slenderness, S(point.amplitude),
                                                        S(point.frequency))),
           end_(excitation_.motion.end / excitation_.frequency), push_(excitation_.acceleration)
