@@ -130,6 +130,7 @@ private:
     }
 };
 
+/// The formula before find_peaks() scales it.
 template <class S>
 ModulatedSine<S> modulated_sine(PulseKind pulse, const PulseShape& shape)
 {
@@ -175,6 +176,7 @@ void find_peaks(GroundMotion<S>& motion, const PulseShape& shape)
     }
 }
 
+/// The pulse with the numbers of the shape that complete it; the others are ignored.
 template <class S>
 GroundMotion<S> ground_motion(PulseKind pulse, const PulseShape& shape = {})
 {
