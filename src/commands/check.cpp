@@ -75,18 +75,28 @@ double estimated_seconds(const Job& job, Kernel kernel)
     return seconds * (double(all_points) / double(points));
 }
 
+void print_pulse(const Scene& scene)
+{
+    print_row("pulse", name_of(scene.pulse));
+    for (const auto& [name, number] : shape_numbers) {
+        if (number == &PulseShape::window && has_window(scene.pulse)) {
+            print_row(name,
+                      fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
+                                  scene.shape.window, 100 * cut_by_window(scene)));
+        } else if (has_number(scene.pulse, number)) {
+            print_row(name, fmt::format("{}{}", scene.shape.*number,
+                                        number == &PulseShape::nu ? " rad" : " pulse periods"));
+        }
+    }
+}
+
 void print_scene(const Job& job)
 {
     for (const std::string& line : record_lines(job)) {
         print_row("record", line);
     }
     if (!job.scene.is_recorded()) {
-        print_row("pulse", name_of(job.scene.pulse));
-    }
-    if (!job.scene.is_recorded() && has_window(job.scene.pulse)) {
-        print_row("window",
-                  fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
-                              job.scene.window, 100 * cut_by_window(job.scene)));
+        print_pulse(job.scene);
     }
     print_row("theory", name_of(job.scene.theory));
     print_row("method", fmt::format("{}, tolerance {}{}", name_of(job.numerics.method),

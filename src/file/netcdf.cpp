@@ -65,8 +65,10 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
                         count == 1 ? job.motions.front().file : fmt::format("{} records", count));
     } else {
         write_attribute(file, "pulse", name_of(job.scene.pulse));
-        if (has_window(job.scene.pulse)) {
-            write_attribute(file, "window", job.scene.window);
+        for (const auto& [name, number] : shape_numbers) {
+            if (has_number(job.scene.pulse, number)) {
+                write_attribute(file, name.data(), job.scene.shape.*number);
+            }
         }
     }
     write_attribute(file, "theory", name_of(job.scene.theory));

@@ -174,6 +174,16 @@ const std::array<Alternatives, 5> alternatives{{
     {"block", {"height", "half_height"}},
 }};
 
+/// Removes these numbers of a pulse from [scene].
+void erase_numbers(toml::table* scene, const auto& is_erased)
+{
+    for (const auto& [name, number] : shape_numbers) {
+        if (is_erased(number)) {
+            erase_keys(scene, {name});
+        }
+    }
+}
+
 /// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
@@ -204,7 +214,8 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
         }
     }
     if (path == Path{"scene", "record"}) {
-        erase_keys(job["scene"].as_table(), {"pulse", "window"});
+        erase_keys(job["scene"].as_table(), {"pulse"});
+        erase_numbers(job["scene"].as_table(), [](ShapeNumber) { return true; });
         erase_keys(job["plane"].as_table(),
                    {"amplitude", "frequency", "pulse_period", "pulse_frequency"});
     }
@@ -216,8 +227,10 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
         }
         const auto name =
             std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
-        if (name != pulse_names.end() && !has_window(PulseKind(name - pulse_names.begin()))) {
-            erase_keys(job["scene"].as_table(), {"window"});
+        if (name != pulse_names.end()) {
+            const auto pulse = PulseKind(name - pulse_names.begin());
+            erase_numbers(job["scene"].as_table(),
+                          [&](ShapeNumber number) { return !has_number(pulse, number); });
         }
     }
 }

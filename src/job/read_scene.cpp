@@ -7,22 +7,45 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> scene_keys{"pulse",     "record",    "theory",
-                                                     "window",    "component", "vertical",
-                                                     "time_step", "units",     "gravity"};
-constexpr std::array<std::string_view, 2> pulse_keys{"pulse", "window"};
+constexpr std::array<std::string_view, 12> scene_keys{
+    "pulse", "record", "theory",    "window",   "cycles",    "gamma",
+    "nu",    "units",  "component", "vertical", "time_step", "gravity"};
+constexpr std::array<std::string_view, 5> pulse_keys{"pulse", "window", "cycles", "gamma", "nu"};
 constexpr std::array<std::string_view, 4> record_keys{"component", "vertical", "time_step",
                                                       "units"};
 constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
 constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
-// At 8 periods the wavelets are below 1e-180 of their peak.
-constexpr double widest_window = 8;
+struct ShapeRange {
+    double least;
+    bool excludes_least;
+    double largest;
+    bool is_required;
+    std::string_view meaning;
+
+    bool contains(double x) const
+    {
+        return x <= largest && (excludes_least ? x > least : x >= least);
+    }
+    std::string text() const
+    {
+        return fmt::format("{}{}, {}]", excludes_least ? '(' : '[', least, largest);
+    }
+};
+
+// In the order of shape_numbers. At 8 periods the wavelets are below 1e-180 of their peak.
+constexpr std::array<ShapeRange, shape_numbers.size()> shape_ranges{
+    {{0, true, 8, false, "It is the half width in pulse periods."},
+     {0.5, false, most_cycles, true, "It is the duration in pulse periods, a multiple of 0.5."},
+     {1, true, largest_gamma, true, "It is the duration in pulse periods."},
+     {-2 * std::numbers::pi, false, 2 * std::numbers::pi, true,
+      "It is the phase of the oscillation in the middle of the pulse, in radians."}}};
 
 // Below this range the round-off of a step is as large as the tolerance; above it verdicts are not
 // reliable.
@@ -32,21 +55,48 @@ constexpr double largest_tolerance = 1e-2;
 // About one verdict in a thousand needs more; at looser tolerances errors are not known well.
 constexpr double tolerance_to_resolve_from = 1e-4;
 
-double read_window(const Entry& entry, PulseKind pulse)
+/// The names of the pulses that have this number.
+std::string pulses_with(ShapeNumber number)
 {
-    if (!has_window(pulse)) {
-        refuse(entry,
-               fmt::format(" has no meaning for the pulse \"{}\". Only the Ricker wavelets have "
-                           "a window: remove it.",
-                           name_of(pulse)));
+    std::vector<std::string_view> names;
+    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
+        if (has_number(PulseKind(kind), number)) {
+            names.push_back(pulse_names[kind]);
+        }
     }
-    const double window = number_of(entry);
-    if (!(window > 0 && window <= widest_window)) {
-        refuse(entry,
-               fmt::format(" = {} is outside (0, {}]. It is the half width in pulse periods.",
-                           window, widest_window));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+PulseShape read_shape(const Entry& scene, PulseKind pulse)
+{
+    PulseShape shape;
+    for (std::size_t i = 0; i < shape_numbers.size(); ++i) {
+        const auto& [name, number] = shape_numbers[i];
+        const ShapeRange& range = shape_ranges[i];
+        auto entry = find(scene, name);
+        if (entry && !has_number(pulse, number)) {
+            refuse(*entry, fmt::format(" has no meaning for the pulse \"{}\", only for {}. Remove "
+                                       "it.",
+                                       name_of(pulse), pulses_with(number)));
+        }
+        if (!entry && has_number(pulse, number) && range.is_required) {
+            entry = require(scene, name,
+                            fmt::format("Give a number in {}. {}", range.text(), range.meaning));
+        }
+        if (entry) {
+            shape.*number = number_of(*entry);
+            if (!range.contains(shape.*number)) {
+                refuse(*entry, fmt::format(" = {} is outside {}. {}", shape.*number, range.text(),
+                                           range.meaning));
+            }
+        }
     }
-    return window;
+    if (2 * shape.cycles != std::floor(2 * shape.cycles)) {
+        refuse(*find(scene, "cycles"), fmt::format(" = {} is not a multiple of 0.5. Give whole or "
+                                                   "half cycles.",
+                                                   shape.cycles));
+    }
+    return shape;
 }
 
 } // namespace
@@ -82,15 +132,13 @@ Scene read_scene(const Entry& job)
                 fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
                             fmt::join(pulse_names, ", "))),
         pulse_names);
-    if (const auto window = find(entry, "window")) {
-        scene.window = read_window(*window, scene.pulse);
-    }
+    scene.shape = read_shape(entry, scene.pulse);
     return scene;
 }
 
 double cut_by_window(const Scene& scene)
 {
-    const GroundMotion<double> motion = ground_motion(scene.pulse, scene.window);
+    const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
     return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
 }
 

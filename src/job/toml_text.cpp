@@ -66,8 +66,10 @@ std::string scene_text(const Job& job)
     if (scene.is_recorded() || job.plane.size || scene.gravity != Scene().gravity) {
         text += fmt::format("gravity = {}\n", float_text(scene.gravity));
     }
-    if (!scene.is_recorded() && has_window(scene.pulse)) {
-        text += fmt::format("window = {}\n", float_text(scene.window));
+    for (const auto& [name, number] : shape_numbers) {
+        if (!scene.is_recorded() && has_number(scene.pulse, number)) {
+            text += fmt::format("{} = {}\n", name, float_text(scene.shape.*number));
+        }
     }
     return text;
 }

@@ -253,7 +253,7 @@ History history_of(const Scene& scene, const PlanePoint& point, const HistoryVie
             return build(record_excitation<theory>(*scene.records.front(), point.slenderness,
                                                    point.amplitude, point.frequency));
         }
-        return build(excitation_of<theory>(ground_motion(scene.pulse, scene.window),
+        return build(excitation_of<theory>(ground_motion<double>(scene.pulse, scene.shape),
                                            point.slenderness, point.amplitude, point.frequency));
     });
 }

@@ -96,7 +96,7 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
 PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
                    DropRequested drop_requested, std::int64_t motion)
     : scene_(scene), record_(scene.is_recorded() ? scene.records[std::size_t(motion)] : nullptr),
-      motion_(ground_motion(scene.pulse, scene.window)), kernel_(kernel),
+      motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
       pushes_(record_ ? Pushes() : Pushes(motion_, scene.theory, points_))
 {}
@@ -114,8 +114,15 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         return visit(record_excitation<theory>(*record_, T(at.slenderness), T(at.amplitude),
                                                T(at.frequency)));
     }
-    return visit(excitation_of<theory>(ground_motion(scene_.pulse, T(scene_.window)),
-                                       T(at.slenderness), T(at.amplitude), T(at.frequency)));
+    const auto motion = [&] {
+        if constexpr (std::same_as<T, double>) {
+            return motion_;
+        } else {
+            return ground_motion<T>(scene_.pulse, scene_.shape);
+        }
+    }();
+    return visit(
+        excitation_of<theory>(motion, T(at.slenderness), T(at.amplitude), T(at.frequency)));
 }
 
 void PointRun::throw_if_dropped() const

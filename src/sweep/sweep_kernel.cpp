@@ -133,9 +133,9 @@ struct PackPoints {
             .frequency = gathered([&](int i) { return task.points[i].frequency; }),
             .uplifts = {}};
         const T never_in_spare = load<T>(spare);
-        for (int lobe = 0; lobe < most_lobes; ++lobe) {
-            const T uplift = of_push([&](const Push& push) { return push.uplifts[lobe]; });
-            excitation.uplifts[lobe] = uplift + never_in_spare;
+        for (int lobe = 0; lobe < first.uplifts.count; ++lobe) {
+            const T uplift = of_push([&](const Push& push) { return push.uplifts.values[lobe]; });
+            excitation.uplifts.push_back(uplift + never_in_spare);
         }
         return excitation;
     }

@@ -16,8 +16,8 @@ namespace overturn {
 
 /// The excitation by a pulse common to all blocks of one slenderness at one amplitude.
 struct Push {
-    double acceleration;          ///< a_p / g [1]
-    UpliftPhases<double> uplifts; ///< [rad]
+    double acceleration;     ///< a_p / g [1]
+    PerLobe<double> uplifts; ///< [rad]
 };
 
 /// The input of a kernel.

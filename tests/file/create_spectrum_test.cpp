@@ -89,7 +89,7 @@ TEST(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
     EXPECT_EQ(global_number(folder / "with.h5", "half_height"), 5.67);
 }
 
-TEST(CreateSpectrumFile, StoresAWindowForRickerWaveletsOnly)
+TEST(CreateSpectrumFile, StoresTheNumbersOfItsPulseOnly)
 {
     const ScratchFolder folder;
     Job job = sample_job();
@@ -98,6 +98,12 @@ TEST(CreateSpectrumFile, StoresAWindowForRickerWaveletsOnly)
     create_spectrum_file(folder / "sine.h5", job, sample_tiling(job));
     EXPECT_EQ(global_number(folder / "ricker.h5", "window"), 1.25);
     EXPECT_EQ(global_number(folder / "sine.h5", "window"), std::nullopt);
+    job.scene.pulse = PulseKind::mavroeidis_papageorgiou;
+    job.scene.shape = {.gamma = 2.5, .nu = 0.5};
+    create_spectrum_file(folder / "pulse.h5", job, sample_tiling(job));
+    EXPECT_EQ(global_number(folder / "pulse.h5", "gamma"), 2.5);
+    EXPECT_EQ(global_number(folder / "pulse.h5", "nu"), 0.5);
+    EXPECT_EQ(global_number(folder / "pulse.h5", "cycles"), std::nullopt);
 }
 
 TEST(CreateSpectrumFile, LeavesNoOtherFileInTheFolder)

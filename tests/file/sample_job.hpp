@@ -13,7 +13,9 @@ inline Job sample_job()
 {
     Job job;
     job.title = "Sample: r = r_max, α = 10°";
-    job.scene = {.pulse = PulseKind::symmetric_ricker, .theory = Theory::nonlinear, .window = 1.25};
+    job.scene = {.pulse = PulseKind::symmetric_ricker,
+                 .theory = Theory::nonlinear,
+                 .shape = {.window = 1.25}};
     job.plane.frequency = Axis(AxisRange{0.5, 12, 11, Spacing::linear});
     job.plane.amplitude = Axis(AxisRange{0.25, 16, 7, Spacing::linear});
     job.plane.restitution = Axis(AxisList{0.7, 0.85, 1});

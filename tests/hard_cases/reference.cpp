@@ -47,7 +47,8 @@ Truth truth_of(const HardCase& point, int step_limit)
 {
     return with_theory(point.theory, [&]<Theory theory>() {
         return end_of<theory>(
-            point, excitation_of<theory>(point.pulse, in_digits(point), point.window), step_limit);
+            point, excitation_of<theory>(point.pulse, in_digits(point), {.window = point.window}),
+            step_limit);
     });
 }
 

@@ -79,7 +79,8 @@ Outcome outcome_of(const HardCase& point, const Numerics& numerics)
     plane.restitution = Axis(AxisList{point.restitution});
     plane.frequency = Axis(AxisList{point.frequency});
     plane.amplitude = Axis(AxisList{point.amplitude});
-    const Scene scene{.pulse = point.pulse, .theory = point.theory, .window = point.window};
+    const Scene scene{
+        .pulse = point.pulse, .theory = point.theory, .shape = {.window = point.window}};
     const std::vector<Field> fields{Field::region, Field::angle,   Field::velocity, Field::margin,
                                     Field::error,  Field::impacts, Field::steps,    Field::status};
     const auto values =

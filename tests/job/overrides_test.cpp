@@ -148,7 +148,17 @@ TEST(AnOverride, OfThePulseRemovesAWindowThatDoesNotApply)
 {
     const JobFile file(sound_job_with(3, "pulse = \"symmetric_ricker\"\nwindow = 2"));
     EXPECT_EQ(read_job(file.path(), {"scene.pulse=half_sine"}).scene.pulse, PulseKind::half_sine);
-    EXPECT_EQ(read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).scene.window, 2);
+    EXPECT_EQ(read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).scene.shape.window, 2);
+}
+
+TEST(AnOverride, OfThePulseRemovesTheNumbersOfTheOther)
+{
+    const JobFile file(
+        sound_job_with(3, "pulse = \"mavroeidis_papageorgiou\"\ngamma = 2\nnu = 0.3"));
+    const Job job = read_job(file.path(), {"scene.pulse=sine", "scene.cycles=2.5"});
+    EXPECT_EQ(job.scene.pulse, PulseKind::sine);
+    EXPECT_EQ(job.scene.shape.cycles, 2.5);
+    EXPECT_EQ(job.resolved.find("gamma"), std::string::npos);
 }
 
 /// An override that must be refused, and parts of the message.

@@ -66,9 +66,8 @@ Start<Digits50> in_digits(const Start<double>& start)
 template <Theory theory, int order, class T>
 RockingSeries<order, T> series_of(PulseKind pulse, const Start<T>& start)
 {
-    const auto push = ground_motion(pulse, T(1))
-                          .template series<order>(start.acceleration, start.phase,
-                                                  T(start.frequency * start.unit));
+    const auto push = ground_motion<T>(pulse).template series<order>(
+        start.acceleration, start.phase, T(start.frequency * start.unit));
     return rocking_series<theory, order>(start.tilt, T(start.rate * start.unit), start.slenderness,
                                          push, start.unit);
 }
@@ -104,7 +103,7 @@ Digits50 residual(PulseKind pulse, const Start<Digits50>& start, const Digits50&
 {
     const auto series = series_of<theory, order>(pulse, start);
     const Digits50 push = start.acceleration *
-                          value_of_pulse(ground_motion(pulse, Digits50(1)),
+                          value_of_pulse(ground_motion<Digits50>(pulse),
                                          Digits50(start.phase + start.frequency * start.unit * t));
     return slope(series.rate, t) -
            start.unit * start.unit *
@@ -188,10 +187,10 @@ TYPED_TEST(SeriesOfEveryTheory, IsReversedInTimeWithThePush)
     for (const Start<double>& start : random_starts(200)) {
         const double w = start.frequency * start.unit;
         const double rate = start.rate * start.unit;
-        const auto forth =
-            ground_motion(PulseKind::one_sine, 1.0).series<20>(start.acceleration, start.phase, w);
-        const auto back =
-            ground_motion(PulseKind::one_sine, 1.0).series<20>(start.acceleration, start.phase, -w);
+        const auto forth = ground_motion<double>(PulseKind::one_sine)
+                               .series<20>(start.acceleration, start.phase, w);
+        const auto back = ground_motion<double>(PulseKind::one_sine)
+                              .series<20>(start.acceleration, start.phase, -w);
         const auto later = rocking_series<TypeParam::value, 20>(start.tilt, rate, start.slenderness,
                                                                 forth, start.unit);
         const auto earlier = rocking_series<TypeParam::value, 20>(

@@ -75,6 +75,29 @@ TEST(SineAndCosineOfPeriod, KeepsItsDigitsNextToTheZeroAtPi)
     EXPECT_LT(abs((sine_and_cosine_of_period(x).sine - exact) / exact), 2 * epsilon);
 }
 
+TEST(SineAndCosineOfCycles, AgreeWithTheReferenceOverManyPeriods)
+{
+    const auto sine_error = [](double x) {
+        return sine_and_cosine_of_cycles(x).sine - sin(Digits50(x));
+    };
+    const auto cosine_error = [](double x) {
+        return sine_and_cosine_of_cycles(x).cosine - cos(Digits50(x));
+    };
+    for (const double range : {10.0, 100.0, 0x1p+20}) {
+        EXPECT_LT(worst(-range, range, sine_error), epsilon);
+        EXPECT_LT(worst(-range, range, cosine_error), epsilon);
+    }
+}
+
+TEST(SineAndCosineOfCycles, HaveTheBitsOfOnePeriod)
+{
+    for (int i = 0; i <= 10000; ++i) {
+        const double x = 2 * pi<double>() * i / 10000; // includes pi/2 and 3 pi/2
+        ASSERT_EQ(sine_and_cosine_of_cycles(x).sine, sine_and_cosine_of_period(x).sine) << x;
+        ASSERT_EQ(sine_and_cosine_of_cycles(x).cosine, sine_and_cosine_of_period(x).cosine) << x;
+    }
+}
+
 TEST(ExponentialDecay, IsWithinTwoUnitsInTheLastPlaceDownToTheSmallestNumbers)
 {
     // The polynomial and the scaling are exact to a unit; reducing 700 by multiples of ln 2 in two

@@ -11,12 +11,18 @@
 
 namespace overturn {
 
+/// General values of the numbers other than the window.
+inline PulseShape shape_of_test(double window)
+{
+    return {.window = window, .cycles = 2.5, .gamma = 2.3, .nu = 0.7};
+}
+
 class EveryPulse : public testing::TestWithParam<PulseKind> {
 protected:
     template <class S>
     static GroundMotion<S> motion(const S& window)
     {
-        return ground_motion(GetParam(), window);
+        return ground_motion<S>(GetParam(), shape_of_test(double(window)));
     }
 };
 

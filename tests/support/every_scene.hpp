@@ -13,7 +13,7 @@ inline std::vector<Scene> every_scene()
     std::vector<Scene> scenes;
     for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            scenes.push_back({PulseKind(pulse), theory, 1.0});
+            scenes.push_back({PulseKind(pulse), theory});
         }
     }
     return scenes;

@@ -17,10 +17,10 @@ struct Point {
 };
 
 template <Theory theory, class S>
-Excitation<S> excitation_of(PulseKind pulse, const Point<S>& point, double window = 1)
+Excitation<S> excitation_of(PulseKind pulse, const Point<S>& point, const PulseShape& shape = {})
 {
-    return excitation_of<theory>(ground_motion(pulse, S(window)), point.slenderness,
-                                 point.amplitude, point.frequency);
+    return excitation_of<theory>(ground_motion<S>(pulse, shape), point.slenderness, point.amplitude,
+                                 point.frequency);
 }
 
 /// The motion as if it ended at an earlier phase [rad].
@@ -44,10 +44,11 @@ ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<do
                                  double tolerance);
 
 template <Theory theory, class Method = RungeKutta, bool with_error = false>
-ForcedEnd<double> forced_end(PulseKind pulse, const Point<double>& point, double tolerance)
+ForcedEnd<double> forced_end(PulseKind pulse, const Point<double>& point, double tolerance,
+                             const PulseShape& shape = {})
 {
     return run_in_doubles<Method, theory, with_error>(
-        point.block(), excitation_of<theory>(pulse, point), tolerance);
+        point.block(), excitation_of<theory>(pulse, point, shape), tolerance);
 }
 
 template <Theory theory>
@@ -75,11 +76,13 @@ S margin_of(const ForcedEnd<S>& end, const Point<S>& point)
 
 /// The amplitude between `low` and `high` at which the verdict flips, by halving.
 template <Theory theory, class Method = RungeKutta>
-double flip(PulseKind pulse, Point<double> point, double low, double high, double tolerance)
+double flip(PulseKind pulse, Point<double> point, double low, double high, double tolerance,
+            const PulseShape& shape = {})
 {
     const auto is_unsafe_at = [&](double amplitude) {
         point.amplitude = amplitude;
-        return margin_of<theory>(forced_end<theory, Method>(pulse, point, tolerance), point) < 0;
+        return margin_of<theory>(forced_end<theory, Method>(pulse, point, tolerance, shape),
+                                 point) < 0;
     };
     const bool below = is_unsafe_at(low);
     for (int i = 0; i < 60; ++i) {

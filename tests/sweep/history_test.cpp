@@ -104,7 +104,7 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
         const double size = 1 + point.amplitude;
         const double tolerance =
             std::pow(h, 5) / 90 * 100 * size * std::pow(1 + point.frequency, 4) + 1e-14;
-        const GroundMotion<double> motion = ground_motion(scene.pulse, scene.window);
+        const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
         const double kink = (motion.kink - motion.begin) / point.frequency; // 0 if there is none
         int compared = 0;
         for (std::size_t i = 2; i < history.samples.size(); ++i) {

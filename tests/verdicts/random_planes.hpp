@@ -30,7 +30,11 @@ public:
     RandomPlane next()
     {
         if (has_window(scene_.pulse)) {
-            scene_.window = uniform() < 0.5 ? 1 : log_between(0.1, 8);
+            scene_.shape.window = uniform() < 0.5 ? 1 : log_between(0.1, 8);
+        } else if (traits_of(scene_.pulse).form == PulseForm::modulated) {
+            scene_.shape.cycles = std::round(uniform() * 5 + 1) / 2;
+            scene_.shape.gamma = between(1, 3);
+            scene_.shape.nu = between(-pi<double>(), pi<double>());
         }
         Plane plane;
         const bool real = uniform() < 0.5;

@@ -81,15 +81,17 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 int point, double found, double bound, const Truth& truth)
 {
     const auto columns = int(plane.frequency.size());
-    std::printf(
-        "  %s: %s %s %s %g%s, window %.17g, alpha %.17g, r %.17g, Omega %.17g, a %.17g: margin "
-        "%.6g, "
-        "bound %.3g, true %.6g, off by %.3g\n",
-        what, std::string(name_of(scene.pulse)).c_str(), std::string(name_of(scene.theory)).c_str(),
-        std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
-        numerics.resolve ? " resolved" : "", scene.window, plane.slenderness[0],
-        plane.restitution[0], plane.frequency[point % columns], plane.amplitude[point / columns],
-        found, bound, truth.margin[point], std::abs(found - truth.margin[point]));
+    std::printf("  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
+                "r %.17g, Omega %.17g, a %.17g: margin "
+                "%.6g, "
+                "bound %.3g, true %.6g, off by %.3g\n",
+                what, std::string(name_of(scene.pulse)).c_str(),
+                std::string(name_of(scene.theory)).c_str(),
+                std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
+                numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
+                scene.shape.gamma, scene.shape.nu, plane.slenderness[0], plane.restitution[0],
+                plane.frequency[point % columns], plane.amplitude[point / columns], found, bound,
+                truth.margin[point], std::abs(found - truth.margin[point]));
 }
 
 void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, const Truth& truth,

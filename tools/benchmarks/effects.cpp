@@ -65,7 +65,7 @@ Plane plane_of(std::int64_t side)
 /// The minimum work for a scene: its points, the kernel, and the regions if requested.
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
-    const GroundMotion<double> motion = ground_motion(work.scene.pulse, work.scene.window);
+    const GroundMotion<double> motion = ground_motion<double>(work.scene.pulse, work.scene.shape);
     const std::vector<PlanePoint> points = points_of(work.scene, work.plane, work.tile);
     const Pushes pushes(motion, work.scene.theory, points);
     const std::size_t count = points.size();

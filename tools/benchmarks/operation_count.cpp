@@ -97,7 +97,7 @@ namespace {
 Excitation<Counted> excitation_of(const PlanePoint& point)
 {
     const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
-        ground_motion(PulseKind::one_sine, 1.0), point.slenderness, point.amplitude,
+        ground_motion<double>(PulseKind::one_sine), point.slenderness, point.amplitude,
         point.frequency);
     Excitation<Counted> counting{.motion = in_doubles.motion,
                                  .acceleration = Counted(in_doubles.acceleration),

@@ -200,7 +200,7 @@ auto with_excitation(const Scene& scene, const PlanePoint& point, const Visitor&
             .frequency = S(point.frequency),
             .threshold = uplift_acceleration<Theory::nonlinear>(slenderness)});
     }
-    return visit(excitation_of<Theory::nonlinear>(ground_motion(PulseKind::one_sine, S(1)),
+    return visit(excitation_of<Theory::nonlinear>(ground_motion<S>(PulseKind::one_sine),
                                                   slenderness, S(point.amplitude),
                                                   S(point.frequency)));
 }

@@ -7,7 +7,9 @@ from overturn.fields import count_tiles, dimensions_of, slenderness_and_restitut
 from overturn.result_file import escaped, text_attribute, title_of
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
-          "antisymmetric_ricker": "antisymmetric Ricker wavelet"}
+          "antisymmetric_ricker": "antisymmetric Ricker wavelet",
+          "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse"}
+PULSE_NUMBERS = ("window", "cycles", "gamma", "nu")
 AXES = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
         "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
         "pulse_period": "pulse period [s]",
@@ -116,8 +118,7 @@ def subtitle(file, spectra):
     words = []
     if not is_recorded(file):
         words.append(PULSES.get(text_attribute(file, "pulse"), ground_text(file) + " pulse"))
-    if "window" in file.attrs:
-        words.append(f"window {float(file.attrs['window']):g}")
+    words += [f"{name} {float(file.attrs[name]):g}" for name in PULSE_NUMBERS if name in file.attrs]
     if is_linear(file):
         words.append("linear theory")
     for column in zip(*(spectrum_words(file, outer) for outer in spectra)):

@@ -19,12 +19,13 @@ template <Theory theory, Number T, Records records = Records{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
-    /// The largest phase difference of a step whose error can be estimated [rad].
+    /// The largest phase difference, of the fastest harmonic, of a step whose error can be
+    /// estimated [rad].
     static constexpr double longest_angle = 2;
 
 public:
     RungeKuttaStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
-        : block_(block), excitation_(excitation), is_wavelet_(has_window(excitation.motion.pulse)),
+        : block_(block), excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
           tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
           towards_fall_(zero_), ends_at_event_(zero_ != zero_)
     {
@@ -77,11 +78,11 @@ public:
         const T phase_step = h * excitation_.frequency;
         // The stages are compiled for each pulse. To compute the pushes before the stages, or to
         // select the pulse in each stage, costs a tenth more, as it prevents overlapping execution.
-        const Step<T> step = with_pulse(excitation_.motion.pulse, [&]<class Pulse>() {
+        const Step<T> step = excitation_.motion.with_formula([&](const auto& formula) {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
                 using arithmetic::fma;
                 const T phase = fma(T(DormandPrince::node_value<S>(stage)), phase_step, now.phase);
-                const T push = now.side * (excitation_.acceleration * Pulse::value(phase));
+                const T push = now.side * (excitation_.acceleration * formula.value(phase));
                 return rocking_acceleration<theory>(tilt, block_.slenderness, push);
             });
         });
@@ -129,8 +130,10 @@ public:
             const T one(S(1));
             const auto sample_at = [&](const T& share) -> MotionSample<T> {
                 const Quintic<T> before = restricted(tilt, zero_, share);
-                const T slope = before[5] - before[4];
-                const T bend = slope - (before[4] - before[3]);
+                const Mask at_start = share == zero_; // of the whole step, as nothing is before
+                const T slope = select<T>(at_start, tilt[1] - tilt[0], before[5] - before[4]);
+                const T bend = select<T>(at_start, (tilt[2] - tilt[1]) - slope,
+                                         slope - (before[4] - before[3]));
                 const T part = one / select<T>(share > zero_, share, one);
                 return {before[5], T(S(5)) * slope * part, T(S(20)) * bend * part * part};
             };
@@ -244,7 +247,8 @@ private:
         const T tilt_error = abs((end.position - start.position) - tilt_gain);
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
         // Where the push is linear or negligible, the length is measured in units of 1/p.
-        T length = traits_of(excitation_.motion.pulse).form == PulseForm::linear ? h : phase_step;
+        const S& fastest = excitation_.motion.fastest;
+        T length = fastest == S(0) ? h : phase_step * T(fastest);
         if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
         }

@@ -10,9 +10,9 @@ namespace overturn {
 template <Number T>
 struct Excitation {
     GroundMotion<scalar_t<T>> motion;
-    T acceleration; ///< a_p / g [1]; negative: the mirrored pulse
-    T frequency;    ///< Omega = omega_p / p [1]
-    UpliftPhases<T> uplifts;
+    T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
+    T frequency;        ///< Omega = omega_p / p [1]
+    PerLobe<T> uplifts; ///< see uplift_phases() [rad]
 
     /// Ground acceleration over g at these phases [1].
     template <std::size_t count>

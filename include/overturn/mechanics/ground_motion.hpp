@@ -2,21 +2,56 @@
 // evaluates it once per step, so that selecting the pulse costs one branch.
 #pragma once
 
-#include "overturn/mechanics/pulse_series.hpp"
+#include "overturn/mechanics/modulated_sine.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace overturn {
+
+/// One value per lobe of a pulse. Only these are copied: copies of most_lobes values would make a
+/// spectrum 2 % slower. The copies are inlined, as the kernels of all instruction sets copy
+/// doubles.
+template <class T>
+struct PerLobe {
+    int count = 0;
+    std::array<T, most_lobes> values;
+
+    PerLobe() {}
+    [[gnu::always_inline]] PerLobe(const PerLobe& other) { *this = other; }
+    [[gnu::always_inline]] PerLobe& operator=(const PerLobe& other)
+    {
+        count = other.count;
+        for (std::size_t i = 0; i < std::size_t(count); ++i) {
+            values[i] = other.values[i];
+        }
+        return *this;
+    }
+
+    void push_back(const T& value) { values[std::size_t(count++)] = value; }
+    auto begin() const { return values.begin(); }
+    auto end() const { return values.begin() + count; }
+};
 
 /// A pulse of unit peak over its phase. S: the type of one lane.
 template <class S>
 struct GroundMotion {
     PulseKind pulse;
+    PulseForm form;
     S begin; ///< phases at which the ground motion begins and ends [rad]
     S end;
-    S kink;  ///< where two smooth pieces meet [rad]; `begin` if there is none
-    S bends; ///< 0 for a piecewise linear pulse, otherwise 1
-    std::array<S, most_lobes> peaks; ///< phases of the extrema [rad]; infinite beyond the last
+    S kink;    ///< where two smooth pieces meet [rad]; `begin` if there is none
+    S fastest; ///< frequency of the fastest harmonic [pulse frequency]; 0 if piecewise linear
+    ModulatedSine<S> sine; ///< if the pulse is one
+    PerLobe<S> peaks;      ///< phases of the extrema [rad]
+
+    /// Calls visit(formula) with the formula of the pulse, whose `value` is f.
+    template <class Visitor>
+    auto with_formula(const Visitor& visit) const
+    {
+        return with_pulse(
+            pulse, [&]<class Pulse>() { return visit(Pulse()); }, [&] { return visit(sine); });
+    }
 
     /// The end of the smooth piece that contains the phase [rad]. No step may cross it.
     template <Number T>
@@ -29,9 +64,9 @@ struct GroundMotion {
     template <std::size_t count, Number T>
     std::array<T, count> values(const std::array<T, count>& phases) const
     {
-        return with_pulse(pulse, [&]<class Pulse>() {
+        return with_formula([&](const auto& formula) {
             std::array<T, count> f;
-            unrolled<count>([&]<int i>() { f[i] = Pulse::value(phases[i]); });
+            unrolled<count>([&]<int i>() { f[i] = formula.value(phases[i]); });
             return f;
         });
     }
@@ -43,13 +78,14 @@ struct GroundMotion {
     Coefficients<count, T> series(const T& scale, const T& phase, const T& rate, const T& on) const
     {
         Coefficients<count, T> f;
-        if (has_window(pulse)) {
-            f = series_of_wavelet<count>(scale, phase, rate);
+        if (form == PulseForm::wavelet || form == PulseForm::modulated) {
+            f = series_by_formula<count>(scale, phase, rate);
         } else {
-            const Coefficients<2, T> start = with_pulse(pulse, [&]<class Pulse>() {
-                return value_and_slope<Pulse>(scale, phase, rate, on);
-            });
-            f = harmonic_series<count>(start, T(rate * T(bends)));
+            const Coefficients<2, T> start = with_pulse(
+                pulse,
+                [&]<class Pulse>() { return value_and_slope<Pulse>(scale, phase, rate, on); },
+                [] { return Coefficients<2, T>(); }); // not called
+            f = harmonic_series<count>(start, T(rate * T(fastest)));
         }
         return f;
     }
@@ -71,62 +107,136 @@ struct GroundMotion {
     }
 
     static constexpr bool may_be_wavelet = true;
-    bool is_wavelet() const { return has_window(pulse); }
+    bool is_wavelet() const { return form == PulseForm::wavelet; }
     S pieces() const { return S(0); } ///< not worth counting
 
     bool has_kink() const { return kink != begin; }
 
+    /// |f''| is less than this [1].
+    S largest_curvature() const { return fastest > S(1) ? S(2 * fastest * fastest) : S(2); }
+
 private:
     /// Not inlined: its use of registers would make a step with any other pulse 7 % slower.
     template <int count, Number T>
-    [[gnu::noinline]] Coefficients<count, T> series_of_wavelet(const T& scale, const T& phase,
+    [[gnu::noinline]] Coefficients<count, T> series_by_formula(const T& scale, const T& phase,
                                                                const T& rate) const
     {
+        if (form == PulseForm::modulated) {
+            return sine.template series<count>(scale, phase, rate);
+        }
         return with_wavelet(pulse, [&]<class Wavelet>() {
             return wavelet_series<Wavelet, count>(scale, phase, rate);
         });
     }
 };
 
-/// window: half width of a wavelet [pulse periods]; ignored for other pulses.
+/// The formula before find_peaks() scales it.
 template <class S>
-GroundMotion<S> ground_motion(PulseKind pulse, const S& window)
+ModulatedSine<S> modulated_sine(PulseKind pulse, const PulseShape& shape)
 {
-    const int half_turns = traits_of(pulse).half_turns;
-    const S end = has_window(pulse) ? 2 * pi<S>() * window : half_turns * pi<S>();
+    using std::cos;
+    using std::sin;
+    const S half = S(1) / 2;
+    return pulse == PulseKind::sine ? ModulatedSine<S>{half, S(0), S(0), S(1)}
+           : pulse == PulseKind::cosine
+               ? ModulatedSine<S>{half, S(0), S(1), S(0)}
+               : ModulatedSine<S>{-half, 1 / S(shape.gamma), sin(S(shape.nu)), cos(S(shape.nu))};
+}
+
+/// Finds the extrema of a ModulatedSine and scales it to a peak of 1.
+template <class S>
+void find_peaks(GroundMotion<S>& motion, const PulseShape& shape)
+{
+    using std::abs;
+    motion.sine = modulated_sine<S>(motion.pulse, shape);
+    std::vector<double> extrema;
+    append_extrema(modulated_sine<double>(motion.pulse, shape), double(motion.begin),
+                   double(motion.end), extrema);
+    assert(extrema.size() + 2 <= most_lobes);
+    motion.peaks.push_back(motion.begin);
+    for (const double extremum : extrema) {
+        motion.peaks.push_back(motion.sine.extremum_near(S(extremum)));
+    }
+    motion.peaks.push_back(motion.end);
+    if (motion.sine.q == 0) {
+        return;
+    }
+    motion.fastest = 1 + motion.sine.q;
+    const auto highest = [&] {
+        S value(0);
+        for (const S& peak : motion.peaks) {
+            const S height = abs(motion.sine.value(peak));
+            value = height > value ? height : value;
+        }
+        return value;
+    };
+    motion.sine.scale /= highest();
+    while (highest() > 1) { // by rounding
+        motion.sine.scale *= 1 - std::numeric_limits<S>::epsilon();
+    }
+}
+
+/// The pulse with the numbers of the shape that complete it; the others are ignored.
+template <class S>
+GroundMotion<S> ground_motion(PulseKind pulse, const PulseShape& shape = {})
+{
+    const PulseForm form = traits_of(pulse).form;
+    const bool is_centred = has_window(pulse) || has_number(pulse, &PulseShape::gamma);
+    const S end = has_window(pulse)                        ? 2 * pi<S>() * S(shape.window)
+                  : has_number(pulse, &PulseShape::cycles) ? 2 * pi<S>() * S(shape.cycles)
+                  : is_centred                             ? pi<S>() * S(shape.gamma)
+                                                           : traits_of(pulse).half_turns * pi<S>();
     GroundMotion<S> motion{.pulse = pulse,
-                           .begin = has_window(pulse) ? S(-end) : S(0),
+                           .form = form,
+                           .begin = is_centred ? S(-end) : S(0),
                            .end = end,
-                           .kink = has_window(pulse) ? S(-end) : S(0),
-                           .bends = S(traits_of(pulse).form == PulseForm::linear ? 0 : 1),
+                           .kink = is_centred ? S(-end) : S(0),
+                           .fastest = S(form == PulseForm::linear ? 0 : 1),
+                           .sine = {},
                            .peaks = {}};
-    motion.peaks.fill(std::numeric_limits<S>::infinity());
-    with_pulse(pulse, [&]<class Pulse>() {
+    const auto add_peaks = [&]<class Pulse>() {
         static_assert(Pulse::lobes <= most_lobes);
         if (Pulse::template kink<S>() < end) {
             motion.kink = Pulse::template kink<S>();
         }
         const auto flanks = Pulse::template flanks<S>();
-        std::transform(flanks.begin(), flanks.end(), motion.peaks.begin(),
-                       [](const Flank<S>& flank) { return flank.peak; });
-    });
+        for (const Flank<S>& flank : flanks) {
+            motion.peaks.push_back(flank.peak);
+        }
+    };
+    with_pulse(pulse, add_peaks, [&] { find_peaks(motion, shape); });
     return motion;
 }
 
-/// One phase per lobe of a pulse [rad].
+/// uplift_phases() of a ModulatedSine, which is monotone between two peaks.
 template <class S>
-using UpliftPhases = std::array<S, most_lobes>;
+PerLobe<S> uplift_phases_by_peaks(const GroundMotion<S>& motion, const S& amplitude)
+{
+    PerLobe<S> result;
+    S from = motion.begin;
+    for (const S& peak : motion.peaks) {
+        const S towards_peak = motion.sine.value(peak) < 0 ? S(-amplitude) : amplitude;
+        const auto excess = [&](const S& phase) -> S {
+            return towards_peak * motion.sine.value(phase) - 1;
+        };
+        const bool lifts_before = from < peak && excess(from) > 0;
+        result.push_back(!(excess(peak) > 0) || lifts_before ? std::numeric_limits<S>::infinity()
+                         : from < peak ? where_it_reaches_zero(excess, from, peak)
+                                       : peak);
+        from = peak;
+    }
+    return result;
+}
 
 /// For each lobe of the pulse, the first phase [rad] at which amplitude * |f| exceeds 1 and a block
 /// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
 /// amplitude [1].
 template <class S>
-UpliftPhases<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
+PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
 {
     using std::abs;
-    UpliftPhases<S> result;
-    result.fill(std::numeric_limits<S>::infinity());
-    with_pulse(motion.pulse, [&]<class Pulse>() {
+    const auto by_flanks = [&]<class Pulse>() {
+        PerLobe<S> result;
         const auto lifts = [&](const S& phase) { return amplitude * abs(Pulse::value(phase)) > 1; };
         const auto flanks = Pulse::template flanks<S>();
         for (std::size_t i = 0; i < flanks.size(); ++i) {
@@ -139,14 +249,15 @@ UpliftPhases<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
                                  begins_past_peak          ? motion.begin
                                  : whole.peak < motion.end ? whole.peak
                                                            : motion.end};
-            if (flank.foot > flank.peak || !lifts(flank.peak)) {
-                continue;
-            }
-            result[i] =
-                lifts(flank.foot) ? flank.foot : Pulse::phase_at(flank, S(S(1) / amplitude));
+            const bool stays_below = flank.foot > flank.peak || !lifts(flank.peak);
+            result.push_back(stays_below         ? std::numeric_limits<S>::infinity()
+                             : lifts(flank.foot) ? flank.foot
+                                                 : Pulse::phase_at(flank, S(S(1) / amplitude)));
         }
-    });
-    return result;
+        return result;
+    };
+    return with_pulse(motion.pulse, by_flanks,
+                      [&] { return uplift_phases_by_peaks(motion, amplitude); });
 }
 
 } // namespace overturn

@@ -119,8 +119,8 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
                                                const Excitation<double>& excitation)
 {
     constexpr double step = std::numbers::pi / (1 << 12);
-    // |f''| < 2 for all pulses.
-    const double between = 0.25 * step * step * excitation.largest_acceleration();
+    const double between =
+        excitation.motion.largest_curvature() / 8 * step * step * excitation.largest_acceleration();
     return bound_of_low_bounces<theory>(slenderness, excitation, step, between);
 }
 

@@ -129,6 +129,17 @@ struct Triangular {
     }
 };
 
+/// The phase between `low` and `high` at which an increasing function reaches 0.
+template <class S, class Function>
+S where_it_reaches_zero(const Function& increasing, const S& low, const S& high)
+{
+    std::uintmax_t iterations = 200; // bisection needs one per bit of S
+    const auto bracket = boost::math::tools::toms748_solve(
+        increasing, low, high,
+        boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
+    return bracket.second; // the upper end, where the function is not below 0
+}
+
 /// A wavelet, with one formula for all of its lobes.
 template <class Wavelet>
 struct RickerWavelet : SmoothPulse {
@@ -138,11 +149,7 @@ struct RickerWavelet : SmoothPulse {
     {
         using std::abs;
         const auto excess = [&](const S& phase) -> S { return abs(Wavelet::value(phase)) - level; };
-        std::uintmax_t iterations = 200; // bisection needs one per bit of S
-        const auto bracket = boost::math::tools::toms748_solve(
-            excess, flank.foot, flank.peak,
-            boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
-        return bracket.second; // the upper end, where |f| is not below the level
+        return where_it_reaches_zero(excess, flank.foot, flank.peak);
     }
 };
 
@@ -206,9 +213,10 @@ auto with_wavelet(PulseKind kind, const Visitor& visit)
                                                : visit.template operator()<AntisymmetricRicker>();
 }
 
-/// Calls `visit.template operator()<Pulse>()` for the formula of this kind of pulse.
-template <class Visitor>
-auto with_pulse(PulseKind kind, const Visitor& visit)
+/// Calls `visit.template operator()<Pulse>()` for the formula of this kind of pulse, or
+/// visit_modulated() if it is a ModulatedSine.
+template <class Visitor, class ModulatedVisitor>
+auto with_pulse(PulseKind kind, const Visitor& visit, const ModulatedVisitor& visit_modulated)
 {
     switch (kind) {
     case PulseKind::one_cosine: return visit.template operator()<OneCosine>();
@@ -216,6 +224,9 @@ auto with_pulse(PulseKind kind, const Visitor& visit)
     case PulseKind::antisymmetric_ricker: return visit.template operator()<AntisymmetricRicker>();
     case PulseKind::rectangular: return visit.template operator()<Rectangular>();
     case PulseKind::triangular: return visit.template operator()<Triangular>();
+    case PulseKind::sine:
+    case PulseKind::cosine:
+    case PulseKind::mavroeidis_papageorgiou: return visit_modulated();
     case PulseKind::one_sine:
     case PulseKind::half_sine: break;
     }

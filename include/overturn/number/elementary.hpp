@@ -82,6 +82,38 @@ SineAndCosine<T> sine_and_cosine_of_period(const T& x)
     }
 }
 
+/// sin x and cos x for |x| < 2^20 [rad]; in the range of one period, the values of
+/// sine_and_cosine_of_period(), which is faster.
+template <Number T>
+SineAndCosine<T> sine_and_cosine_of_cycles(const T& x)
+{
+    using arithmetic::fma;
+    using S = scalar_t<T>;
+    if constexpr (std::same_as<S, double>) {
+        // A number is rounded to an integer at 1.5 * 2^52. In any rounding mode, this is one of the
+        // two integers next to x / pi; the nearest is at most one off. The products with pi_high
+        // are exact with fma, as are the differences: multiples of 2^-51.
+        constexpr double pi_high = 0x1.921fb54442d18p+1;
+        constexpr double pi_low = 0x1.1a62633145c07p-53;
+        constexpr double inverse_pi = 0x1.45f306dc9c882p-2; // rounded down: pi/2 to k = 0
+        constexpr double rounder = 0x1.8p+52;
+        const T one(1);
+        const T zero(0);
+        const T guess = fma(x, T(inverse_pi), T(rounder)) - T(rounder);
+        const T rest = fma(guess, T(-pi_high), x);
+        const T above = select<T>(rest > T(0.5 * pi_high), one, zero);
+        const T below = select<T>(rest < T(-0.5 * pi_high), one, zero);
+        const T k = guess + (above - below);
+        const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
+        const auto [sine, cosine] = sine_and_cosine(reduced);
+        const T odd = k - T(2.0) * (fma(k, T(0.5), T(rounder)) - T(rounder)); // -1, 0 or 1
+        const T sign = fma(T(-2.0) * odd, odd, T(1.0));
+        return {sign * sine, sign * cosine};
+    } else {
+        return sine_and_cosine(x);
+    }
+}
+
 /// exp(-x) for 0 <= x <= 700.
 template <Number T>
 T exponential_decay(const T& x)

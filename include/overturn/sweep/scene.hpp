@@ -49,7 +49,7 @@ constexpr std::string_view name_of(Method method)
 struct Scene {
     PulseKind pulse = PulseKind::one_sine;
     Theory theory = Theory::nonlinear;
-    double window = 1; ///< half width of a Ricker wavelet [pulse periods]; ignored for other pulses
+    PulseShape shape{};
 
     /// Recorded ground motions, which replace the pulse; either all or none have a vertical motion.
     std::vector<std::shared_ptr<const Accelerogram>> records{};

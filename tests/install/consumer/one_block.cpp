@@ -22,9 +22,8 @@ int main(int argc, char** argv)
 
     constexpr Theory theory = Theory::nonlinear;
     const Block<double> block{slenderness, restitution};
-    const double window = 1; // used by wavelets only
     const Excitation<double> excitation = excitation_of<theory>(
-        ground_motion(PulseKind::one_sine, window), slenderness, amplitude, frequency);
+        ground_motion<double>(PulseKind::one_sine), slenderness, amplitude, frequency);
     const ForcedEnd<double> end = run_forced_stage<RungeKutta, theory>(block, excitation, 1e-9);
     std::printf("%d %.17g %.17g %.17g\n", int(region_of<theory>(end, block)),
                 end.state.side * end.state.tilt, end.state.side * end.state.rate,
