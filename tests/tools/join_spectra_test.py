@@ -210,7 +210,7 @@ class TestAJoinRefused(Spectra):
     def refuses_beside(self, *phrases, settings=(), slendernesses=(0.2,)):
         """Refuses to join a file with these settings to an ordinary one."""
         self.compute("one.h5", [0.1])
-        self.compute("other.h5", list(slendernesses), *settings)
+        self.compute("other.h5", slendernesses and list(slendernesses), *settings)
         self.refuses(74, ("\"other.h5\"", *phrases), "one.h5", "other.h5", "-o", "joined.h5")
 
     def test_of_another_tolerance(self):
@@ -224,6 +224,10 @@ class TestAJoinRefused(Spectra):
     def test_of_another_window(self):
         self.refuses_beside("scene.pulse is symmetric_ricker",
                             settings=["scene.pulse=symmetric_ricker"])
+
+    def test_of_an_axis_in_g(self):
+        self.refuses_beside("axis pga depends", "plane.size", slendernesses=None,
+                            settings=["plane.pga={first=0.1, last=1.0, count=100}"])
 
     def test_of_other_fields(self):
         self.refuses_beside("output.fields is ['region']", settings=["output.fields=[\"region\"]"])
