@@ -74,7 +74,19 @@ S margin_of(const ForcedEnd<S>& end, const Point<S>& point)
     return margin_of<theory>(end, point.block());
 }
 
-/// The amplitude between `low` and `high` at which the verdict flips, by halving.
+/// The number between `low` and `high` at which the verdict flips, by halving.
+template <class IsUnsafe>
+double flip_of(const IsUnsafe& is_unsafe_at, double low, double high)
+{
+    const bool below = is_unsafe_at(low);
+    for (int i = 0; i < 60; ++i) {
+        const double middle = (low + high) / 2;
+        (is_unsafe_at(middle) == below ? low : high) = middle;
+    }
+    return (low + high) / 2;
+}
+
+/// The amplitude between `low` and `high` at which the verdict flips.
 template <Theory theory, class Method = RungeKutta>
 double flip(PulseKind pulse, Point<double> point, double low, double high, double tolerance,
             const PulseShape& shape = {})
@@ -84,12 +96,7 @@ double flip(PulseKind pulse, Point<double> point, double low, double high, doubl
         return margin_of<theory>(forced_end<theory, Method>(pulse, point, tolerance, shape),
                                  point) < 0;
     };
-    const bool below = is_unsafe_at(low);
-    for (int i = 0; i < 60; ++i) {
-        const double middle = (low + high) / 2;
-        (is_unsafe_at(middle) == below ? low : high) = middle;
-    }
-    return (low + high) / 2;
+    return flip_of(is_unsafe_at, low, high);
 }
 
 /// The block of the paper: b = 1 m, h = 5.67 m.
