@@ -27,11 +27,11 @@ constexpr double sampling_time = 0.3; // [s]
 /// Points of a sample: neighbours along frequency, which fill the lanes of a kernel.
 constexpr std::int64_t sample_length = 16;
 
-/// The i-th index of an axis. Many i cover all four axes evenly: the fractions are those of a
-/// Kronecker sequence with powers of 1/g, where g^5 = g + 1.
+/// The i-th index of an axis. Many i cover up to five axes evenly: the fractions are those of a
+/// Kronecker sequence with powers of 1/g, where g^6 = g + 1.
 std::int64_t spread_index(std::int64_t i, int axis, std::int64_t size)
 {
-    constexpr double g = 1.1673039782614187;
+    constexpr double g = 1.1347241384015194;
     double whole = 0;
     const double fraction = std::modf(0.5 + double(i) * std::pow(g, -(axis + 1)), &whole);
     return std::min(std::int64_t(fraction * double(size)), size - 1);
@@ -39,16 +39,12 @@ std::int64_t spread_index(std::int64_t i, int axis, std::int64_t size)
 
 Tile sample_tile(const Plane& plane, std::int64_t i)
 {
-    Tile tile;
-    tile.outer = {spread_index(i, 0, plane.slenderness.size()),
-                  spread_index(i, 1, plane.restitution.size())};
-    if (plane.motions > 0) {
-        tile.outer.insert(tile.outer.begin(), spread_index(i, 4, plane.motions));
+    const Shape shape = shape_of(plane);
+    Tile tile{.begin = Shape(shape.size()), .count = Shape(shape.size(), 1)};
+    tile.count.back() = std::min(sample_length, shape.back());
+    for (std::size_t axis = 0; axis < shape.size(); ++axis) {
+        tile.begin[axis] = spread_index(i, int(axis), shape[axis] - tile.count[axis] + 1);
     }
-    tile.row_begin = spread_index(i, 2, plane.amplitude.size());
-    tile.row_count = 1;
-    tile.column_count = std::min(sample_length, plane.frequency.size());
-    tile.column_begin = spread_index(i, 3, plane.frequency.size() - tile.column_count + 1);
     return tile;
 }
 

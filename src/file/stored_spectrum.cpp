@@ -337,7 +337,7 @@ Tiling StoredSpectrum::tiling() const
     for (const AxisSummary& axis : axes) {
         shape.push_back(axis.size);
     }
-    return {std::move(shape), tile_shape[tile_shape.size() - 2], tile_shape.back()};
+    return {std::move(shape), tile_shape};
 }
 
 std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)

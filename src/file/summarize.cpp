@@ -63,8 +63,8 @@ BoundaryLines count_lines(const std::string& path)
     const auto count = [&](const Tile& tile, const std::vector<FieldValues>& values) {
         const auto& below = std::get<std::vector<std::uint8_t>>(values[0]);
         const auto& above = std::get<std::vector<std::uint8_t>>(values[1]);
-        const auto columns = std::size_t(tile.column_count);
-        lines.computed += tile.column_count;
+        const auto columns = std::size_t(tile.columns());
+        lines.computed += tile.columns();
         for (std::size_t column = 0; column < columns; ++column) {
             bool undecided = false;
             for (std::size_t point = column; point < below.size(); point += columns) {

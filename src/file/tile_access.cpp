@@ -19,16 +19,12 @@ using Extents = std::vector<hsize_t>;
 
 Extents extents_of(const Tile& tile, Field field)
 {
-    Extents extents(tile.outer.size(), 1);
-    extents.insert(extents.end(), {hsize_t(tile.row_count), hsize_t(tile.column_count)});
-    return dimensions_of(field, std::move(extents));
+    return dimensions_of(field, Extents(tile.count.begin(), tile.count.end()));
 }
 
 Extents begin_of(const Tile& tile, Field field)
 {
-    Extents begin(tile.outer.begin(), tile.outer.end());
-    begin.insert(begin.end(), {hsize_t(tile.row_begin), hsize_t(tile.column_begin)});
-    return dimensions_of(field, std::move(begin));
+    return dimensions_of(field, Extents(tile.begin.begin(), tile.begin.end()));
 }
 
 /// The part of a dataset that a tile occupies.

@@ -26,7 +26,7 @@ List dimensions_of(Field field, List of_points)
 /// The number of values of the field in a tile.
 inline std::int64_t count_values(Field field, const Tile& tile)
 {
-    return is_of_line(field) ? tile.column_count : tile.points();
+    return is_of_line(field) ? tile.columns() : tile.points();
 }
 
 /// The fill values of a field that is not computed yet.

@@ -222,7 +222,7 @@ Tiling tiling_of(const Job& job)
     // slow pulses, under which blocks bounce very often.
     constexpr std::int64_t lines = 1;
     return job.product == Product::boundary
-               ? Tiling(shape_of(job.plane), most_crossings(job.scene), lines)
+               ? Tiling(shape_of(job.plane), {most_crossings(job.scene), lines})
                : Tiling(job.plane);
 }
 

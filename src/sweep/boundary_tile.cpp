@@ -27,8 +27,8 @@ TileFields boundary_tile(const Scene& scene, const Plane& plane,
     std::vector<double> pga = amplitude;
     std::vector<std::uint8_t> below(points, no_flip);
     std::vector<std::uint8_t> above(points, no_flip);
-    const auto rows = std::size_t(tile.row_count);
-    const auto columns = std::size_t(tile.column_count);
+    const auto columns = std::size_t(tile.columns());
+    const std::size_t rows = points / columns;
     std::vector<double> unsafe_share(columns);
     std::vector<double> undecided_share(columns);
     const std::vector<PlanePoint> blocks = points_of(scene, plane, tile); // without their amplitude

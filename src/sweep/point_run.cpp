@@ -46,26 +46,25 @@ void Ends::set_free_fall(int point)
 
 std::int64_t motion_of(const Scene& scene, const Tile& tile)
 {
-    return scene.is_recorded() ? tile.outer.front() : 0;
+    return scene.is_recorded() ? tile.begin.front() : 0;
 }
 
 std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile)
 {
-    const std::size_t outer = tile.outer.size();
-    const double slenderness = plane.slenderness[tile.outer[outer - 2]];
-    const double restitution =
-        plane.restitution_ratio(tile.outer[outer - 2], tile.outer[outer - 1]);
+    const std::int64_t* begin = &tile.begin[tile.begin.size() - 4]; // of the last four dimensions
+    const std::int64_t* count = &tile.count[tile.count.size() - 4];
+    const double slenderness = plane.slenderness[begin[0]];
+    const double restitution = plane.restitution_ratio(begin[0], begin[1]);
     const std::int64_t motion = motion_of(scene, tile);
     std::vector<double> frequencies;
-    for (std::int64_t column = 0; column < tile.column_count; ++column) {
-        frequencies.push_back(
-            frequency_of_point(scene, plane, motion, plane.frequency[tile.column_begin + column]));
+    for (const double value : plane.frequency.values(begin[3], begin[3] + count[3])) {
+        frequencies.push_back(frequency_of_point(scene, plane, motion, value));
     }
     const double unit = amplitude_unit(scene, plane, motion, slenderness);
     std::vector<PlanePoint> points(std::size_t(tile.points()));
     auto point = points.begin();
-    for (std::int64_t row = 0; row < tile.row_count; ++row) {
-        const double amplitude = plane.amplitude[tile.row_begin + row] / unit;
+    for (const double value : plane.amplitude.values(begin[2], begin[2] + count[2])) {
+        const double amplitude = value / unit;
         for (const double frequency : frequencies) {
             *point++ = {slenderness, restitution, amplitude, frequency};
         }

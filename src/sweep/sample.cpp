@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <set>
 
 namespace overturn {
@@ -45,8 +43,7 @@ Plane sample_of(const Plane& plane, std::int64_t points)
 
 std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t wanted)
 {
-    const std::int64_t points = std::accumulate(tiling.shape().begin(), tiling.shape().end(),
-                                                std::int64_t(1), std::multiplies());
+    const std::int64_t points = count_points(tiling.shape());
     const double stride = std::max(1.0, double(points) / double(wanted));
     const bool all = stride < 2;
     std::vector<std::vector<int>> chosen;
@@ -56,7 +53,7 @@ std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t w
     double share = 0.5;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const Tile tile = tiling[i];
-        const auto columns = int(tile.column_count);
+        const auto columns = int(tile.columns());
         std::set<int> of_tile;
         for (; next < double(before + tile.points()); next += all ? 1 : stride) {
             const auto point = int(std::int64_t(next) - before);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <numeric>
 
 namespace overturn {
 
@@ -14,6 +16,11 @@ std::int64_t ceiling_of_ratio(std::int64_t a, std::int64_t b)
 
 } // namespace
 
+std::int64_t count_points(const Shape& shape)
+{
+    return std::accumulate(shape.begin(), shape.end(), std::int64_t(1), std::multiplies());
+}
+
 Shape shape_of(const Plane& plane)
 {
     Shape shape{plane.slenderness.size(), plane.restitution.size(), plane.amplitude.size(),
@@ -24,54 +31,34 @@ Shape shape_of(const Plane& plane)
     return shape;
 }
 
-Tiling::Tiling(Shape shape, std::int64_t rows, std::int64_t columns) : shape_(std::move(shape))
+Tiling::Tiling(Shape shape, const Shape& tile)
+    : shape_(std::move(shape)), tile_shape_(shape_.size(), 1)
 {
-    assert(shape_.size() >= 2);
-    const std::int64_t all_columns = shape_.back();
-    const std::int64_t all_rows = shape_[shape_.size() - 2];
-    rows_ = std::min(rows, all_rows);
-    columns_ = std::min(columns, all_columns);
-    tiles_down_ = ceiling_of_ratio(all_rows, rows_);
-    tiles_across_ = ceiling_of_ratio(all_columns, columns_);
+    assert(tile.size() <= shape_.size());
+    const std::size_t outer = shape_.size() - tile.size();
+    for (std::size_t i = 0; i < shape_.size(); ++i) {
+        if (i >= outer) {
+            tile_shape_[i] = std::min(tile[i - outer], shape_[i]);
+        }
+        tiles_.push_back(ceiling_of_ratio(shape_[i], tile_shape_[i]));
+    }
 }
 
 // 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
 // compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks. Under a
 // record, 16 x 16 points take as long.
 Tiling::Tiling(const Plane& plane)
-    : Tiling(shape_of(plane), plane.motions > 0 ? 16 : 64, plane.motions > 0 ? 16 : 64)
+    : Tiling(shape_of(plane), plane.motions > 0 ? Shape{16, 16} : Shape{64, 64})
 {}
-
-std::int64_t Tiling::size() const
-{
-    std::int64_t tiles = tiles_down_ * tiles_across_;
-    for (std::size_t i = 0; i + 2 < shape_.size(); ++i) {
-        tiles *= shape_[i];
-    }
-    return tiles;
-}
-
-Shape Tiling::tile_shape() const
-{
-    Shape shape(shape_.size() - 2, 1);
-    shape.push_back(rows_);
-    shape.push_back(columns_);
-    return shape;
-}
 
 Tile Tiling::operator[](std::int64_t number) const
 {
-    Tile tile;
-    tile.number = number;
-    tile.column_begin = number % tiles_across_ * columns_;
-    tile.row_begin = number / tiles_across_ % tiles_down_ * rows_;
-    tile.column_count = std::min(columns_, shape_.back() - tile.column_begin);
-    tile.row_count = std::min(rows_, shape_[shape_.size() - 2] - tile.row_begin);
-    std::int64_t place = number / (tiles_across_ * tiles_down_);
-    tile.outer.resize(shape_.size() - 2);
-    for (std::size_t i = tile.outer.size(); i-- > 0;) {
-        tile.outer[i] = place % shape_[i];
-        place /= shape_[i];
+    Tile tile{number, Shape(shape_.size()), Shape(shape_.size())};
+    std::int64_t place = number;
+    for (std::size_t i = shape_.size(); i-- > 0;) {
+        tile.begin[i] = place % tiles_[i] * tile_shape_[i];
+        tile.count[i] = std::min(tile_shape_[i], shape_[i] - tile.begin[i]);
+        place /= tiles_[i];
     }
     return tile;
 }

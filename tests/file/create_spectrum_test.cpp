@@ -233,7 +233,7 @@ TEST(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
         job.plane.frequency = Axis(AxisRange{0.5, 0.5 * double(size), size, Spacing::linear});
         job.given = std::string(1000 * std::size_t(size), '#');
         job.plane.block = BlockSize{.half_width = 1, .half_height = 5.67};
-        const Tiling tiling(shape_of(job.plane), 16, 16);
+        const Tiling tiling(shape_of(job.plane), {16, 16});
         const std::string path = folder / std::to_string(size);
         create_spectrum_file(path, job, tiling);
         const auto actual = static_cast<long double>(std::filesystem::file_size(path));

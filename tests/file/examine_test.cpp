@@ -232,7 +232,7 @@ TEST_F(ExamineExternalReferences, RefusesALinkByName)
 
 TEST_F(Examine, RefusesAFileWithOtherTiles)
 {
-    create_spectrum_file(path, job, Tiling(shape_of(job.plane), 3, 3));
+    create_spectrum_file(path, job, Tiling(shape_of(job.plane), {3, 3}));
     EXPECT_THAT(refusal(path, job), HasSubstr("tiles"));
 }
 

@@ -33,7 +33,7 @@ inline Job sample_job()
 /// Tiles that do not divide the plane evenly: 7 = 4 + 3 rows, 11 = 4 + 4 + 3 columns.
 inline Tiling sample_tiling(const Job& job)
 {
-    return Tiling(shape_of(job.plane), 4, 4);
+    return Tiling(shape_of(job.plane), {4, 4});
 }
 
 /// Every point has a unique value, computed from its position in the plane.
@@ -46,10 +46,10 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
             [&](auto& list) {
                 using Value = typename std::decay_t<decltype(list)>::value_type;
                 for (std::int64_t i = 0; i < tile.points(); ++i) {
-                    const std::int64_t row = tile.row_begin + i / tile.column_count;
-                    const std::int64_t column = tile.column_begin + i % tile.column_count;
+                    const std::int64_t row = tile.begin[2] + i / tile.columns();
+                    const std::int64_t column = tile.begin[3] + i % tile.columns();
                     const std::int64_t block =
-                        tile.outer[0] * job.plane.restitution.size() + tile.outer[1];
+                        tile.begin[0] * job.plane.restitution.size() + tile.begin[1];
                     const std::int64_t position =
                         (block * job.plane.amplitude.size() + row) * job.plane.frequency.size() +
                         column;

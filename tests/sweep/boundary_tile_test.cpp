@@ -20,11 +20,7 @@ TEST(BoundaryTile, HasALineInEachColumn)
     plane.restitution_of = RestitutionOf::maximum;
     plane.frequency = Axis(AxisList{1, 2, 3, 20});
     plane.amplitude = Axis(AxisRange{0, 7, 8});
-    Tile tile;
-    tile.outer = {1, 1};
-    tile.row_count = 8;
-    tile.column_begin = 2;
-    tile.column_count = 2;
+    const Tile tile{.begin = {1, 1, 0, 2}, .count = {1, 1, 8, 2}};
     const TileFields fields = boundary_tile({}, plane, scan, tile, widest_kernel());
     const auto& amplitude = std::get<std::vector<double>>(fields.values[0]);
     const auto& below = std::get<std::vector<std::uint8_t>>(fields.values[1]);
@@ -56,10 +52,7 @@ TEST(BoundaryTile, ReportsWhereThereAreMoreFlipsThanRows)
     plane.restitution = Axis(AxisList{paper_r_max});
     plane.frequency = Axis(AxisList{3});
     plane.amplitude = Axis(AxisRange{0, 1, 2});
-    Tile tile;
-    tile.outer = {0, 0};
-    tile.row_count = 2;
-    tile.column_count = 1;
+    const Tile tile{.begin = {0, 0, 0, 0}, .count = {1, 1, 2, 1}};
     const TileFields fields = boundary_tile({}, plane, scan, tile, widest_kernel());
     EXPECT_NEAR(std::get<std::vector<double>>(fields.values[0])[1], 3.590936, 6e-7);
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[0],

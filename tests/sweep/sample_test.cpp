@@ -37,9 +37,9 @@ Met met_by(const Plane& plane, std::int64_t wanted)
             EXPECT_LT(point, tile.points());
             last = point;
             ++met.points;
-            met.frequencies.insert(plane.frequency[tile.column_begin + point % tile.column_count]);
-            met.amplitudes.insert(plane.amplitude[tile.row_begin + point / tile.column_count]);
-            met.restitutions.insert(plane.restitution[tile.outer[1]]);
+            met.frequencies.insert(plane.frequency[tile.begin[3] + point % tile.columns()]);
+            met.amplitudes.insert(plane.amplitude[tile.begin[2] + point / tile.columns()]);
+            met.restitutions.insert(plane.restitution[tile.begin[1]]);
         }
     }
     return met;

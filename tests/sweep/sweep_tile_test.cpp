@@ -53,13 +53,13 @@ std::vector<std::vector<std::byte>> sweep_plane(const Scene& scene, const Numeri
                 [&](const auto& values) {
                     const std::size_t size = sizeof(values[0]);
                     const std::int64_t page =
-                        tile.outer[0] * plane.restitution.size() + tile.outer[1];
-                    for (std::int64_t i = 0; i < tile.row_count; ++i) {
-                        const std::int64_t row = page * plane.amplitude.size() + tile.row_begin + i;
-                        const std::int64_t to = row * plane.frequency.size() + tile.column_begin;
+                        tile.begin[0] * plane.restitution.size() + tile.begin[1];
+                    for (std::int64_t i = 0; i < tile.count[2]; ++i) {
+                        const std::int64_t row = page * plane.amplitude.size() + tile.begin[2] + i;
+                        const std::int64_t to = row * plane.frequency.size() + tile.begin[3];
                         std::memcpy(bytes[f].data() + std::size_t(to) * size,
-                                    values.data() + i * tile.column_count,
-                                    std::size_t(tile.column_count) * size);
+                                    values.data() + i * tile.columns(),
+                                    std::size_t(tile.columns()) * size);
                     }
                 },
                 fields.values[f]);
@@ -103,7 +103,7 @@ TEST(SweepTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
             // Rows of 3, 5 and 37 points put every point into different lanes with different
             // neighbours.
             for (const auto& [rows, columns] : {std::pair{1, 3}, {29, 5}, {7, 37}}) {
-                EXPECT_EQ(swept(Tiling(shape_of(plane), rows, columns)), whole)
+                EXPECT_EQ(swept(Tiling(shape_of(plane), {rows, columns})), whole)
                     << name_of(scene, numerics);
             }
         }
@@ -185,10 +185,10 @@ TEST(SweepTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
     const auto& steps = std::get<std::vector<std::uint32_t>>(fields.values[6]);
     const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[7]);
     for (std::int64_t i = 0; i < tile.points(); ++i) {
-        const Point<double> point{plane.slenderness[tile.outer[0]],
-                                  plane.restitution_ratio(tile.outer[0], tile.outer[1]),
-                                  plane.frequency[tile.column_begin + i % tile.column_count],
-                                  plane.amplitude[tile.row_begin + i / tile.column_count]};
+        const Point<double> point{plane.slenderness[tile.begin[0]],
+                                  plane.restitution_ratio(tile.begin[0], tile.begin[1]),
+                                  plane.frequency[tile.begin[3] + i % tile.columns()],
+                                  plane.amplitude[tile.begin[2] + i / tile.columns()]};
         const auto end = forced_end<Theory::nonlinear, RungeKutta, true>(PulseKind::one_sine, point,
                                                                          Numerics{}.tolerance);
         const std::size_t k = std::size_t(i);

@@ -172,7 +172,7 @@ Work work_from(const std::vector<std::string>& words)
                          std::string(name_of(work.kernel)));
     }
     work.plane = plane_of(side);
-    work.tile = Tiling(shape_of(work.plane), side, side)[0];
+    work.tile = Tiling(shape_of(work.plane), {side, side})[0];
     return work;
 }
 
