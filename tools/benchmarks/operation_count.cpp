@@ -103,8 +103,9 @@ Excitation<Counted> excitation_of(const PlanePoint& point)
                                  .acceleration = Counted(in_doubles.acceleration),
                                  .frequency = Counted(in_doubles.frequency),
                                  .uplifts = {}};
-    std::transform(in_doubles.uplifts.begin(), in_doubles.uplifts.end(), counting.uplifts.begin(),
-                   [](double phase) { return Counted(phase); });
+    for (const double phase : in_doubles.uplifts) {
+        counting.uplifts.push_back(Counted(phase));
+    }
     return counting;
 }
 

@@ -13,9 +13,10 @@ Problem with_points(Problem problem)
     const Plane& plane = problem.plane;
     for (const double amplitude : plane.amplitude.values()) {
         for (const double frequency : plane.frequency.values()) {
-            problem.points.push_back({plane.slenderness.first(), plane.restitution_ratio(0, 0),
-                                      amplitude_of_point(problem.scene, plane, 0, amplitude),
-                                      frequency_of_point(problem.scene, plane, 0, frequency)});
+            problem.points.push_back(
+                {plane.slenderness.first(), plane.restitution_ratio(0, 0),
+                 amplitude / amplitude_unit(problem.scene, plane, 0, plane.slenderness.first()),
+                 frequency_of_point(problem.scene, plane, 0, frequency)});
         }
     }
     return problem;
