@@ -254,11 +254,12 @@ void plot(const Job& job, const std::string& picture)
     }
     std::string file = folder + "/history.h5";
     write_history_file(file, job, history_of_only_point(job));
+    std::string units = "--units=physical";
     std::string output = "-o";
     std::string target = picture;
     std::string program = tool;
-    std::array<char*, 5> arguments{program.data(), file.data(), output.data(), target.data(),
-                                   nullptr};
+    std::array<char*, 6> arguments{program.data(), file.data(),   units.data(),
+                                   output.data(),  target.data(), nullptr};
     pid_t child = 0;
     int status = 0;
     posix_spawn_file_actions_t silent; // only the answer is printed

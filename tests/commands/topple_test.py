@@ -100,9 +100,11 @@ class Toppling(Scratch):
         for one, other in zip(moon["toppling_pga"], earth["toppling_pga"], strict=True):
             self.assertLess(abs(one[0] / other[0] - 1), 1e-11)
 
-    def test_draws_the_history(self):
+    def test_draws_the_history_in_seconds_and_degrees(self):
         self.topple(*PULSE, "--pga", "0.9", "--plot", "tilt.svg")
-        self.assertIn("<svg", (self.folder / "tilt.svg").read_text())
+        picture = (self.folder / "tilt.svg").read_text()
+        for words in ("time since the start of the pulse  [s]", "tilt [degrees]"):
+            self.assertIn(f">{words}<", picture)
         self.assertNotIn("history.h5", self.files())
 
     def test_refuses_what_contradicts_itself(self):

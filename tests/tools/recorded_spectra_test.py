@@ -14,7 +14,7 @@ from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_PLUS, UND
                                 Picture, add_field, shares, where)
 from to_xdmf_test import Described, follow
 from tool import TOOLS, run_tool  # first: adds the package to the path
-from overturn.captions import name_axes
+from overturn.units import name_axes
 
 FREE_FALL = 16
 

@@ -1,6 +1,7 @@
-"""Words in pictures: axes, ground motion, block. An index `outer` is that of one spectrum."""
+"""Words in pictures: ground motion, block, title. An index `outer` is that of one spectrum."""
 
 import functools
+import math
 import pathlib
 
 from overturn.fields import count_tiles, dimensions_of, slenderness_and_restitution
@@ -10,14 +11,7 @@ PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet",
           "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse"}
 PULSE_NUMBERS = ("window", "cycles", "gamma", "nu")
-AXES = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
-        "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
-        "pulse_period": "pulse period [s]",
-        "pulse_frequency": "pulse frequency [Hz]",
-        "scale": "scale of the record",
-        "pga": "PGA [g]",
-        "size": r"size  $R$ [m]",
-        "frequency_parameter": r"$p$ [1/s]"}
+JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
 MOST_LETTERS = 32  # of the name of a record beside other words
 
 
@@ -36,21 +30,6 @@ def ground_word(file):
 def scales_records(file):
     """Returns whether an axis is the scale of records, not their peak acceleration."""
     return is_recorded(file) and "record_pga" not in file
-
-
-def scanned_quantity(file):
-    """Returns the name of the axis of the job along which a boundary was scanned."""
-    return next(name for name in ("amplitude", "scale", "pga") if f"scan_{name}" in file)
-
-
-def name_axes(file):
-    """Returns the labels of the horizontal and the vertical axis; that of a boundary is the
-    amplitude of its flips."""
-    up, across = dimensions_of(file)[-2:]
-    if up == "crossing":
-        up = scanned_quantity(file)
-    threshold = r"\alpha" if is_linear(file) else r"\tan\,\alpha"
-    return tuple(AXES[name].replace("{threshold}", threshold) for name in (across, up))
 
 
 def file_name(path):
@@ -80,40 +59,46 @@ def value_text(file, name, place):
     return motion_names(file)[place] if name == "motion" else f"{file[name][place]:g}"
 
 
-def block_text(file, outer):
+def slenderness_text(alpha, units):
+    """`alpha` is in rad."""
+    return f"α = {math.degrees(alpha):.4g}°" if units == PHYSICAL else f"α = {alpha:.4g} rad"
+
+
+def block_text(file, outer, units):
     alpha, r = slenderness_and_restitution(file, outer)
     share = ""
     if text_attribute(file["restitution"], "of") == "maximum":
         value = file["restitution"][outer[dimensions_of(file).index("restitution")]]
         share = " = r_max" if value == 1 else f" = {value:g} r_max"
-    return f"α = {alpha:.4g} rad,  r{share} = {r:.4g}"
+    return f"{slenderness_text(alpha, units)},  r{share} = {r:.4g}"
 
 
-def motion_text(file, outer):
+def motion_text(file, outer, units):
     """Returns the record and, if the picture shows its scale, its peak acceleration."""
     names = dimensions_of(file)
     motion = outer[names.index("motion")]
     name = motion_names(file)[motion]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
-    return name + (f", PGA {file['pga'][motion]:.3g} g" if scales_records(file) else "")
+    shows_scale = scales_records(file) and units == JOB
+    return name + (f", PGA {file['pga'][motion]:.3g} g" if shows_scale else "")
 
 
-def spectrum_words(file, outer):
+def spectrum_words(file, outer, units=JOB):
     """Returns what distinguishes a spectrum from others: its record, if any, and its block."""
-    motion = [motion_text(file, outer)] if is_recorded(file) else []
-    return [*motion, block_text(file, outer)]
+    motion = [motion_text(file, outer, units)] if is_recorded(file) else []
+    return [*motion, block_text(file, outer, units)]
 
 
-def panel_titles(file, spectra):
+def panel_titles(file, spectra, units=JOB):
     """Returns what differs among the spectra, for each of them."""
-    words = [spectrum_words(file, outer) for outer in spectra]
+    words = [spectrum_words(file, outer, units) for outer in spectra]
     differs = [len(set(column)) > 1 for column in zip(*words)]
     return [escaped("\n".join(word for word, shown in zip(each, differs) if shown))
             for each in words]
 
 
-def subtitle(file, spectra):
+def subtitle(file, spectra, units=JOB):
     """Returns pulse, theory, what all spectra have in common, and a note on missing tiles."""
     words = []
     if not is_recorded(file):
@@ -121,7 +106,7 @@ def subtitle(file, spectra):
     words += [f"{name} {float(file.attrs[name]):g}" for name in PULSE_NUMBERS if name in file.attrs]
     if is_linear(file):
         words.append("linear theory")
-    for column in zip(*(spectrum_words(file, outer) for outer in spectra)):
+    for column in zip(*(spectrum_words(file, outer, units) for outer in spectra)):
         if len(set(column)) == 1:
             words.append(escaped(column[0]))
     done, tiles = count_tiles(file)

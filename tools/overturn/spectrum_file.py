@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from overturn.fields import dimensions_of, read_field
+from overturn.fields import read_field
 from overturn.result_file import PlotError, open_result
 
 
@@ -24,13 +24,18 @@ def are_geometric(values):
 
 
 class Axis:
-    """The cells of one axis; each extends to the midpoints between its value and its neighbours.
+    """The cells of one axis, in ascending order of the values, which may descend in the file; each
+    extends to the midpoints between its value and its neighbours.
 
-    Midpoints are computed on the scale of the axis, which is logarithmic for geometric values.
+    Midpoints are computed on the scale of the axis, which is logarithmic for geometric values unless
+    `scale` is given.
     """
 
-    def __init__(self, values):
-        self.scale = "log" if are_geometric(values) else "linear"
+    def __init__(self, values, scale=None):
+        self.descends = values[-1] < values[0]
+        if self.descends:
+            values = values[::-1]
+        self.scale = scale or ("log" if are_geometric(values) else "linear")
         self.only_value = values[0] if len(values) == 1 else None
         shown = self.shown(values)
         inner = (shown[1:] + shown[:-1]) / 2
@@ -52,16 +57,11 @@ class Axis:
         return (self.shown(values) - self.edges[0]) / (self.edges[-1] - self.edges[0])
 
     def cells(self, pixels):
-        """Returns the cell under the centre of each pixel."""
+        """Returns the cell under the centre of each pixel, as its index in the file."""
         width = (self.edges[-1] - self.edges[0]) / pixels
         middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
-        return np.searchsorted(self.edges[1:-1], middles)
-
-
-def axes_of_plane(file):
-    """Returns the horizontal and the vertical axis."""
-    up, across = (Axis(file[name][:]) for name in dimensions_of(file)[-2:])
-    return across, up
+        cells = np.searchsorted(self.edges[1:-1], middles)
+        return len(self.edges) - 2 - cells if self.descends else cells
 
 
 def rows_of_tiles(field):

@@ -1,0 +1,307 @@
+"""Pictures in seconds, degrees and g, and the tools for files whose axes have these units.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import csv
+import json
+import runpy
+import subprocess
+import types
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+from matplotlib import colors, image, pyplot
+from PIL import Image
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_MINUS, shares,
+                                where)
+from recorded_spectra_test import Recorded
+from to_xdmf_test import Described, follow
+from tool import TOOLS, run_tool  # first: adds the package to the path
+from overturn.overlay import draw_boundary, open_boundary
+from overturn.result_file import PANELS
+from overturn.spectrum_file import Axis
+from overturn.units import quantities
+
+P = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 0.9)))  # [1/s]
+PHYSICAL = ("--units", "physical")
+JOB = """
+    title = "A statue"
+    scene.pulse = "one_sine"
+    block = { width = 0.6, height = 1.8 }
+    [plane]
+    pulse_period = { first = 0.3, last = 2.0, count = 7 }
+    pga = { first = 0.2, last = 3.0, count = 9 }
+    restitution = { values = [1.0], of = "maximum" }
+    """
+RECORDED = """
+    scene.record = "synthetic.AT2"
+    [plane]
+    size = { first = 0.5, last = 2.0, count = 3 }
+    scale = { first = 1.0, last = 2.0, count = 5 }
+    restitution = { values = [0.8] }
+    slenderness = 0.25
+    """
+DIMENSIONLESS = ("plane.frequency={first=1.2, last=7.5, count=7}",
+                 "plane.amplitude={first=0.6, last=9, count=9}")
+SIZELESS = ("block={}", "plane.slenderness=0.3217505543966422", *DIMENSIONLESS)
+
+
+class Sized(Recorded):
+    def sized(self, codes, pulse_period, pga, **axes):
+        """Writes a spectrum over frequency and amplitude for blocks of known size."""
+        self.spectrum(codes, half_diagonal=0.95, **axes)
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            file["pulse_period"], file["pga"] = pulse_period, pga
+
+    def overturn(self, command, name, *settings, job=JOB):
+        (self.folder / "job.toml").write_text(job)
+        subprocess.run([OVERTURN, command, "job.toml", "-o", name,
+                        *(f"--set={setting}" for setting in settings)], cwd=self.folder,
+                       check=True, capture_output=True, timeout=100)
+
+    def drawn(self, tool, *arguments):
+        """Returns the picture as SVG."""
+        run = run_tool(tool, *arguments, "-o", "picture.svg", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.folder / "picture.svg").read_text("utf-8")
+
+
+class TestAPlaneInPhysicalUnits(Sized):
+    def test_has_periods_that_ascend_while_frequencies_descend(self):
+        self.sized([[S, F_MINUS, U0_MINUS]], [10.0, 5.0, 1.0], [0.4], frequency=[1.0, 2.0, 10.0])
+        picture = self.picture(*PHYSICAL)
+        # Midpoints on a logarithmic axis; between the frequencies F- would be the widest.
+        widths = np.log([2, np.sqrt(10), 5])
+        np.testing.assert_allclose(shares(picture, [S, F_MINUS, U0_MINUS]), widths / widths.sum(),
+                                   atol=0.01)
+        left, right = (np.median(np.argwhere(where(picture, code))[:, 1]) for code in (U0_MINUS, S))
+        self.assertLess(left, right - 100)
+
+    def test_has_cells_around_descending_values(self):
+        axis = Axis(np.array([9.0, 5.0, 4.0]))
+        np.testing.assert_array_equal(axis.edges, [3.5, 4.5, 7, 11])
+        np.testing.assert_array_equal(axis.cells(15), [2, 2] + 5 * [1] + 8 * [0])
+
+    def test_is_named_with_its_units(self):
+        self.sized([[S]], [2.5], [0.4])
+        words = self.words(*PHYSICAL)
+        for label in ("pulse period [s]", "PGA [g]",
+                      "one-sine pulse,  α = 5.73°,  r = 0.7 r_max = 0.625"):
+            self.assertIn(label, words)
+        self.assertNotIn("pulse period [s]", self.words())
+
+    def test_has_a_vertical_axis_for_each_slenderness(self):
+        self.sized([[[[S], [S]]], [[[S], [S]]]], [2.5], [[0.1, 0.3], [0.2, 0.6]])
+        self.picture(*PHYSICAL)
+        panels = json.loads(Image.open(self.folder / "picture.png").text[PANELS])
+        np.testing.assert_allclose([panel["up"]["limits"] for panel in panels],
+                                   [[0, 0.4], [0, 0.8]], atol=1e-15)
+
+    def test_under_a_record_is_over_the_peak_acceleration(self):
+        self.recorded([[S], [F_MINUS], [F_MINUS]])
+        self.change(lambda file: file.create_dataset("scaled_pga", data=[[0.4, 0.8, 1.2]]))
+        words = self.words(*PHYSICAL)
+        self.assertIn("PGA [g]", words)
+        self.assertIn("a.AT2,  α = 5.73°,  r = 0.7 r_max = 0.625", words)  # not PGA 0.4 g
+        self.assertIn("1.2", words)
+
+    def test_never_shows_points_not_computed_as_safe(self):
+        self.sized([[F_MINUS, NOT_COMPUTED]], [2.0, 1.0], [0.4])
+        self.assertEqual(np.count_nonzero(where(self.picture(*PHYSICAL), S)), 0)
+        self.assertIn("not computed yet", self.words(*PHYSICAL))
+
+    def test_with_physical_axes_is_the_same_in_both_units(self):
+        self.overturn("run", "spectrum.h5")
+        words = self.words()
+        self.assertIn("pulse period [s]", words)
+        pictures = [self.picture(*units) for units in ((), PHYSICAL)]
+        for code in (S, F_MINUS, U0_MINUS):
+            np.testing.assert_array_equal(*(where(picture, code) for picture in pictures))
+
+    def test_needs_the_size_of_the_block(self):
+        for command, tool in (("run", "plot_spectrum"), ("boundary", "plot_boundary")):
+            self.overturn(command, f"{command}.h5", *SIZELESS)
+            run = run_tool(tool, f"{command}.h5", *PHYSICAL, cwd=self.folder)
+            self.assertEqual(run.returncode, 74)
+            self.assertIn("Add [block] with width and height to the job, or the half diagonal "
+                          "plane.size", run.stderr)
+
+
+class TestAPhysicalBoundary(Sized):
+    LINES = runpy.run_path(str(TOOLS / "plot_boundary"))["Lines"]
+
+    def lines(self, *settings):
+        self.overturn("boundary", "boundary.h5", *settings)
+        with h5py.File(self.folder / "boundary.h5") as file:
+            for name in ("flip_amplitude", "flip_pga"):
+                self.assertGreater(np.isfinite(file[name][:]).sum(), 9)
+            return self.LINES(file, (0, 0), "physical"), file["flip_amplitude"][0, 0]
+
+    def test_has_its_flips_and_its_scan_in_g(self):
+        for theory, threshold in (("nonlinear", 1 / 3), ("linear", np.arctan(1 / 3))):
+            lines, flips = self.lines(*DIMENSIONLESS, f"scene.theory={theory}")
+            np.testing.assert_allclose(lines.flips, flips * threshold, rtol=1e-14)
+            scan = np.linspace(0.6, 9, 9) * threshold
+            np.testing.assert_allclose(lines.up.edges[:2], scan[:2] - (scan[1] - scan[0]) / 2,
+                                       rtol=1e-13)
+            np.testing.assert_allclose(lines.frequency,
+                                       2 * np.pi / (P * np.linspace(1.2, 7.5, 7)), rtol=1e-14)
+            (self.folder / "boundary.h5").unlink()
+
+    def test_is_shaded_over_its_periods(self):
+        # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most.
+        self.overturn("boundary", "boundary.h5", *DIMENSIONLESS, "plane.frequency.values=[1.2,7.5]",
+                      "plane.amplitude.last=6")
+        run = run_tool("plot_boundary", "boundary.h5", *PHYSICAL, "-o", "picture.png",
+                       cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        picture = image.imread(self.folder / "picture.png")[..., :3]
+        halves = np.split(picture[150:-100, 120:-50], 2, axis=1)
+        safe, unsafe = ([np.isclose(half, colors.to_rgb(shade), atol=1 / 255).all(axis=2).mean()
+                         for half in halves] for shade in ("#8bc77f", "#f4e3b0"))
+        self.assertGreater(safe[0], 0.95)
+        self.assertGreater(unsafe[1], 0.7)
+        picture = self.drawn("plot_boundary", "boundary.h5", *PHYSICAL)
+        for words in ("pulse period [s]", "PGA [g]", "one-sine pulse,  α = 18.43°"):
+            self.assertIn(f">{words}", picture)
+
+
+class TestAnOverlaidBoundary(Sized):
+    def dots(self, units="job"):
+        """Returns the drawn points, in ascending order."""
+        figure, panel = pyplot.subplots()
+        with h5py.File(self.folder / "spectrum.h5") as spectrum, \
+                open_boundary(self.folder / "boundary.h5", spectrum, units) as boundary:
+            draw_boundary(panel, boundary, (0,) * (spectrum["region"].ndim - 2),
+                          quantities(spectrum, units))
+        points = np.transpose(panel.lines[-1].get_data())
+        pyplot.close(figure)
+        points = points[np.isfinite(points[:, 1])]
+        self.assertGreater(len(points), 5)
+        return points[np.lexsort(points.T)]
+
+    def assert_dots(self, spectrum, boundary, across, flips, units="job"):
+        """Asserts that the flips of the file are drawn at these values of each column."""
+        for name in ("spectrum", "boundary"):
+            (self.folder / f"{name}.h5").unlink(missing_ok=True)
+        self.overturn("run", "spectrum.h5", *spectrum)
+        self.overturn("boundary", "boundary.h5", *boundary)
+        with h5py.File(self.folder / "boundary.h5") as file:
+            settled = (file["region_below"][0, 0] <= 8) & (file["region_above"][0, 0] <= 8)
+            points = np.transpose([np.broadcast_to(across, settled.shape)[settled],
+                                   file[flips][0, 0][settled]])
+        np.testing.assert_allclose(self.dots(units), points[np.lexsort(points.T)], rtol=1e-13)
+
+    def test_is_converted_to_the_axes_of_the_spectrum(self):
+        periods, frequencies = np.linspace(0.3, 2.0, 7), np.linspace(1.2, 7.5, 7)
+        hertz = ("plane.pulse_frequency={first=0.5, last=3, count=4}",)
+        self.assert_dots((), (), periods, "flip_pga")
+        self.assert_dots((), DIMENSIONLESS, 2 * np.pi / (P * frequencies), "flip_pga")
+        self.assert_dots(DIMENSIONLESS, (), 2 * np.pi / (P * periods), "flip_amplitude")
+        self.assert_dots(DIMENSIONLESS, (), periods, "flip_pga", "physical")
+        self.assert_dots(hertz, (), 1 / periods, "flip_pga")
+        self.assert_dots((), hertz, 1 / np.linspace(0.5, 3, 4), "flip_pga")
+        self.assert_dots(SIZELESS, DIMENSIONLESS, frequencies, "flip_amplitude")
+
+    def test_needs_the_size_of_its_block_if_the_axes_do(self):
+        self.overturn("run", "spectrum.h5")
+        self.overturn("boundary", "boundary.h5", *SIZELESS)
+        self.refuses(74, "does not give the size of the block", "--boundary", "boundary.h5")
+
+    def test_is_that_of_blocks_of_the_same_size_only_if_the_axes_depend_on_it(self):
+        sized = (*SIZELESS, "plane.size=2")
+        self.overturn("boundary", "boundary.h5", *sized)
+        self.overturn("run", "spectrum.h5", *DIMENSIONLESS)
+        self.assertGreater(len(self.dots()), 5)
+        self.refuses(74, "has half_diagonal 2.0, but the spectrum has 0.948", "--boundary",
+                     "boundary.h5", *PHYSICAL)
+
+    def test_covers_some_of_the_spectrum(self):
+        self.overturn("run", "spectrum.h5")
+        self.overturn("boundary", "boundary.h5", "plane.pulse_period={values=[2.5, 3]}")
+        self.refuses(74, "covers pulse_period from 2.5 to 3, the spectrum only from 0.158",
+                     "--boundary", "boundary.h5")
+
+    def test_under_a_record_is_of_the_same_record(self):
+        for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
+            (self.folder / name).write_bytes((TOOLS.parent / "jobs" / name).read_bytes())
+        over_pga = "plane.pga={first=0.3, last=1, count=5}"
+        self.overturn("run", "spectrum.h5", over_pga, job=RECORDED)
+        self.overturn("boundary", "boundary.h5", job=RECORDED)
+        with h5py.File(self.folder / "boundary.h5") as file:
+            highest = 0.4 * np.nanmax(file["flip_amplitude"])  # the record has a peak of 0.4 g
+        self.assertAlmostEqual(self.dots()[:, 1].max(), highest, places=12)
+        (self.folder / "spectrum.h5").unlink()
+        self.overturn("run", "spectrum.h5", over_pga, "scene.record='synthetic_vertical.AT2'",
+                      job=RECORDED)
+        self.refuses(74, "is under other records than the spectrum", "--boundary", "boundary.h5")
+
+
+class TestAPhysicalHistory(Sized):
+    TOOL = types.SimpleNamespace(**runpy.run_path(str(TOOLS / "plot_history")))
+    AT = ("plane.pulse_period=0.5", "plane.pga=0.9")
+
+    def test_is_in_seconds_and_degrees(self):
+        self.overturn("history", "history.h5", *self.AT)
+        with h5py.File(self.folder / "history.h5") as file:
+            history = self.TOOL.History(file, 0, np.inf, "physical")
+            np.testing.assert_allclose(history.time, file["time"][:] / P)
+            for name, power in (("angle", 0), ("velocity", 1), ("acceleration", 2)):
+                np.testing.assert_allclose(history.values[name],
+                                           np.degrees(file[name][:]) * P**power)
+            self.assertAlmostEqual(history.limits("angle")[1], np.degrees(np.arctan(1 / 3)))
+            # The velocity that just topples an upright block, and its square.
+            fastest = np.degrees(P * 2 * np.sin(np.arctan(1 / 3) / 2))
+            self.assertAlmostEqual(history.limits("velocity")[1], fastest)
+            self.assertAlmostEqual(history.limits("q")[1], fastest**2)
+        self.assertAlmostEqual(history.end_of_ground_motion, 0.5)
+        picture = self.drawn("plot_history", "history.h5", *PHYSICAL)
+        for words in ("time since the start of the pulse  [s]", "tilt [degrees]",
+                      "velocity [degrees/s]", "ground [g]"):
+            self.assertIn(f">{words}<", picture)
+
+    def test_states_the_point_in_physical_units(self):
+        dimensionless = (f"plane.frequency.values=[{2 * np.pi / (0.5 * P)!r}]",
+                         "plane.amplitude.values=[2.7]")
+        for settings in (self.AT, dimensionless):
+            self.overturn("history", "history.h5", *settings)
+            with h5py.File(self.folder / "history.h5") as file:
+                self.assertTrue(self.TOOL.describe(file, "physical").startswith(
+                    "period = 0.5 s, PGA = 0.9 g, $p$ = 2.78487 1/s, α = 18.43°, $r$ = 0.7225: "))
+                words = self.TOOL.describe(file)
+                self.assertEqual("period" in words, settings == self.AT)
+                self.assertEqual("omega_p" in words, settings != self.AT)
+
+    def test_needs_the_size_of_the_block(self):
+        self.overturn("history", "history.h5", *SIZELESS, "plane.frequency=3", "plane.amplitude=1.3")
+        run = run_tool("plot_history", "history.h5", *PHYSICAL, cwd=self.folder)
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("Add [block] with width and height", run.stderr)
+
+
+class TestPhysicalAxesInOtherTools(Sized, Described):
+    def test_are_columns_of_a_table_axes_of_a_grid_and_dimensions(self):
+        self.overturn("run", "spectrum.h5")
+        self.assertEqual(run_tool("to_csv", "spectrum.h5", cwd=self.folder).returncode, 0)
+        with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
+            header, *rows = csv.reader(text)
+        self.assertEqual(header[:2], ["pulse_period", "pga"])
+        self.assertEqual(len(rows), 63)
+        step, = self.described("spectrum.h5")
+        across, up, _ = (follow(self.folder, item) for item in step.find("Geometry"))
+        np.testing.assert_allclose(across, np.linspace(0.3, 2.0, 7), rtol=1e-15)
+        np.testing.assert_allclose(up, np.linspace(0.2, 3.0, 9), rtol=1e-15)
+        column = header.index("region")
+        with xarray.open_dataset(self.folder / "spectrum.h5") as data:
+            for row in rows:
+                point = data.region.sel(pulse_period=float(row[0]), pga=float(row[1]))
+                self.assertEqual(point.item(), int(row[column]))
+            self.assertGreater(len(np.unique(data.region)), 2)
+            np.testing.assert_array_equal(self.values(step)["region"][0], data.region[0, 0])
+
+
+if __name__ == "__main__":
+    unittest.main()
