@@ -11,16 +11,14 @@ namespace overturn {
 
 namespace {
 
-double read_value(const Entry& entry, const AxisRule& rule)
+double read_value(const Entry& entry, const Quantity& rule)
 {
     const double value = number_of(entry);
-    if (!rule.allows(value)) {
-        refuse(entry, fmt::format(" = {} is outside {}. {}", value, rule.interval, rule.reason));
-    }
+    expect_allowed(entry, rule, value);
     return value;
 }
 
-AxisList read_list(const Entry& entry, const AxisRule& rule)
+AxisList read_list(const Entry& entry, const Quantity& rule)
 {
     const std::size_t size =
         array_size(entry, "an array of numbers, such as [0.5, 1.0]", "Give at least one value.");
@@ -107,7 +105,7 @@ void check_range(const Entry& entry, const AxisRange& range)
     }
 }
 
-AxisRange read_range(const Entry& entry, const AxisRule& rule)
+AxisRange read_range(const Entry& entry, const Quantity& rule)
 {
     constexpr std::string_view advice = "Give first, last and count, or values.";
     AxisRange range;
@@ -128,7 +126,14 @@ AxisRange read_range(const Entry& entry, const AxisRule& rule)
 
 } // namespace
 
-Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys)
+void expect_allowed(const Entry& entry, const Quantity& rule, double value)
+{
+    if (!rule.allows(value)) {
+        refuse(entry, fmt::format(" = {} is outside {}. {}", value, rule.interval, rule.reason));
+    }
+}
+
+Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
 {
     if (entry.node->is_number()) {
         return Axis(AxisList{read_value(entry, rule)});

@@ -23,8 +23,6 @@ constexpr std::array<std::string_view, 4> block_keys{"width", "height", "half_wi
 constexpr std::string_view axis_advice =
     "Give a number, { first, last, count } or { values = [...] }.";
 
-constexpr double right_angle = std::numbers::pi / 2;
-
 /// The only one of two entries; nullopt if there is neither.
 std::optional<Entry> only_one_of(const Entry& table, std::string_view one, std::string_view other)
 {
@@ -38,31 +36,6 @@ std::optional<Entry> only_one_of(const Entry& table, std::string_view one, std::
     return first ? first : second;
 }
 
-const AxisRule frequency_rule{"(0, inf)", [](double value) { return value > 0; },
-                              "The frequency of a pulse must be positive."};
-const AxisRule pulse_period_rule{"(0, inf)", [](double value) { return value > 0; },
-                                 "It is the period of the pulse in seconds."};
-const AxisRule pulse_frequency_rule{"(0, inf)", [](double value) { return value > 0; },
-                                    "It is the frequency of the pulse in Hz."};
-const AxisRule amplitude_rule{"[0, inf)", [](double value) { return value >= 0; },
-                              "It is the magnitude of the peak ground acceleration."};
-const AxisRule scale_rule{"[0, inf)", [](double value) { return value >= 0; },
-                          "It is the factor on the record."};
-const AxisRule pga_rule{"[0, inf)", [](double value) { return value >= 0; },
-                        "It is the peak ground acceleration over g."};
-const AxisRule size_rule{"(0, inf)", [](double value) { return value > 0; },
-                         "It is the half diagonal of the block in metres."};
-const AxisRule parameter_rule{"(0, inf)", [](double value) { return value > 0; },
-                              "It is p = sqrt(3g / 4R) in 1/s."};
-const AxisRule restitution_rule{"(0, 1]", [](double value) { return value > 0 && value <= 1; },
-                                "A block cannot gain energy at an impact, nor lose all of it."};
-const AxisRule restitution_share_rule{"(0, inf)", [](double value) { return value > 0; },
-                                      "It is a share of the largest restitution (Eq. 17)."};
-// Below 1e-100, squares of velocity over alpha exceed the range of a double.
-const AxisRule slenderness_rule{"[1e-100, pi/2)",
-                                [](double value) { return value >= 1e-100 && value < right_angle; },
-                                "It is arctan(width / height) in radians; a degree is 0.01745."};
-
 constexpr std::string_view block_advice = "Give width and height, or their halves, in metres.";
 
 /// Half of a side of the block [m], given whole or as the half.
@@ -71,9 +44,7 @@ double read_half(const Entry& block, std::string_view whole, std::string_view ha
     const auto entry = only_one_of(block, whole, half);
     const Entry given = entry ? *entry : require(block, whole, block_advice);
     const double length = number_of(given);
-    if (!(length > 0 && std::isfinite(length))) {
-        refuse(given, fmt::format(" = {} is outside (0, inf). It is a length in metres.", length));
-    }
+    expect_allowed(given, quantity(whole), length);
     return given.key == block.key + "." + std::string(whole) ? length / 2 : length;
 }
 
@@ -81,12 +52,12 @@ double read_half(const Entry& block, std::string_view whole, std::string_view ha
 double slenderness_of(const Entry& entry, const BlockSize& block)
 {
     const double slenderness = std::atan(block.half_width / block.half_height);
-    if (!slenderness_rule.allows(slenderness)) {
+    if (!quantity("slenderness").allows(slenderness)) {
         refuse(entry,
                fmt::format(" is {} m wide and {} m high: its slenderness {} is outside {}. Choose "
                            "a ratio closer to 1.",
                            2 * block.half_width, 2 * block.half_height, slenderness,
-                           slenderness_rule.interval));
+                           quantity("slenderness").interval));
     }
     return slenderness;
 }
@@ -146,7 +117,7 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
     }
     const bool is_scale = strength->key == "plane.scale";
     plane.amplitude_is = is_scale ? AmplitudeQuantity::scale : AmplitudeQuantity::pga;
-    plane.amplitude = read_axis(*strength, is_scale ? scale_rule : pga_rule);
+    plane.amplitude = read_axis(*strength, quantity(name_of(plane.amplitude_is)));
 
     const auto size = only_one_of(entry, "size", "frequency_parameter");
     const bool has_block = find(job, "block").has_value();
@@ -165,7 +136,7 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
         const bool is_size = size->key == "plane.size";
         plane.frequency_is =
             is_size ? FrequencyQuantity::size : FrequencyQuantity::frequency_parameter;
-        plane.frequency = read_axis(*size, is_size ? size_rule : parameter_rule);
+        plane.frequency = read_axis(*size, quantity(name_of(plane.frequency_is)));
     }
 }
 
@@ -173,7 +144,7 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
 /// belong to a block of known size.
 void read_pulse_axes(const Entry& entry, Plane& plane)
 {
-    const auto of_known_size = [&](const Entry& axis, const AxisRule& rule) {
+    const auto of_known_size = [&](const Entry& axis, const Quantity& rule) {
         if (!plane.size) {
             refuse(axis, " needs the dimensions of the block. Add [block] with width and height, "
                          "or the half diagonal plane.size, in metres.");
@@ -182,28 +153,28 @@ void read_pulse_axes(const Entry& entry, Plane& plane)
     };
     if (const auto pga = only_one_of(entry, "amplitude", "pga"); pga && pga->key == "plane.pga") {
         plane.amplitude_is = AmplitudeQuantity::pga;
-        plane.amplitude = of_known_size(*pga, pga_rule);
+        plane.amplitude = of_known_size(*pga, quantity("pga"));
     } else {
         plane.amplitude =
             read_axis(require(entry, "amplitude",
                               fmt::format("{} Or give pga [g] and [block].", axis_advice)),
-                      amplitude_rule);
+                      quantity("amplitude"));
     }
     only_one_of(entry, "frequency", "pulse_period");
     only_one_of(entry, "frequency", "pulse_frequency");
     only_one_of(entry, "pulse_period", "pulse_frequency");
     if (const auto period = find(entry, "pulse_period")) {
         plane.frequency_is = FrequencyQuantity::pulse_period;
-        plane.frequency = of_known_size(*period, pulse_period_rule);
+        plane.frequency = of_known_size(*period, quantity("pulse_period"));
     } else if (const auto hertz = find(entry, "pulse_frequency")) {
         plane.frequency_is = FrequencyQuantity::pulse_frequency;
-        plane.frequency = of_known_size(*hertz, pulse_frequency_rule);
+        plane.frequency = of_known_size(*hertz, quantity("pulse_frequency"));
     } else {
         plane.frequency = read_axis(
             require(entry, "frequency",
                     fmt::format("{} Or give pulse_period [s] or pulse_frequency [Hz], and [block].",
                                 axis_advice)),
-            frequency_rule);
+            quantity("frequency"));
     }
 }
 
@@ -218,7 +189,7 @@ std::optional<double> read_size_of_blocks(const Entry& entry, const Plane& plane
         refuse(*size, " cannot be combined with [block], which also gives the size. Remove one of "
                       "them.");
     }
-    const Axis axis = read_axis(*size, size_rule);
+    const Axis axis = read_axis(*size, quantity("size"));
     if (axis.size() > 1) {
         refuse(*size, fmt::format(" has {} values, but under a pulse all blocks have the same "
                                   "size. Give one value, and pulse_period or pulse_frequency as "
@@ -250,8 +221,9 @@ Plane read_plane(const Entry& job, std::int64_t motions)
         plane.restitution_of = choice_of<RestitutionOf>(*of, restitution_of_names);
     }
     const bool is_share = plane.restitution_of == RestitutionOf::maximum;
-    plane.restitution = read_axis(restitution, is_share ? restitution_share_rule : restitution_rule,
-                                  restitution_keys);
+    plane.restitution =
+        read_axis(restitution, quantity(is_share ? "restitution_of_maximum" : "restitution"),
+                  restitution_keys);
 
     const Entry slenderness = slenderness_entry(job, entry);
     if (slenderness.key == "block") {
@@ -263,7 +235,7 @@ Plane read_plane(const Entry& job, std::int64_t motions)
             plane.frequency = Axis(AxisList{half_diagonal(*plane.block)});
         }
     } else {
-        plane.slenderness = read_axis(slenderness, slenderness_rule);
+        plane.slenderness = read_axis(slenderness, quantity("slenderness"));
     }
     check_restitution(slenderness, restitution, plane);
     if (!is_recorded) {

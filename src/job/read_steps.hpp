@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/quantity.hpp"
 #include "toml_reading.hpp"
 
 #include <array>
@@ -36,18 +37,14 @@ void expect_known_errors(const Entry& job, const Numerics& numerics,
 /// Reads [plane] and [block]. motions: the number of records; 0: a pulse.
 Plane read_plane(const Entry& job, std::int64_t motions);
 
-/// The allowed interval of the values of an axis, within [0, infinity), and the reason for it.
-struct AxisRule {
-    std::string_view interval;
-    bool (*allows)(double);
-    std::string_view reason;
-};
+/// Throws JobError if the value is outside the interval of the quantity.
+void expect_allowed(const Entry& entry, const Quantity& rule, double value);
 
 inline constexpr std::array<std::string_view, 5> axis_keys{"values", "first", "last", "count",
                                                            "spacing"};
 
 /// Reads an axis: a number, which gives an axis of one value, or a table with these keys only,
 /// { values = [...] } or { first, last, count, spacing }.
-Axis read_axis(const Entry& entry, const AxisRule& rule, Names keys = axis_keys);
+Axis read_axis(const Entry& entry, const Quantity& rule, Names keys = axis_keys);
 
 } // namespace overturn

@@ -92,22 +92,27 @@ double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motio
                : 1;
 }
 
-double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
+double frequency_of_point(const Scene& scene, FrequencyQuantity quantity, std::int64_t motion,
+                          double value, double parameter)
 {
     const auto samples_per_unit = [&](double p) {
         return 1 / (p * scene.records[std::size_t(motion)]->time_step());
     };
-    switch (plane.frequency_is) {
+    switch (quantity) {
     case FrequencyQuantity::frequency: break;
-    case FrequencyQuantity::pulse_period:
-        return 2 * std::numbers::pi / (value * frequency_parameter(*plane.size, scene.gravity));
-    case FrequencyQuantity::pulse_frequency:
-        return 2 * std::numbers::pi * value / frequency_parameter(*plane.size, scene.gravity);
+    case FrequencyQuantity::pulse_period: return 2 * std::numbers::pi / (value * parameter);
+    case FrequencyQuantity::pulse_frequency: return 2 * std::numbers::pi * value / parameter;
     case FrequencyQuantity::size:
         return samples_per_unit(frequency_parameter(value, scene.gravity));
     case FrequencyQuantity::frequency_parameter: return samples_per_unit(value);
     }
     return value;
+}
+
+double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion, double value)
+{
+    const double parameter = plane.size ? frequency_parameter(*plane.size, scene.gravity) : 0;
+    return frequency_of_point(scene, plane.frequency_is, motion, value, parameter);
 }
 
 double uplift_threshold(Theory theory, double slenderness)

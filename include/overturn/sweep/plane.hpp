@@ -78,10 +78,6 @@ double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double sle
 double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
                       double slenderness);
 
-/// PlanePoint::frequency of a value of the frequency axis; motion: the number of the record.
-double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
-                          double value);
-
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
@@ -110,6 +106,15 @@ constexpr std::string_view name_of(FrequencyQuantity quantity)
 {
     return frequency_names[std::size_t(quantity)];
 }
+
+/// PlanePoint::frequency of a value of this quantity. motion: the number of the record; parameter:
+/// p [1/s] of the block, for the period or the frequency of a pulse in Hz.
+double frequency_of_point(const Scene& scene, FrequencyQuantity quantity, std::int64_t motion,
+                          double value, double parameter);
+
+/// The same for a value of the frequency axis.
+double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
+                          double value);
 
 /// A point of a plane; its coordinates are assumed to be exact.
 struct PlanePoint {

@@ -1,0 +1,23 @@
+// The quantities that describe a block and its ground motion: names, units and allowed values.
+#pragma once
+
+#include <string_view>
+
+namespace overturn {
+
+/// A quantity as it is named in job files, lists and result files.
+struct Quantity {
+    std::string_view name;
+    std::string_view units;    ///< as in result files; "1" if dimensionless
+    std::string_view interval; ///< of the allowed values
+    bool (*allows)(double);
+    std::string_view reason; ///< for the interval
+};
+
+/// The quantity of this name, or nullptr.
+const Quantity* find_quantity(std::string_view name);
+
+/// The same for a name that is known to exist.
+const Quantity& quantity(std::string_view name);
+
+} // namespace overturn
