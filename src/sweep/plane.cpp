@@ -1,6 +1,7 @@
 #include "overturn/sweep/plane.hpp"
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/sweep/tile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +56,7 @@ std::vector<double> Axis::values(std::int64_t begin, std::int64_t end) const
 
 std::int64_t Plane::points() const
 {
-    return std::max<std::int64_t>(1, motions) * frequency.size() * amplitude.size() *
-           restitution.size() * slenderness.size();
+    return count_points(shape_of(*this));
 }
 
 double Plane::restitution_ratio(std::int64_t slenderness_index,

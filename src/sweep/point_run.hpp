@@ -27,10 +27,10 @@ struct Ends {
     std::vector<double> margin, impacts, error, steps, phase, peak;
 };
 
-/// The points of a tile, row by row, frequency fastest.
+/// The points of a tile, the last dimension fastest.
 std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile);
 
-/// The number of the record of a tile; 0 under a pulse.
+/// The number of the record of a tile; 0 under a pulse. Not for blocks with motions of their own.
 std::int64_t motion_of(const Scene& scene, const Tile& tile);
 
 /// The pushes of a pulse in the order of the points; successive points with the same push share it.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <type_traits>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -65,17 +67,12 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends, boo
     }
 }
 
-} // namespace
-
-TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
-                      DropRequested drop_requested)
+TileFields fields_of(const PointRun& points, const Numerics& numerics,
+                     const std::vector<Field>& fields, bool recorded)
 {
     const auto wanted = [&](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const PointRun points(scene, points_of(scene, plane, tile), kernel, std::move(drop_requested),
-                          motion_of(scene, tile));
     Ends ends =
         ends_of(points, numerics,
                 {.impacts = wanted(Field::impacts),
@@ -87,7 +84,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
                  .phase = wanted(Field::fall_time)});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, ends, scene.is_recorded()));
+        result.values.push_back(values_of(field, points, ends, recorded));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
         if (fields[i] == Field::region) {
@@ -96,6 +93,54 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
             result.values[i] = std::move(ends.margin);
         } else if (fields[i] == Field::error) {
             result.values[i] = std::move(ends.error);
+        }
+    }
+    return result;
+}
+
+/// Copies the values of some points of a tile to their places in it.
+void place(const FieldValues& from, const std::vector<std::size_t>& places, FieldValues& to)
+{
+    std::visit(
+        [&](const auto& values) {
+            auto& all = std::get<std::decay_t<decltype(values)>>(to);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                all[places[i]] = values[i];
+            }
+        },
+        from);
+}
+
+} // namespace
+
+TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
+                      const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
+                      DropRequested drop_requested)
+{
+    std::vector<PlanePoint> points = points_of(scene, plane, tile);
+    const bool recorded = scene.is_recorded();
+    if (!(recorded && plane.list && plane.list->has_own_motions())) {
+        const PointRun run(scene, std::move(points), kernel, std::move(drop_requested),
+                           motion_of(scene, tile));
+        return fields_of(run, numerics, fields, recorded);
+    }
+    std::map<std::int64_t, std::vector<std::size_t>> places; // in the tile, by motion
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        places[plane.list->motion[std::size_t(tile.begin[0]) + i]].push_back(i);
+    }
+    TileFields result;
+    for (const Field field : fields) {
+        result.values.push_back(make_field_values(field, points.size()));
+    }
+    for (const auto& [motion, places_of_motion] : places) {
+        std::vector<PlanePoint> chosen;
+        for (const std::size_t i : places_of_motion) {
+            chosen.push_back(points[i]);
+        }
+        const PointRun run(scene, std::move(chosen), kernel, drop_requested, motion);
+        const TileFields part = fields_of(run, numerics, fields, recorded);
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            place(part.values[i], places_of_motion, result.values[i]);
         }
     }
     return result;

@@ -23,8 +23,18 @@ std::int64_t count_points(const Shape& shape)
 
 Shape shape_of(const Plane& plane)
 {
-    Shape shape{plane.slenderness.size(), plane.restitution.size(), plane.amplitude.size(),
-                plane.frequency.size()};
+    if (plane.list && plane.list->has_own_motions()) {
+        return {plane.list->size()};
+    }
+    Shape shape;
+    if (plane.list) {
+        shape = {plane.list->size(), plane.amplitude.size()};
+    } else {
+        shape = {plane.slenderness.size(), plane.restitution.size(), plane.amplitude.size()};
+    }
+    if (!plane.list || plane.motions == 0) { // a list under records has no axis of sizes
+        shape.push_back(plane.frequency.size());
+    }
     if (plane.motions > 0) {
         shape.insert(shape.begin(), plane.motions);
     }
@@ -44,12 +54,33 @@ Tiling::Tiling(Shape shape, const Shape& tile)
     }
 }
 
+namespace {
+
 // 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
 // compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks. Under a
 // record, 16 x 16 points take as long.
-Tiling::Tiling(const Plane& plane)
-    : Tiling(shape_of(plane), plane.motions > 0 ? Shape{16, 16} : Shape{64, 64})
-{}
+Shape tile_of(const Plane& plane)
+{
+    const std::int64_t side = plane.motions > 0 ? 16 : 64;
+    if (!plane.list) {
+        return {side, side};
+    }
+    // As many points of a list, in whatever shape: as many blocks as the other dimensions leave.
+    Shape tile = shape_of(plane);
+    if (plane.motions > 0 && !plane.list->has_own_motions()) {
+        tile.erase(tile.begin());
+    }
+    std::int64_t left = side * side;
+    for (std::size_t i = tile.size(); i-- > 0;) {
+        tile[i] = std::min(tile[i], left);
+        left /= tile[i];
+    }
+    return tile;
+}
+
+} // namespace
+
+Tiling::Tiling(const Plane& plane) : Tiling(shape_of(plane), tile_of(plane)) {}
 
 Tile Tiling::operator[](std::int64_t number) const
 {

@@ -1,4 +1,4 @@
-// The parameter plane: four axes, whose product is the set of points of a spectrum.
+// The points of a spectrum: the product of up to four axes, of which a list may replace some.
 #pragma once
 
 #include "overturn/sweep/scene.hpp"
@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -67,17 +68,6 @@ double half_diagonal(const BlockSize& block);
 /// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
 double frequency_parameter(double half_diagonal, double gravity);
 
-struct Plane;
-
-/// The peak ground acceleration over g at PlanePoint::amplitude = 1: that of the record, or the
-/// least one under a pulse that lifts a block of this slenderness [rad]. motion: the number of the
-/// record.
-double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double slenderness);
-
-/// The value of the amplitude axis at PlanePoint::amplitude = 1.
-double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
-                      double slenderness);
-
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
@@ -107,21 +97,26 @@ constexpr std::string_view name_of(FrequencyQuantity quantity)
     return frequency_names[std::size_t(quantity)];
 }
 
-/// PlanePoint::frequency of a value of this quantity. motion: the number of the record; parameter:
-/// p [1/s] of the block, for the period or the frequency of a pulse in Hz.
-double frequency_of_point(const Scene& scene, FrequencyQuantity quantity, std::int64_t motion,
-                          double value, double parameter);
-
-/// The same for a value of the frequency axis.
-double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
-                          double value);
-
-/// A point of a plane; its coordinates are assumed to be exact.
+/// A point of a spectrum; its coordinates are assumed to be exact.
 struct PlanePoint {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]
     double amplitude;   ///< a, or the factor on a record [1]
     double frequency;   ///< Omega, or the samples of a record per time unit 1/p [1]
+};
+
+/// The blocks of a list, which replace the axes slenderness, restitution and, under a record,
+/// frequency. With motions of their own, they replace all axes. Arrays of one value per block.
+struct BlockList {
+    std::vector<double> slenderness;         ///< alpha [rad]
+    std::vector<double> restitution;         ///< r [1]
+    std::vector<double> frequency_parameter; ///< p [1/s]; empty: unknown
+    std::vector<double> amplitude;           ///< PlanePoint::amplitude; empty: no own motions
+    std::vector<double> frequency;           ///< PlanePoint::frequency; empty: no own motions
+    std::vector<std::int64_t> motion;        ///< number of its record; empty: none, or no own ones
+
+    std::int64_t size() const { return std::int64_t(slenderness.size()); }
+    bool has_own_motions() const { return !amplitude.empty(); }
 };
 
 struct Plane {
@@ -138,6 +133,7 @@ struct Plane {
         0; ///< number of records, the slowest dimension; 0: a pulse, no dimension
     std::optional<BlockSize> block; ///< set if the slenderness was computed from it
     std::optional<double> size;     ///< R [m] of all blocks under a pulse, if the job gives it
+    std::shared_ptr<const BlockList> list; ///< replaces axes; null: a plane
 
     /// Number of points; checked for overflow when the job is read.
     std::int64_t points() const;
@@ -145,5 +141,23 @@ struct Plane {
     /// The energy ratio r at an impact, for the given indices of the two axes [1].
     double restitution_ratio(std::int64_t slenderness_index, std::int64_t restitution_index) const;
 };
+
+/// The peak ground acceleration over g at PlanePoint::amplitude = 1: that of the record, or the
+/// least one under a pulse that lifts a block of this slenderness [rad]. motion: the number of the
+/// record.
+double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double slenderness);
+
+/// The value of the amplitude axis at PlanePoint::amplitude = 1.
+double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
+                      double slenderness);
+
+/// PlanePoint::frequency of a value of this quantity. motion: the number of the record; parameter:
+/// p [1/s] of the block, for the period or the frequency of a pulse in Hz.
+double frequency_of_point(const Scene& scene, FrequencyQuantity quantity, std::int64_t motion,
+                          double value, double parameter);
+
+/// The same for a value of the frequency axis.
+double frequency_of_point(const Scene& scene, const Plane& plane, std::int64_t motion,
+                          double value);
 
 } // namespace overturn

@@ -13,7 +13,9 @@ namespace overturn {
 /// Number of points, or an index, along each dimension, slowest first.
 using Shape = std::vector<std::int64_t>;
 
-/// ([motion,] slenderness, restitution, amplitude, frequency); motion only if there are records.
+/// ([motion,] slenderness, restitution, amplitude, frequency); motion only if there are records. Of
+/// a list: (block, amplitude, frequency), under records (motion, block, amplitude); (block) if the
+/// blocks have motions of their own.
 Shape shape_of(const Plane& plane);
 
 /// The number of points of a shape.
