@@ -1,0 +1,44 @@
+// Reads tables of comma-separated values (RFC 4180).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// An error in a table. The message names the file and the line, as FILE:LINE or FILE:LINE:COLUMN
+/// (both counted from 1), what was found, what is allowed and what to do.
+class TableError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A column holds numbers if each of its values is one, or empty, which is read as NaN.
+struct TableColumn {
+    std::string name;
+    std::vector<double> numbers;    ///< empty if the column holds text
+    std::vector<std::string> texts; ///< empty if the column holds numbers
+    std::int64_t first_text = -1;   ///< the first row whose value is not a number; -1: none
+};
+
+struct Table {
+    std::vector<TableColumn> columns; ///< at least one, whose names differ
+    std::vector<std::int64_t> lines;  ///< of each row in the file, counted from 1; at least one
+
+    std::int64_t rows() const { return std::int64_t(lines.size()); }
+
+    /// The column of this name, or nullptr.
+    const TableColumn* find(std::string_view name) const;
+};
+
+inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [bytes]
+
+/// Reads the text of a file; `name` replaces the path in messages. The first line names the
+/// columns. Lines end with LF or CR LF; empty ones at the end are skipped. Throws TableError.
+Table read_table(std::string_view text, const std::string& name);
+
+} // namespace overturn
