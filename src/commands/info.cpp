@@ -31,6 +31,16 @@ void print_origin(const std::string& path, const FileOrigin& origin)
                                                origin.program_commit)));
 }
 
+/// The shape of a tile without dimensions before the last two of which it has one index.
+std::string tile_text(const Shape& shape)
+{
+    auto begin = shape.begin();
+    while (shape.end() - begin > 2 && *begin == 1) {
+        ++begin;
+    }
+    return fmt::format("{}", fmt::join(begin, shape.end(), " x "));
+}
+
 /// Of a spectrum or a boundary.
 void print_plane_and_tiles(const std::string& path)
 {
@@ -50,8 +60,7 @@ void print_plane_and_tiles(const std::string& path)
     const bool is_boundary = summary.product == Product::boundary;
     print_row("tiles",
               fmt::format("{} of {} done, {} {} each", summary.tiles_done, summary.tiles,
-                          fmt::join(summary.tile_shape.end() - 2, summary.tile_shape.end(), " x "),
-                          is_boundary ? "flips" : "points"));
+                          tile_text(summary.tile_shape), is_boundary ? "flips" : "points"));
     if (const std::string lines = is_boundary ? lines_text(count_lines(path)) : "";
         !lines.empty()) {
         print_row("lines", lines);

@@ -75,7 +75,22 @@ Job read_job_of(const RunOptions& options)
     return options.boundary ? boundary_of(std::move(job)) : job;
 }
 
-/// The job that rank 0 has read, with its records, on all ranks: only rank 0 reads files.
+/// The blocks of rank 0 on all ranks.
+BlockList blocks_of_rank_0(const MpiSession& session, BlockList list)
+{
+    for (const auto values :
+         {&BlockList::slenderness, &BlockList::restitution, &BlockList::frequency_parameter,
+          &BlockList::amplitude, &BlockList::frequency}) {
+        list.*values = session.from_rank_0(std::move(list.*values));
+    }
+    const std::vector<double> motion =
+        session.from_rank_0(std::vector<double>(list.motion.begin(), list.motion.end()));
+    list.motion.assign(motion.begin(), motion.end());
+    return list;
+}
+
+/// The job that rank 0 has read, with its records and blocks, on all ranks: only rank 0 reads
+/// files.
 Job job_of_rank_0(const MpiSession& session, std::optional<Job> read, const RunOptions& options)
 {
     const std::string resolved = session.from_rank_0(read ? read->resolved : "");
@@ -97,6 +112,10 @@ Job job_of_rank_0(const MpiSession& session, std::optional<Job> read, const RunO
                 std::move(horizontal), std::move(upwards), motion.time_step);
             read->scene.records[i] = motion.record;
         }
+    }
+    if (read->plane.list) {
+        read->plane.list =
+            std::make_shared<BlockList>(blocks_of_rank_0(session, *read->plane.list));
     }
     return *std::move(read);
 }

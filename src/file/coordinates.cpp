@@ -2,6 +2,8 @@
 
 #include "layout.hpp"
 
+#include "overturn/sweep/quantity.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -150,7 +152,8 @@ void add_measures(const Job& job, std::vector<Coordinate>& all)
         }
         all.push_back({{name, {"motion"}, {values.size()}, values, long_name, units}, exact});
     };
-    const bool is_pga = job.plane.amplitude_is == AmplitudeQuantity::pga;
+    const bool is_pga = job.plane.amplitude_is == AmplitudeQuantity::pga ||
+                        (job.blocks && std::ranges::count(job.blocks->columns, "pga") > 0);
     add(is_pga ? "record_pga" : "pga", "peak ground acceleration of the record, over g", "1",
         &IntensityMeasures::pga);
     add("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
@@ -160,11 +163,108 @@ void add_measures(const Job& job, std::vector<Coordinate>& all)
         &IntensityMeasures::significant_duration);
 }
 
+/// 1 to count.
+Axis numbers_to(std::int64_t count)
+{
+    return Axis(AxisRange{1, double(count), count});
+}
+
+Dimension motion_dimension(const Plane& plane)
+{
+    return {"motion", numbers_to(plane.motions), "number of the ground motion in the job", "1"};
+}
+
+Dimension amplitude_dimension(const Job& job)
+{
+    const AmplitudeQuantity quantity = job.plane.amplitude_is;
+    return {std::string(name_of(quantity)), job.plane.amplitude,
+            quantity == AmplitudeQuantity::scale ? "factor on the record"
+            : quantity == AmplitudeQuantity::pga ? long_name_of_pga
+                                                 : long_name_of_amplitude(job),
+            "1"};
+}
+
+Dimension frequency_dimension(const Plane& plane)
+{
+    const auto dimension = [&](const char* long_name, const char* units) {
+        return Dimension{std::string(name_of(plane.frequency_is)), plane.frequency, long_name,
+                         units};
+    };
+    switch (plane.frequency_is) {
+    case FrequencyQuantity::pulse_period: return dimension("period of the pulse", "s");
+    case FrequencyQuantity::pulse_frequency: return dimension("frequency of the pulse", "s-1");
+    case FrequencyQuantity::size: return dimension("half diagonal R of the block", "m");
+    case FrequencyQuantity::frequency_parameter: return dimension("p = sqrt(3g / 4R)", "s-1");
+    case FrequencyQuantity::frequency: break;
+    }
+    return dimension(long_name_of_frequency, "1");
+}
+
+std::vector<Dimension> dimensions_of_list(const Job& job)
+{
+    const Plane& plane = job.plane;
+    const bool has_own_motions = plane.list->has_own_motions();
+    std::vector<Dimension> dimensions;
+    if (plane.motions > 0 && !has_own_motions) {
+        dimensions.push_back(motion_dimension(plane));
+    }
+    dimensions.push_back(
+        {"block", numbers_to(plane.list->size()), "number of the block in the table", "1"});
+    if (!has_own_motions) {
+        dimensions.push_back(amplitude_dimension(job));
+        if (plane.motions == 0) {
+            dimensions.push_back(frequency_dimension(plane));
+        }
+    }
+    return dimensions;
+}
+
+/// What the table and its rows say of every block; nothing for a job in a result file.
+void add_blocks(const Job& job, std::vector<Coordinate>& all)
+{
+    const auto add = [&](const std::string& name, const std::vector<double>& values,
+                         const std::string& long_name, std::string_view units, double roundings) {
+        all.push_back(
+            {{name, {"block"}, {values.size()}, values, long_name, std::string(units)}, roundings});
+    };
+    if (!job.blocks->table) {
+        return;
+    }
+    const bool is_recorded = job.scene.is_recorded();
+    for (const TableColumn& column : job.blocks->table->columns) {
+        if (!column.numbers.empty()) {
+            const Quantity* quantity = find_quantity(column.name);
+            add(column.name, column.numbers, "column of the table",
+                quantity == nullptr ? "1" : quantity->units, exact);
+        }
+    }
+    const auto add_derived = [&](const char* name, const std::vector<double>& values,
+                                 const std::string& long_name) {
+        if (!values.empty() && job.blocks->table->find(name) == nullptr) {
+            const Quantity* quantity = find_quantity(name);
+            add(name, values, long_name, quantity == nullptr ? "1" : quantity->units, of_several);
+        }
+    };
+    const BlockList& list = *job.plane.list;
+    add_derived("slenderness", list.slenderness, "slenderness of the block, arctan(b/h)");
+    add_derived("restitution_ratio", list.restitution, "energy ratio at an impact, r");
+    add_derived("frequency_parameter", list.frequency_parameter,
+                fmt::format("p = sqrt(3g / 4R), with g = {} m/s2", job.scene.gravity));
+    add_derived(is_recorded ? "scale" : "amplitude", list.amplitude,
+                is_recorded ? "factor on the record" : long_name_of_amplitude(job));
+    if (!is_recorded) {
+        add_derived("frequency", list.frequency, long_name_of_frequency);
+    }
+}
+
 } // namespace
 
 std::vector<Dimension> dimensions_of(const Job& job)
 {
     const Plane& plane = job.plane;
+    if (plane.list) {
+        return dimensions_of_list(job);
+    }
     std::vector<Dimension> dimensions{
         {"slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
         {"restitution", plane.restitution,
@@ -173,32 +273,15 @@ std::vector<Dimension> dimensions_of(const Job& job)
              : "energy ratio at an impact",
          "1"}};
     if (plane.motions > 0) {
-        const Axis numbers(AxisRange{1, double(plane.motions), plane.motions});
-        dimensions.insert(dimensions.begin(),
-                          {"motion", numbers, "number of the ground motion in the job", "1"});
+        dimensions.insert(dimensions.begin(), motion_dimension(plane));
     }
     if (job.product == Product::boundary) {
         dimensions.push_back({"crossing", plane.amplitude,
                               "number of the flip along the amplitude, counted from 0", "1"});
     } else {
-        dimensions.push_back(
-            {std::string(name_of(plane.amplitude_is)), plane.amplitude,
-             plane.amplitude_is == AmplitudeQuantity::scale ? "factor on the record"
-             : plane.amplitude_is == AmplitudeQuantity::pga ? long_name_of_pga
-                                                            : long_name_of_amplitude(job),
-             "1"});
+        dimensions.push_back(amplitude_dimension(job));
     }
-    const auto column = [&](const char* long_name, const char* units) {
-        dimensions.push_back(
-            {std::string(name_of(plane.frequency_is)), plane.frequency, long_name, units});
-    };
-    switch (plane.frequency_is) {
-    case FrequencyQuantity::pulse_period: column("period of the pulse", "s"); break;
-    case FrequencyQuantity::pulse_frequency: column("frequency of the pulse", "s-1"); break;
-    case FrequencyQuantity::size: column("half diagonal R of the block", "m"); break;
-    case FrequencyQuantity::frequency_parameter: column("p = sqrt(3g / 4R)", "s-1"); break;
-    case FrequencyQuantity::frequency: column(long_name_of_frequency, "1");
-    }
+    dimensions.push_back(frequency_dimension(plane));
     return dimensions;
 }
 
@@ -227,6 +310,18 @@ std::vector<Coordinate> coordinates_of(const Job& job)
                            fmt::format("values of {} that were computed first to find the flips",
                                        name_of(plane.amplitude_is)),
                            "1"}));
+    }
+    if (plane.list) {
+        add_blocks(job, all);
+        if (plane.motions > 0) {
+            if (plane.list->has_own_motions()) {
+                all.push_back(coordinate_of(motion_dimension(plane)));
+            } else {
+                all.push_back(other_strength(job));
+            }
+            add_measures(job, all);
+        }
+        return all;
     }
     all.push_back(restitution_ratio(plane));
     if (plane.motions > 0) {

@@ -72,7 +72,7 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
         }
     }
     write_attribute(file, "theory", name_of(job.scene.theory));
-    if (job.scene.is_recorded() || job.plane.size) {
+    if (job.scene.is_recorded() || job.blocks || job.plane.size) {
         write_attribute(file, "gravity", job.scene.gravity);
     }
     if (job.plane.size) {

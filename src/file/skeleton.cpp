@@ -145,14 +145,39 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
         }
         add_names(file, "motion_name", "motion", names, "file of the recorded ground motion");
     }
-    write_attribute(hdf5::open_dataset(file, "restitution"), "of",
-                    name_of(job.plane.restitution_of));
+    if (job.blocks) {
+        for (const TableColumn& column : job.blocks->table->columns) {
+            if (!column.texts.empty()) {
+                add_names(file, column.name, "block", column.texts, "column of the table");
+            }
+        }
+    } else {
+        write_attribute(hdf5::open_dataset(file, "restitution"), "of",
+                        name_of(job.plane.restitution_of));
+    }
     add_bare_dimension(file, layout::tile, tiling.size());
     for (const Field field : job.fields) {
         fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates)), field, tiling,
              path, between_tiles);
     }
     add_checksums(file, job, tiling);
+}
+
+/// The columns of the table, and at most six derived from them. A variable without its values takes
+/// 600 bytes, with one more for each dimension.
+long double bytes_of_blocks(const BlockTable& blocks, const BlockList& list)
+{
+    using Count = long double;
+    const auto rows = Count(list.size());
+    Count bytes = 6 * (1200 + rows * sizeof(double));
+    for (const TableColumn& column : blocks.table->columns) {
+        std::size_t longest = sizeof(double);
+        for (const std::string& text : column.texts) {
+            longest = std::max(longest, text.size());
+        }
+        bytes += 1800 + rows * Count(longest);
+    }
+    return bytes;
 }
 
 } // namespace
@@ -167,7 +192,10 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     const auto tiles = Count(tiling.size());
     // Tiles at the far edges occupy whole chunks.
     const Count points = tiles * Count(tiling.points_of_tile());
-    Count numbers = Count(plane.slenderness.size() * plane.restitution.size()) + tiles;
+    Count numbers = tiles;
+    if (!plane.list) {
+        numbers += Count(plane.slenderness.size() * plane.restitution.size());
+    }
     for (const std::int64_t size : tiling.shape()) {
         numbers += Count(size);
     }
@@ -188,6 +216,9 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
         bytes += 2400 + (Count(plane.frequency.size()) +
                          Count(plane.slenderness.size() * plane.amplitude.size())) *
                             sizeof(double);
+    }
+    if (job.blocks) {
+        bytes += bytes_of_blocks(*job.blocks, *plane.list);
     }
     if (job.product == Product::boundary) {
         bytes += 1200 + Count(job.scan.size()) * sizeof(double);

@@ -174,7 +174,7 @@ std::vector<std::string> read_dimensions(const StoredSpectrum& spectrum)
         names = {"slenderness", "restitution",
                  spectrum.product == Product::boundary ? "crossing" : "amplitude", "frequency"};
     }
-    demand(names.size() >= 2 && names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
+    demand(!names.empty() && names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
     return names;
 }
 
@@ -261,7 +261,35 @@ std::string stored_name_of(const std::string& coordinate, hid_t file)
 }
 
 /// Throws Hdf5Error, which foreign_coordinates() converts.
-std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, const Job& job)
+/// The table of a list, from the variables along its blocks.
+Table read_stored_table(const StoredSpectrum& stored, const Job& job)
+{
+    Table table;
+    const auto rows = hsize_t(job.plane.list->size());
+    for (const std::string& name : job.blocks->columns) {
+        const Handle dataset = open_own_dataset(stored.file, name);
+        const std::vector<hsize_t> shape = shape_of(dataset);
+        TableColumn column{name, {}, {}};
+        if (has_type(dataset, H5T_IEEE_F64LE) && shape == std::vector{rows}) {
+            column.numbers.resize(rows);
+            check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                          column.numbers.data()));
+        } else {
+            demand(has_type(dataset, H5T_C_S1) && shape.size() == 2 && shape[0] == rows &&
+                       shape[1] <= stored.bytes / rows,
+                   "a column of the table is malformed");
+            std::string letters(rows * shape[1], '\0');
+            check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()));
+            for (hsize_t row = 0; row < rows; ++row) {
+                column.texts.emplace_back(letters.substr(row * shape[1], shape[1]).c_str());
+            }
+        }
+        table.columns.push_back(std::move(column));
+    }
+    return table;
+}
+
+std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, Job job)
 {
     const auto has_shape = [&](const std::string& name, const std::vector<hsize_t>& shape) {
         const Handle dataset = open_own_dataset(stored.file, name);
@@ -281,6 +309,13 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     if (!foreign.empty()) {
         return foreign;
     }
+    if (job.blocks && !job.blocks->table) {
+        Table table = read_stored_table(stored, job);
+        if (checksum_of(table) != job.blocks->checksum) {
+            return {"the columns of the table"};
+        }
+        restore_blocks(job, std::move(table));
+    }
     for (Coordinate coordinate : coordinates_of(job)) {
         coordinate.name = stored_name_of(coordinate.name, stored.file);
         std::vector<double> values(coordinate.values.size());
@@ -291,7 +326,8 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
         }
         const double tolerance = coordinate.roundings * std::numeric_limits<double>::epsilon();
         const auto is_as_good_as = [=](double value, double computed) {
-            return std::abs(value - computed) <= tolerance * std::abs(computed);
+            return std::abs(value - computed) <= tolerance * std::abs(computed) ||
+                   (std::isnan(value) && std::isnan(computed));
         };
         if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {
             foreign.push_back(coordinate.name);

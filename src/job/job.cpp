@@ -1,5 +1,6 @@
 #include "overturn/job/job.hpp"
 
+#include "overturn/record/text_file.hpp"
 #include "overturn/sweep/boundary.hpp"
 
 #include "deep_key.hpp"
@@ -20,41 +21,12 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> job_keys{"title", "scene",    "plane",
-                                                   "block", "numerics", "output"};
+constexpr std::array<std::string_view, 7> job_keys{"title",  "scene",    "plane", "block",
+                                                   "blocks", "numerics", "output"};
 
 // Sufficient for lists of millions of values; a file that is not a job cannot fill the memory.
-constexpr std::size_t largest_file = std::size_t(64) << 20;
-
-[[noreturn]] void refuse_file(const std::string& path, int error)
-{
-    throw JobError(fmt::format("{}: cannot be read: {}. Give the path of a job file.", path,
-                               std::generic_category().message(error)));
-}
-
-std::string file_text(const std::string& path)
-{
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                               &std::fclose);
-    if (!file) {
-        refuse_file(path, errno);
-    }
-    std::string text;
-    std::array<char, 1 << 16> block;
-    while (const std::size_t size = std::fread(block.data(), 1, block.size(), file.get())) {
-        text.append(block.data(), size);
-        if (text.size() > largest_file) {
-            throw JobError(
-                fmt::format("{}: is larger than {} MiB, the maximum size of a job file. Give long "
-                            "axes as first, last and count.",
-                            path, largest_file >> 20));
-        }
-    }
-    if (std::ferror(file.get()) != 0) {
-        refuse_file(path, errno);
-    }
-    return text;
-}
+constexpr TextFileKind job_file{"a job file", std::size_t(64) << 20, "Give the path of a job file.",
+                                "Give long axes as first, last and count."};
 
 toml::table parse(const std::string& text, const std::string& path)
 {
@@ -112,7 +84,7 @@ JobSize size_of(const Job& job)
 
 Job read_job(const std::string& path, const std::vector<std::string>& overrides)
 {
-    return read_job_text(file_text(path), path, overrides);
+    return read_job_text(text_of_file<JobError>(path, job_file), path, overrides);
 }
 
 namespace {
@@ -156,7 +128,12 @@ Job read_any_job(std::string text, const std::string& name,
     job.numerics = read_numerics(entry, job.scene.is_recorded());
     job.fields = read_fields(entry);
     expect_known_errors(entry, job.numerics, job.fields);
-    job.plane = read_plane(entry, std::int64_t(job.motions.size()));
+    job.plane.motions = std::int64_t(job.motions.size());
+    if (const auto blocks = find(entry, "blocks")) {
+        const std::string folder = std::filesystem::path(name).parent_path().string();
+        job.blocks = read_blocks(*blocks, folder, job, kind);
+    }
+    read_plane(entry, job.plane);
     expect_gravity(entry, job);
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         refuse(*find(entry, "plane"),

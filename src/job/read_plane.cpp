@@ -15,6 +15,9 @@ constexpr std::array<std::string_view, 8> pulse_plane_keys{
     "pga",       "restitution",  "slenderness",     "size"};
 constexpr std::array<std::string_view, 6> record_plane_keys{
     "scale", "pga", "size", "frequency_parameter", "restitution", "slenderness"};
+constexpr std::array<std::string_view, 5> list_keys_under_pulses{
+    "frequency", "pulse_period", "pulse_frequency", "amplitude", "pga"};
+constexpr std::array<std::string_view, 2> list_keys_under_records{"scale", "pga"};
 constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   "last",
                                                            "count",  "spacing", "of"};
 constexpr std::array<std::string_view, 4> block_keys{"width", "height", "half_width",
@@ -108,8 +111,8 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
     }
 }
 
-/// The strength and the size under a record.
-void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
+/// The strength under a record.
+void read_strength(const Entry& entry, Plane& plane)
 {
     const auto strength = only_one_of(entry, "scale", "pga");
     if (!strength) {
@@ -118,7 +121,12 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
     const bool is_scale = strength->key == "plane.scale";
     plane.amplitude_is = is_scale ? AmplitudeQuantity::scale : AmplitudeQuantity::pga;
     plane.amplitude = read_axis(*strength, quantity(name_of(plane.amplitude_is)));
+}
 
+/// The strength and the size under a record.
+void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
+{
+    read_strength(entry, plane);
     const auto size = only_one_of(entry, "size", "frequency_parameter");
     const bool has_block = find(job, "block").has_value();
     if (size && has_block) {
@@ -145,9 +153,11 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
 void read_pulse_axes(const Entry& entry, Plane& plane)
 {
     const auto of_known_size = [&](const Entry& axis, const Quantity& rule) {
-        if (!plane.size) {
-            refuse(axis, " needs the dimensions of the block. Add [block] with width and height, "
-                         "or the half diagonal plane.size, in metres.");
+        if (plane.list ? plane.list->frequency_parameter.empty() : !plane.size) {
+            refuse(axis, plane.list ? " needs the dimensions of the blocks. Add the columns width "
+                                      "and height, or size, in metres, to the table."
+                                    : " needs the dimensions of the block. Add [block] with width "
+                                      "and height, or the half diagonal plane.size, in metres.");
         }
         return read_axis(axis, rule);
     };
@@ -199,18 +209,54 @@ std::optional<double> read_size_of_blocks(const Entry& entry, const Plane& plane
     return axis.first();
 }
 
+/// The axes that a list of blocks leaves.
+void read_axes_of_list(const Entry& job, Plane& plane)
+{
+    if (const auto block = find(job, "block")) {
+        refuse(*block, " cannot be combined with [blocks], which lists all blocks. Remove one of "
+                       "them.");
+    }
+    const bool is_recorded = plane.motions > 0;
+    if (plane.list->has_own_motions()) {
+        if (const auto entry = find(job, "plane")) {
+            refuse(*entry, " cannot be combined with a table whose rows have motions of their own. "
+                           "Remove [plane], or the columns of the motions.");
+        }
+        return;
+    }
+    const Entry entry = require(job, "plane",
+                                is_recorded ? "Add [plane] with scale or pga."
+                                            : "Add [plane] with pga or amplitude, and pulse_period "
+                                              "or frequency; or add them to the table as columns.");
+    for (const std::string_view axis :
+         {"restitution", "slenderness", "size", "frequency_parameter"}) {
+        if (const auto found = find(entry, axis)) {
+            refuse(*found, " cannot be combined with [blocks], whose table gives it. Remove it.");
+        }
+    }
+    expect_table(entry,
+                 is_recorded ? Names(list_keys_under_records) : Names(list_keys_under_pulses));
+    if (is_recorded) {
+        read_strength(entry, plane);
+    } else {
+        read_pulse_axes(entry, plane);
+    }
+}
+
 } // namespace
 
-Plane read_plane(const Entry& job, std::int64_t motions)
+void read_plane(const Entry& job, Plane& plane)
 {
-    const bool is_recorded = motions > 0;
+    const bool is_recorded = plane.motions > 0;
+    if (plane.list) {
+        read_axes_of_list(job, plane);
+        return;
+    }
     const Entry entry = require(
         job, "plane",
         is_recorded ? "Add [plane] with scale, size, restitution and slenderness."
                     : "Add [plane] with frequency, amplitude, restitution and slenderness.");
     expect_table(entry, is_recorded ? Names(record_plane_keys) : Names(pulse_plane_keys));
-    Plane plane;
-    plane.motions = motions;
     if (is_recorded) {
         read_record_axes(job, entry, plane);
     }
@@ -242,7 +288,6 @@ Plane read_plane(const Entry& job, std::int64_t motions)
         plane.size = read_size_of_blocks(entry, plane);
         read_pulse_axes(entry, plane);
     }
-    return plane;
 }
 
 } // namespace overturn

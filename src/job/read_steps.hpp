@@ -34,8 +34,12 @@ std::vector<Field> read_fields(const Entry& job);
 void expect_known_errors(const Entry& job, const Numerics& numerics,
                          const std::vector<Field>& fields);
 
-/// Reads [plane] and [block]. motions: the number of records; 0: a pulse.
-Plane read_plane(const Entry& job, std::int64_t motions);
+/// Reads [blocks] and the table that it names. folder: of the job file. Sets plane.list; the scene,
+/// the motions and plane.motions of the job must have been read.
+BlockTable read_blocks(const Entry& blocks, const std::string& folder, Job& job, JobText kind);
+
+/// Reads [plane] and [block]. plane: motions and list must be set.
+void read_plane(const Entry& job, Plane& plane);
 
 /// Throws JobError if the value is outside the interval of the quantity.
 void expect_allowed(const Entry& entry, const Quantity& rule, double value);

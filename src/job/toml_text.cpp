@@ -63,13 +63,36 @@ std::string scene_text(const Job& job)
         text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
     }
     text += fmt::format("theory = \"{}\"\n", name_of(scene.theory));
-    if (scene.is_recorded() || job.plane.size || scene.gravity != Scene().gravity) {
+    if (scene.is_recorded() || job.blocks || job.plane.size || scene.gravity != Scene().gravity) {
         text += fmt::format("gravity = {}\n", float_text(scene.gravity));
     }
     for (const auto& [name, number] : shape_numbers) {
         if (!scene.is_recorded() && has_number(scene.pulse, number)) {
             text += fmt::format("{} = {}\n", name, float_text(scene.shape.*number));
         }
+    }
+    return text;
+}
+
+std::string blocks_text(const BlockTable& blocks, const BlockList& list)
+{
+    return fmt::format("[blocks]\ntable = {}\nrows = {}\ncolumns = {}\nown_motions = {}\n"
+                       "checksum = {}\n",
+                       in_quotes(blocks.file), list.size(), list_text(blocks.columns, in_quotes),
+                       list.has_own_motions(), in_quotes(blocks.checksum));
+}
+
+/// The axes that a list leaves.
+std::string axes_text(const Plane& plane)
+{
+    if (plane.list->has_own_motions()) {
+        return "";
+    }
+    std::string text = fmt::format("\n[plane]\n{} = {{ {} }}\n", name_of(plane.amplitude_is),
+                                   definition_text(plane.amplitude));
+    if (plane.motions == 0) {
+        text += fmt::format("{} = {{ {} }}\n", name_of(plane.frequency_is),
+                            definition_text(plane.frequency));
     }
     return text;
 }
@@ -101,8 +124,10 @@ std::string plane_text(const Plane& plane)
 
 std::string resolved_text(const Job& job)
 {
-    std::string text = fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title), scene_text(job),
-                                   plane_text(job.plane));
+    std::string text =
+        fmt::format("title = {}\n\n{}\n{}", in_quotes(job.title), scene_text(job),
+                    job.blocks ? blocks_text(*job.blocks, *job.plane.list) + axes_text(job.plane)
+                               : plane_text(job.plane));
     if (job.product == Product::spectrum) { // a boundary ignores both
         text += fmt::format(
             "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"

@@ -1,5 +1,7 @@
 #include "overturn/record/read_record.hpp"
 
+#include "overturn/record/text_file.hpp"
+
 #include "formats.hpp"
 #include "numbers.hpp"
 
@@ -158,44 +160,9 @@ void expect_no_options(const RecordFile& file, const RecordOptions& options,
     }
 }
 
-[[noreturn]] void refuse_unreadable(const std::string& path, int error)
-{
-    refuse_record(path, fmt::format("cannot be read: {}. Give the path of a recorded motion.",
-                                    std::generic_category().message(error)));
-}
-
-[[noreturn]] void refuse_size(const std::string& path)
-{
-    refuse_record(path, fmt::format("is larger than {} MiB, the maximum size of a record. Give one "
-                                    "record per file.",
-                                    largest_record_file >> 20));
-}
-
-std::string text_of(const std::string& path)
-{
-    std::error_code ignored; // of pipes and missing files; reading reports the latter
-    if (const auto size = std::filesystem::file_size(path, ignored);
-        !ignored && size > largest_record_file) {
-        refuse_size(path);
-    }
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                               &std::fclose);
-    if (!file) {
-        refuse_unreadable(path, errno);
-    }
-    std::string text;
-    std::array<char, 1 << 16> block;
-    while (const std::size_t size = std::fread(block.data(), 1, block.size(), file.get())) {
-        text.append(block.data(), size);
-        if (text.size() > largest_record_file) {
-            refuse_size(path);
-        }
-    }
-    if (std::ferror(file.get()) != 0) {
-        refuse_unreadable(path, errno);
-    }
-    return text;
-}
+constexpr TextFileKind record_file{"a record", largest_record_file,
+                                   "Give the path of a recorded motion.",
+                                   "Give one record per file."};
 
 } // namespace
 
@@ -220,7 +187,7 @@ RecordFile parse_record(std::string_view text, const std::string& name,
 
 RecordFile read_record(const std::string& path, const RecordOptions& options)
 {
-    return parse_record(text_of(path), path, options);
+    return parse_record(text_of_file<RecordError>(path, record_file), path, options);
 }
 
 } // namespace overturn

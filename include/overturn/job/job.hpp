@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/mechanics/intensity_measures.hpp"
+#include "overturn/record/read_table.hpp"
 #include "overturn/sweep/fields.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
@@ -9,6 +10,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,11 +49,22 @@ struct Motion {
     std::shared_ptr<const Accelerogram> record; ///< null in a job read from a result file
 };
 
+/// The table of the blocks of a list. A job read from a result file describes it, but does not
+/// contain its columns.
+struct BlockTable {
+    std::string file;                 ///< path as the job spells it
+    std::vector<std::string> columns; ///< their names, in order
+    std::string checksum;             ///< XXH64 of the columns, in hexadecimal digits
+
+    std::shared_ptr<const Table> table; ///< null in a job read from a result file
+};
+
 struct Job {
     Product product = Product::spectrum;
     std::string title;
     Scene scene;
-    std::vector<Motion> motions; ///< those of scene.records, in order; empty: a pulse
+    std::vector<Motion> motions;      ///< those of scene.records, in order; empty: a pulse
+    std::optional<BlockTable> blocks; ///< that of plane.list
     Plane plane;
     Numerics numerics;
     std::vector<Field> fields; ///< in the job's order, without duplicates
@@ -77,6 +90,14 @@ Job read_job_text(std::string text, const std::string& name,
 /// Reads the resolved job in a result file, whose records are described there: their accelerations
 /// are not read. Throws JobError.
 Job read_resolved_job(std::string text, const std::string& name);
+
+/// The XXH64 of the columns of a table, in hexadecimal digits.
+std::string checksum_of(const Table& table);
+
+/// Adds the columns of the table, which a result file contains, to the job in it. Under records,
+/// the strengths of motions of their own are left out. Throws JobError if the columns are not
+/// valid.
+void restore_blocks(Job& job, Table table);
 
 /// The job that computes the boundary of a spectrum. The amplitudes become the scan, and crossings
 /// replace them in the plane: the flips of a block at one frequency, counted from 0.
