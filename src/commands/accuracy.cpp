@@ -85,6 +85,11 @@ int accuracy(const AccuracyOptions& options)
 {
     const Kernel kernel = widest_kernel();
     const Job job = read_job(options.job.path, options.job.overrides);
+    if (job.blocks) {
+        throw UsageError(fmt::format("{} lists its blocks in {}, but accuracy is studied on a "
+                                     "plane. Give [plane] instead of [blocks].",
+                                     options.job.path, job.blocks->file));
+    }
     const SoleWriter sole_writer(options.output);
     const int refusal =
         run_in_child(options.output, [&] { expect_room_for(options.output, FileKind::accuracy); });

@@ -106,9 +106,18 @@ void print_plane(const Plane& plane)
         print_axis(name, axis.size(), axis.first(), axis.last(), ending);
     };
     constexpr std::array units{"", " s", " Hz", " m", " 1/s"}; // in the order of the quantities
-    print(name_of(plane.frequency_is), plane.frequency, units[std::size_t(plane.frequency_is)]);
-    print(name_of(plane.amplitude_is), plane.amplitude,
-          plane.amplitude_is == AmplitudeQuantity::pga ? " g" : "");
+    const bool has_amplitude = !(plane.list && plane.list->has_own_motions());
+    const bool has_frequency = has_amplitude && !(plane.list && plane.motions > 0);
+    if (has_frequency) {
+        print(name_of(plane.frequency_is), plane.frequency, units[std::size_t(plane.frequency_is)]);
+    }
+    if (has_amplitude) {
+        print(name_of(plane.amplitude_is), plane.amplitude,
+              plane.amplitude_is == AmplitudeQuantity::pga ? " g" : "");
+    }
+    if (plane.list) {
+        return;
+    }
     print("restitution", plane.restitution,
           plane.restitution_of == RestitutionOf::maximum ? ", of the maximum" : "");
     print("slenderness", plane.slenderness, " rad");
@@ -139,7 +148,7 @@ int check(const JobSource& source)
     print_scene(job);
     print_plane(job.plane);
     const std::vector<std::string> lines = dimension_lines(job);
-    print_row("block", lines[0]);
+    print_row(job.plane.list ? "blocks" : "block", lines[0]);
     print_row("ground", lines[1]);
     for (const std::string& line : dimension_warnings(job)) {
         print_row("warning", line);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -95,9 +96,69 @@ inline Extent accelerations_of(const Job& job)
     return {plane.amplitude.first() * units.first, plane.amplitude.last() * units.last};
 }
 
+/// f of all values of a list, which is not empty.
+template <class Function>
+Extent extent_of(const std::vector<double>& values, const Function& f)
+{
+    Extent extent{f(values.front()), f(values.front())};
+    for (const double value : values) {
+        extent = {std::min(extent.first, f(value)), std::max(extent.last, f(value))};
+    }
+    return extent;
+}
+
+/// The peak ground accelerations over g of the points of a list.
+inline Extent accelerations_of_list(const Job& job)
+{
+    const BlockList& list = *job.plane.list;
+    Extent all{std::numeric_limits<double>::infinity(), 0};
+    for (std::size_t i = 0; i < list.slenderness.size(); ++i) {
+        const auto add = [&](double amplitude, std::int64_t motion) {
+            const double pga =
+                amplitude * pga_of_unit_amplitude(job.scene, motion, list.slenderness[i]);
+            all = {std::min(all.first, pga), std::max(all.last, pga)};
+        };
+        if (list.has_own_motions()) {
+            add(list.amplitude[i], list.motion.empty() ? 0 : list.motion[i]);
+            continue;
+        }
+        for (std::int64_t motion = 0; motion < std::max<std::int64_t>(1, job.plane.motions);
+             ++motion) {
+            const double unit = amplitude_unit(job.scene, job.plane, motion, list.slenderness[i]);
+            add(job.plane.amplitude.first() / unit, motion);
+            add(job.plane.amplitude.last() / unit, motion);
+        }
+    }
+    return all;
+}
+
+/// A line about the blocks of a list, and one about the ground motions.
+inline std::vector<std::string> list_lines(const Job& job)
+{
+    const auto same = [](double value) { return value; };
+    const BlockList& list = *job.plane.list;
+    std::string block = fmt::format("{} of {}: alpha = {}, r = {}", list.size(), job.blocks->file,
+                                    extent_of(list.slenderness, in_degrees).text(" degrees"),
+                                    extent_of(list.restitution, same).text(""));
+    if (!list.frequency_parameter.empty()) {
+        block +=
+            fmt::format(", p = {} (g = {} m/s2)",
+                        extent_of(list.frequency_parameter, same).text(" 1/s"), job.scene.gravity);
+    }
+    std::string ground = "peak " + accelerations_of_list(job).text(" g");
+    if (list.has_own_motions()) {
+        ground += job.scene.is_recorded() ? ", each block under a record of its own"
+                                          : ", each block under a pulse of its own";
+    }
+    return {block, ground};
+}
+
 /// A line about the blocks, and one about the ground motions.
 inline std::vector<std::string> dimension_lines(const Job& job)
 {
+    if (job.plane.list) {
+        return list_lines(job);
+    }
     const Axis& slenderness = job.plane.slenderness;
     std::string block = "alpha = " + extent_of(slenderness, in_degrees).text(" degrees");
     if (slenderness.last() < std::asin(std::sqrt(2.0 / 3))) { // the limit of Eq. 17
@@ -122,6 +183,16 @@ inline std::vector<std::string> dimension_warnings(const Job& job)
 {
     std::vector<std::string> lines;
     const Plane& plane = job.plane;
+    if (plane.list) {
+        const double alpha =
+            extent_of(plane.list->slenderness, [](double value) { return value; }).last;
+        if (alpha > 1) {
+            lines.push_back(fmt::format("alpha reaches {:.4g} degrees, a block wider than 1.5 "
+                                        "times its height; the column slenderness is in radians",
+                                        in_degrees(alpha)));
+        }
+        return lines;
+    }
     if (plane.slenderness.last() > 1) {
         lines.push_back(
             fmt::format("alpha reaches {:.4g} degrees, a block wider than 1.5 times its "

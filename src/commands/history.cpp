@@ -55,6 +55,11 @@ Job read_job_of_one_point(const HistoryOptions& options)
         overrides.push_back(override_of(at));
     }
     Job job = read_job(options.job.path, overrides);
+    if (job.blocks) {
+        throw UsageError(fmt::format("{} lists its blocks in {}, but a history follows one block. "
+                                     "Give [block] and [plane] instead of [blocks].",
+                                     options.job.path, job.blocks->file));
+    }
     if (job.motions.size() > 1) {
         throw UsageError(fmt::format("{} has {} records, but a history needs exactly one. Choose "
                                      "it, for example with --set scene.record={}.",

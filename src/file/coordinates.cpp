@@ -250,9 +250,11 @@ void add_blocks(const Job& job, std::vector<Coordinate>& all)
     add_derived("restitution_ratio", list.restitution, "energy ratio at an impact, r");
     add_derived("frequency_parameter", list.frequency_parameter,
                 fmt::format("p = sqrt(3g / 4R), with g = {} m/s2", job.scene.gravity));
-    add_derived(is_recorded ? "scale" : "amplitude", list.amplitude,
-                is_recorded ? "factor on the record" : long_name_of_amplitude(job));
+    if (is_recorded && job.motions.front().record) { // not in a job of a result file
+        add_derived("scale", list.amplitude, "factor on the record");
+    }
     if (!is_recorded) {
+        add_derived("amplitude", list.amplitude, long_name_of_amplitude(job));
         add_derived("frequency", list.frequency, long_name_of_frequency);
     }
 }

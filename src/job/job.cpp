@@ -172,6 +172,13 @@ double Job::largest_scale(const Motion& motion) const
 
 Job boundary_of(Job job)
 {
+    if (job.blocks) {
+        throw JobError(
+            fmt::format("blocks.table = {}: a boundary is computed over a plane, not for "
+                        "a list of blocks. Use `overturn run`, with many values of pga "
+                        "or scale.",
+                        in_quotes(job.blocks->file)));
+    }
     if (job.plane.amplitude.size() == 1) {
         throw JobError(fmt::format("plane.{} has one value, {}, but flips are found between the "
                                    "first and the last. Give two or more values.",

@@ -187,7 +187,13 @@ void erase_numbers(toml::table* scene, const auto& is_erased)
 /// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
+    if (path[0] == "blocks") {
+        erase_keys(&job, {"block"});
+        erase_keys(job["plane"].as_table(),
+                   {"slenderness", "restitution", "size", "frequency_parameter"});
+    }
     if (path[0] == "block") {
+        erase_keys(&job, {"blocks"});
         erase_keys(job["plane"].as_table(), {"slenderness", "size", "frequency_parameter"});
     }
     if (path[0] == "plane" && path.size() >= 2 && path[1] == "slenderness") {

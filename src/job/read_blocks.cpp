@@ -233,7 +233,11 @@ void restore_blocks(Job& job, Table table)
         }
     }
     try {
-        job.plane.list = std::make_shared<BlockList>(block_list(job.scene, columns));
+        auto list = std::make_shared<BlockList>(block_list(job.scene, columns));
+        if (job.plane.list->has_own_motions()) {
+            list->amplitude.resize(list->slenderness.size());
+        }
+        job.plane.list = std::move(list);
     } catch (const ListError& error) {
         throw JobError(error.what());
     }
