@@ -197,7 +197,7 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
         erase_keys(job["plane"].as_table(), {"slenderness", "size", "frequency_parameter"});
     }
     if (path[0] == "plane" && path.size() >= 2 && path[1] == "slenderness") {
-        erase_keys(&job, {"block"});
+        erase_keys(&job, {"block", "blocks"});
     }
     if (path[0] == "plane" && path.size() == 3) {
         toml::table* axis = job["plane"][path[1]].as_table();

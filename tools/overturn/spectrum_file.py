@@ -9,6 +9,9 @@ from overturn.result_file import PlotError, open_result
 def open_spectrum(path, fields=("region",)):
     """Opens a spectrum that has the given fields."""
     file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
+    if "block" in file:
+        raise PlotError(f"\"{path}\" contains a list of blocks, not a plane. Read it with "
+                        "xarray.open_dataset().")
     for field in fields:
         if field not in file:
             raise PlotError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
