@@ -106,7 +106,7 @@ void print_plane(const Plane& plane)
         print_axis(name, axis.size(), axis.first(), axis.last(), ending);
     };
     constexpr std::array units{"", " s", " Hz", " m", " 1/s"}; // in the order of the quantities
-    const bool has_amplitude = !(plane.list && plane.list->has_own_motions());
+    const bool has_amplitude = !(plane.list && plane.list->has_own_motions);
     const bool has_frequency = has_amplitude && !(plane.list && plane.motions > 0);
     if (has_frequency) {
         print(name_of(plane.frequency_is), plane.frequency, units[std::size_t(plane.frequency_is)]);

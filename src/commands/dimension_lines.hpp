@@ -118,7 +118,7 @@ inline Extent accelerations_of_list(const Job& job)
                 amplitude * pga_of_unit_amplitude(job.scene, motion, list.slenderness[i]);
             all = {std::min(all.first, pga), std::max(all.last, pga)};
         };
-        if (list.has_own_motions()) {
+        if (list.has_own_motions) {
             add(list.amplitude[i], list.motion.empty() ? 0 : list.motion[i]);
             continue;
         }
@@ -137,7 +137,7 @@ inline std::vector<std::string> list_lines(const Job& job)
 {
     const auto same = [](double value) { return value; };
     const BlockList& list = *job.plane.list;
-    std::string block = fmt::format("{} of {}: alpha = {}, r = {}", list.size(), job.blocks->file,
+    std::string block = fmt::format("{} of {}: alpha = {}, r = {}", list.size, job.blocks->file,
                                     extent_of(list.slenderness, in_degrees).text(" degrees"),
                                     extent_of(list.restitution, same).text(""));
     if (!list.frequency_parameter.empty()) {
@@ -146,7 +146,7 @@ inline std::vector<std::string> list_lines(const Job& job)
                         extent_of(list.frequency_parameter, same).text(" 1/s"), job.scene.gravity);
     }
     std::string ground = "peak " + accelerations_of_list(job).text(" g");
-    if (list.has_own_motions()) {
+    if (list.has_own_motions) {
         ground += job.scene.is_recorded() ? ", each block under a record of its own"
                                           : ", each block under a pulse of its own";
     }

@@ -203,13 +203,13 @@ Dimension frequency_dimension(const Plane& plane)
 std::vector<Dimension> dimensions_of_list(const Job& job)
 {
     const Plane& plane = job.plane;
-    const bool has_own_motions = plane.list->has_own_motions();
+    const bool has_own_motions = plane.list->has_own_motions;
     std::vector<Dimension> dimensions;
     if (plane.motions > 0 && !has_own_motions) {
         dimensions.push_back(motion_dimension(plane));
     }
     dimensions.push_back(
-        {"block", numbers_to(plane.list->size()), "number of the block in the table", "1"});
+        {"block", numbers_to(plane.list->size), "number of the block in the table", "1"});
     if (!has_own_motions) {
         dimensions.push_back(amplitude_dimension(job));
         if (plane.motions == 0) {
@@ -316,7 +316,7 @@ std::vector<Coordinate> coordinates_of(const Job& job)
     if (plane.list) {
         add_blocks(job, all);
         if (plane.motions > 0) {
-            if (plane.list->has_own_motions()) {
+            if (plane.list->has_own_motions) {
                 all.push_back(coordinate_of(motion_dimension(plane)));
             } else {
                 all.push_back(other_strength(job));

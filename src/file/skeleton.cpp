@@ -168,7 +168,7 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
 long double bytes_of_blocks(const BlockTable& blocks, const BlockList& list)
 {
     using Count = long double;
-    const auto rows = Count(list.size());
+    const auto rows = Count(list.size);
     Count bytes = 6 * (1200 + rows * sizeof(double));
     for (const TableColumn& column : blocks.table->columns) {
         std::size_t longest = sizeof(double);

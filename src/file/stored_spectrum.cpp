@@ -265,7 +265,7 @@ std::string stored_name_of(const std::string& coordinate, hid_t file)
 Table read_stored_table(const StoredSpectrum& stored, const Job& job)
 {
     Table table;
-    const auto rows = hsize_t(job.plane.list->size());
+    const auto rows = hsize_t(job.plane.list->size);
     for (const std::string& name : job.blocks->columns) {
         const Handle dataset = open_own_dataset(stored.file, name);
         const std::vector<hsize_t> shape = shape_of(dataset);

@@ -92,15 +92,22 @@ namespace {
 /// Throws JobError if the vertical motion of every record cancels gravity at every point.
 void expect_gravity(const Entry& entry, const Job& job)
 {
+    if (job.blocks && !job.blocks->table) { // the job of a result file
+        return;
+    }
     const auto cancels = [&](const Motion& motion) {
         return !(job.smallest_scale(motion) < motion.largest_scale);
     };
     if (!job.motions.empty() && std::all_of(job.motions.begin(), job.motions.end(), cancels)) {
-        refuse(*find(*find(entry, "plane"), name_of(job.plane.amplitude_is)),
+        const auto plane = find(entry, "plane");
+        const Entry place =
+            plane ? *find(*plane, name_of(job.plane.amplitude_is)) : *find(entry, "blocks");
+        refuse(place,
                fmt::format(" begins at {}, where the vertical motion of \"{}\" cancels gravity. "
                            "Begin below the scale {}.",
-                           job.plane.amplitude.first(), job.motions.front().file,
-                           job.motions.front().largest_scale));
+                           plane ? job.plane.amplitude.first()
+                                 : job.smallest_scale(job.motions.front()),
+                           job.motions.front().file, job.motions.front().largest_scale));
     }
 }
 
@@ -160,14 +167,29 @@ Job read_resolved_job(std::string text, const std::string& name)
 
 double Job::smallest_scale(const Motion& motion) const
 {
-    const double first = plane.amplitude.first();
-    return plane.amplitude_is == AmplitudeQuantity::pga ? first / motion.measures.pga : first;
+    return scales(motion).first;
 }
 
 double Job::largest_scale(const Motion& motion) const
 {
-    const double last = plane.amplitude.last();
-    return plane.amplitude_is == AmplitudeQuantity::pga ? last / motion.measures.pga : last;
+    return scales(motion).second;
+}
+
+std::pair<double, double> Job::scales(const Motion& motion) const
+{
+    if (plane.list && plane.list->has_own_motions) {
+        const std::int64_t number = &motion - motions.data();
+        std::pair<double, double> all{std::numeric_limits<double>::infinity(), 0};
+        for (std::size_t i = 0; i < plane.list->amplitude.size(); ++i) {
+            if (plane.list->motion[i] == number) {
+                all = {std::min(all.first, plane.list->amplitude[i]),
+                       std::max(all.second, plane.list->amplitude[i])};
+            }
+        }
+        return all;
+    }
+    const double unit = plane.amplitude_is == AmplitudeQuantity::pga ? motion.measures.pga : 1;
+    return {plane.amplitude.first() / unit, plane.amplitude.last() / unit};
 }
 
 Job boundary_of(Job job)

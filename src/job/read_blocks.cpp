@@ -184,11 +184,8 @@ BlockTable described_blocks(const Entry& entry, Job& job)
         refuse(rows_entry, fmt::format(" = {} is not a number of rows.", rows));
     }
     auto list = std::make_shared<BlockList>();
-    list->slenderness.resize(std::size_t(rows));
-    list->frequency_parameter.resize(std::size_t(rows));
-    if (boolean_of(of_resolved_job("own_motions"))) {
-        list->amplitude.resize(std::size_t(rows));
-    }
+    list->size = rows;
+    list->has_own_motions = boolean_of(of_resolved_job("own_motions"));
     job.plane.list = list;
     return blocks;
 }
@@ -234,9 +231,7 @@ void restore_blocks(Job& job, Table table)
     }
     try {
         auto list = std::make_shared<BlockList>(block_list(job.scene, columns));
-        if (job.plane.list->has_own_motions()) {
-            list->amplitude.resize(list->slenderness.size());
-        }
+        list->has_own_motions = job.plane.list->has_own_motions;
         job.plane.list = std::move(list);
     } catch (const ListError& error) {
         throw JobError(error.what());

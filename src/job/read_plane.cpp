@@ -153,7 +153,10 @@ void read_record_axes(const Entry& job, const Entry& entry, Plane& plane)
 void read_pulse_axes(const Entry& entry, Plane& plane)
 {
     const auto of_known_size = [&](const Entry& axis, const Quantity& rule) {
-        if (plane.list ? plane.list->frequency_parameter.empty() : !plane.size) {
+        const bool lacks_size =
+            plane.list ? !plane.list->slenderness.empty() && plane.list->frequency_parameter.empty()
+                       : !plane.size;
+        if (lacks_size) {
             refuse(axis, plane.list ? " needs the dimensions of the blocks. Add the columns width "
                                       "and height, or size, in metres, to the table."
                                     : " needs the dimensions of the block. Add [block] with width "
@@ -217,7 +220,7 @@ void read_axes_of_list(const Entry& job, Plane& plane)
                        "them.");
     }
     const bool is_recorded = plane.motions > 0;
-    if (plane.list->has_own_motions()) {
+    if (plane.list->has_own_motions) {
         if (const auto entry = find(job, "plane")) {
             refuse(*entry, " cannot be combined with a table whose rows have motions of their own. "
                            "Remove [plane], or the columns of the motions.");

@@ -78,14 +78,14 @@ std::string blocks_text(const BlockTable& blocks, const BlockList& list)
 {
     return fmt::format("[blocks]\ntable = {}\nrows = {}\ncolumns = {}\nown_motions = {}\n"
                        "checksum = {}\n",
-                       in_quotes(blocks.file), list.size(), list_text(blocks.columns, in_quotes),
-                       list.has_own_motions(), in_quotes(blocks.checksum));
+                       in_quotes(blocks.file), list.size, list_text(blocks.columns, in_quotes),
+                       list.has_own_motions, in_quotes(blocks.checksum));
 }
 
 /// The axes that a list leaves.
 std::string axes_text(const Plane& plane)
 {
-    if (plane.list->has_own_motions()) {
+    if (plane.list->has_own_motions) {
         return "";
     }
     std::string text = fmt::format("\n[plane]\n{} = {{ {} }}\n", name_of(plane.amplitude_is),

@@ -244,6 +244,8 @@ BlockList block_list(const Scene& scene, const Columns& columns,
     } else {
         read_pulses(scene, reader, list);
     }
+    list.size = std::int64_t(list.slenderness.size());
+    list.has_own_motions = !list.amplitude.empty();
     return list;
 }
 

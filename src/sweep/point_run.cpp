@@ -49,7 +49,7 @@ namespace {
 std::vector<PlanePoint> points_of_list(const Scene& scene, const Plane& plane, const Tile& tile)
 {
     const BlockList& list = *plane.list;
-    const bool is_recorded = scene.is_recorded() && !list.has_own_motions();
+    const bool is_recorded = scene.is_recorded() && !list.has_own_motions;
     const std::size_t block_axis = is_recorded ? 1 : 0;
     const auto axis_values = [&](const Axis& axis, std::size_t dimension) {
         return axis.values(tile.begin[dimension], tile.begin[dimension] + tile.count[dimension]);
@@ -59,7 +59,7 @@ std::vector<PlanePoint> points_of_list(const Scene& scene, const Plane& plane, c
     for (std::int64_t i = 0; i < tile.count[block_axis]; ++i) {
         const auto block = std::size_t(tile.begin[block_axis] + i);
         PlanePoint point{list.slenderness[block], list.restitution[block], 0, 0};
-        if (list.has_own_motions()) {
+        if (list.has_own_motions) {
             point.amplitude = list.amplitude[block];
             point.frequency = list.frequency[block];
             points.push_back(point);

@@ -119,7 +119,7 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
 {
     std::vector<PlanePoint> points = points_of(scene, plane, tile);
     const bool recorded = scene.is_recorded();
-    if (!(recorded && plane.list && plane.list->has_own_motions())) {
+    if (!(recorded && plane.list && plane.list->has_own_motions)) {
         const PointRun run(scene, std::move(points), kernel, std::move(drop_requested),
                            motion_of(scene, tile));
         return fields_of(run, numerics, fields, recorded);

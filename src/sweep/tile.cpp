@@ -23,12 +23,12 @@ std::int64_t count_points(const Shape& shape)
 
 Shape shape_of(const Plane& plane)
 {
-    if (plane.list && plane.list->has_own_motions()) {
-        return {plane.list->size()};
+    if (plane.list && plane.list->has_own_motions) {
+        return {plane.list->size};
     }
     Shape shape;
     if (plane.list) {
-        shape = {plane.list->size(), plane.amplitude.size()};
+        shape = {plane.list->size, plane.amplitude.size()};
     } else {
         shape = {plane.slenderness.size(), plane.restitution.size(), plane.amplitude.size()};
     }
@@ -67,7 +67,7 @@ Shape tile_of(const Plane& plane)
     }
     // As many points of a list, in whatever shape: as many blocks as the other dimensions leave.
     Shape tile = shape_of(plane);
-    if (plane.motions > 0 && !plane.list->has_own_motions()) {
+    if (plane.motions > 0 && !plane.list->has_own_motions) {
         tile.erase(tile.begin());
     }
     std::int64_t left = side * side;

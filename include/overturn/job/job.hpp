@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -74,9 +75,12 @@ struct Job {
     std::vector<std::string> overrides; ///< the --set arguments, in order
     std::string resolved;               ///< the canonical job: equal text, equal results
 
-    /// The smallest and the largest factor on a record in the plane [1].
+    /// The smallest and the largest factor on a record [1]; it must be one of the motions.
     double smallest_scale(const Motion& motion) const;
     double largest_scale(const Motion& motion) const;
+
+    /// Both; infinity and 0 for a motion that no block of a list meets.
+    std::pair<double, double> scales(const Motion& motion) const;
 };
 
 /// Reads and checks a job. Each override is `key.path=value` in TOML syntax (a bare word is a

@@ -106,17 +106,18 @@ struct PlanePoint {
 };
 
 /// The blocks of a list, which replace the axes slenderness, restitution and, under a record,
-/// frequency. With motions of their own, they replace all axes. Arrays of one value per block.
+/// frequency. With motions of their own, they replace all axes. Arrays of one value per block, all
+/// of which are empty in a job read from a result file.
 struct BlockList {
+    std::int64_t size = 0;
+    bool has_own_motions = false;
+
     std::vector<double> slenderness;         ///< alpha [rad]
     std::vector<double> restitution;         ///< r [1]
     std::vector<double> frequency_parameter; ///< p [1/s]; empty: unknown
-    std::vector<double> amplitude;           ///< PlanePoint::amplitude; empty: no own motions
-    std::vector<double> frequency;           ///< PlanePoint::frequency; empty: no own motions
-    std::vector<std::int64_t> motion;        ///< number of its record; empty: none, or no own ones
-
-    std::int64_t size() const { return std::int64_t(slenderness.size()); }
-    bool has_own_motions() const { return !amplitude.empty(); }
+    std::vector<double> amplitude;           ///< PlanePoint::amplitude of own motions
+    std::vector<double> frequency;           ///< PlanePoint::frequency of own motions
+    std::vector<std::int64_t> motion;        ///< number of the record of own motions
 };
 
 struct Plane {
