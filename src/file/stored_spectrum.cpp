@@ -1,9 +1,9 @@
 #include "stored_spectrum.hpp"
 
 #include "attributes.hpp"
-#include "coordinates.hpp"
 #include "layout.hpp"
 #include "operating_system.hpp"
+#include "own_dataset.hpp"
 #include "tile_access.hpp"
 
 #include "overturn/file/file_error.hpp"
@@ -25,69 +25,6 @@ namespace {
 
 using hdf5::check;
 using hdf5::Handle;
-
-void demand(bool condition, const char* what_is_wrong)
-{
-    if (!condition) {
-        throw hdf5::Hdf5Error(what_is_wrong);
-    }
-}
-
-/// The number of names (hard links) of an object.
-unsigned count_names(hid_t object)
-{
-#if H5_VERSION_GE(1, 12, 0)
-    H5O_info2_t info = {};
-    check(H5Oget_info3(object, &info, H5O_INFO_BASIC));
-#else
-    H5O_info_t info = {};
-    check(H5Oget_info(object, &info));
-#endif
-    return info.rc;
-}
-
-/// Opens a dataset that is stored in the file itself, under a single name. HDF5 follows links and
-/// external storage into other files, which a resumed run would write to.
-Handle open_own_dataset(hid_t file, const std::string& name)
-{
-    H5L_info_t link = {};
-    check(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
-    demand(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
-    Handle dataset = hdf5::open_dataset(file, name);
-    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-    demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
-           "the values of a dataset are stored in another file");
-    demand(count_names(dataset) == 1, "a dataset has two names");
-    return dataset;
-}
-
-std::vector<hsize_t> shape_of(hid_t dataset)
-{
-    const Handle space(H5Dget_space(dataset), H5Sclose);
-    std::vector<hsize_t> shape(std::size_t(check(H5Sget_simple_extent_ndims(space))));
-    check(H5Sget_simple_extent_dims(space, shape.data(), nullptr));
-    return shape;
-}
-
-bool has_type(hid_t dataset, hid_t expected)
-{
-    const Handle type(H5Dget_type(dataset), H5Tclose);
-    return check(H5Tequal(type, expected)) > 0;
-}
-
-/// The length of a list of this type. It is checked against the size of the file, because a damaged
-/// length could exhaust the memory.
-hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
-                       const char* what_is_wrong)
-{
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    const hsize_t bytes_per_value = H5Tget_size(type);
-    demand(shape.size() == 1 && shape[0] <= bytes_of_file / bytes_per_value &&
-               shape[0] * bytes_per_value <= H5Dget_storage_size(dataset) &&
-               has_type(dataset, type),
-           what_is_wrong);
-    return shape[0];
-}
 
 /// Whether all values are stored. This also reads the whole chunk index, so that a damaged index is
 /// found, or crashes HDF5, before the file is used.
@@ -252,104 +189,6 @@ StoredSpectrum read_spectrum(Handle file, const std::string& path)
     return spectrum;
 }
 
-/// `pga` was named peak_ground_acceleration before version 1.0.
-std::string stored_name_of(const std::string& coordinate, hid_t file)
-{
-    const bool has_old_name =
-        coordinate == "pga" && check(H5Lexists(file, "pga", H5P_DEFAULT)) == 0;
-    return has_old_name ? "peak_ground_acceleration" : coordinate;
-}
-
-/// Throws Hdf5Error, which foreign_coordinates() converts.
-/// The table of a list, from the variables along its blocks.
-Table read_stored_table(const StoredSpectrum& stored, const Job& job)
-{
-    Table table;
-    const auto rows = hsize_t(job.plane.list->size);
-    for (const std::string& name : job.blocks->columns) {
-        const Handle dataset = open_own_dataset(stored.file, name);
-        const std::vector<hsize_t> shape = shape_of(dataset);
-        TableColumn column{name, {}, {}};
-        if (has_type(dataset, H5T_IEEE_F64LE) && shape == std::vector{rows}) {
-            column.numbers.resize(rows);
-            check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                          column.numbers.data()));
-        } else {
-            demand(has_type(dataset, H5T_C_S1) && shape.size() == 2 && shape[0] == rows &&
-                       shape[1] <= stored.bytes / rows,
-                   "a column of the table is malformed");
-            std::string letters(rows * shape[1], '\0');
-            check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()));
-            for (hsize_t row = 0; row < rows; ++row) {
-                column.texts.emplace_back(letters.substr(row * shape[1], shape[1]).c_str());
-            }
-        }
-        table.columns.push_back(std::move(column));
-    }
-    return table;
-}
-
-std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, Job job)
-{
-    const auto has_shape = [&](const std::string& name, const std::vector<hsize_t>& shape) {
-        const Handle dataset = open_own_dataset(stored.file, name);
-        return shape_of(dataset) == shape && has_type(dataset, H5T_IEEE_F64LE);
-    };
-    std::vector<std::string> foreign;
-    // Sizes first: the job in a malicious file may have axes that do not fit into memory.
-    for (const Dimension& dimension : dimensions_of(job)) {
-        if (!has_shape(dimension.name, {hsize_t(dimension.axis.size())})) {
-            foreign.emplace_back(dimension.name);
-        }
-    }
-    const std::string scan = name_of_scan(job);
-    if (job.product == Product::boundary && !has_shape(scan, {hsize_t(job.scan.size())})) {
-        foreign.push_back(scan);
-    }
-    if (!foreign.empty()) {
-        return foreign;
-    }
-    if (job.blocks && !job.blocks->table) {
-        Table table = read_stored_table(stored, job);
-        if (checksum_of(table) != job.blocks->checksum) {
-            return {"the columns of the table"};
-        }
-        restore_blocks(job, std::move(table));
-    }
-    for (Coordinate coordinate : coordinates_of(job)) {
-        coordinate.name = stored_name_of(coordinate.name, stored.file);
-        std::vector<double> values(coordinate.values.size());
-        if (has_shape(coordinate.name, coordinate.shape)) {
-            const Handle dataset = open_own_dataset(stored.file, coordinate.name);
-            check(
-                H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-        }
-        const double tolerance = coordinate.roundings * std::numeric_limits<double>::epsilon();
-        const auto is_as_good_as = [=](double value, double computed) {
-            return std::abs(value - computed) <= tolerance * std::abs(computed) ||
-                   (std::isnan(value) && std::isnan(computed));
-        };
-        if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {
-            foreign.push_back(coordinate.name);
-        }
-    }
-    return foreign;
-}
-
-/// Returns the result of `read`; converts its errors to a FileError that names the file.
-template <class Read>
-auto or_refused(const std::string& path, const Read& read)
-{
-    try {
-        return read();
-    } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("\"{}\" cannot be read or is damaged: {}.", path, error.what()));
-    } catch (const std::bad_alloc&) {
-        throw FileError(fmt::format("\"{}\" is damaged: it contains an impossible size.", path));
-    }
-}
-
 Handle open_file(const std::string& path)
 {
     std::error_code reason;
@@ -374,11 +213,6 @@ Tiling StoredSpectrum::tiling() const
         shape.push_back(axis.size);
     }
     return {std::move(shape), tile_shape};
-}
-
-std::vector<std::string> foreign_coordinates(const StoredSpectrum& stored, const Job& job)
-{
-    return or_refused(stored.path, [&] { return find_foreign_coordinates(stored, job); });
 }
 
 StoredSpectrum open_stored_spectrum(const std::string& path)

@@ -190,6 +190,11 @@ Table read_table(std::string_view text, const std::string& name)
         throw TableError(name + ":1: the file is empty. The first line names the columns, such as "
                                 "width,height,restitution.");
     }
+    if (text.find('\0') != text.npos) {
+        throw TableError(name +
+                         ": is not a table of text, because it contains NUL characters. Save "
+                         "it as comma-separated values in UTF-8.");
+    }
     Values values(text, name);
     Table table;
     table.columns = read_names(values);

@@ -69,6 +69,7 @@ TEST(Table, ReadsAnEmptyValueAsUnknown)
 
 TEST(Table, IsRefusedWithLineAndColumn)
 {
+    EXPECT_TRUE(refusal_of(std::string_view("a\0\n1\0\n", 6)).starts_with("t.csv: is not a table"));
     EXPECT_TRUE(refusal_of("").starts_with("t.csv:1: the file is empty")) << refusal_of("");
     EXPECT_TRUE(refusal_of("\n\r\n").starts_with("t.csv:1: the file is empty"))
         << refusal_of("\n\r\n");
