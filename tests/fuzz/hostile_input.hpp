@@ -18,6 +18,9 @@ Verdict use_as_job(std::string_view bytes, const std::string& path);
 /// motion at `path`. An accepted one must be as the header of the reader promises.
 Verdict use_as_record(std::string_view bytes, const std::string& path);
 
+/// Reads the input as a table of blocks, and the blocks in it.
+Verdict use_as_table(std::string_view bytes);
+
 /// Reads any file at `path` as a result file, like overturn info, verify and run.
 Verdict use_as_result_file(const std::string& path);
 

@@ -127,6 +127,13 @@ TEST(AnyBytes, AreAcceptedOrRefusedAsARecord)
                    {"record.txt"});
 }
 
+TEST(AnyBytes, AreAcceptedOrRefusedAsATable)
+{
+    const ScratchFolder folder;
+    expect_no_harm(Alterations("table", 4000),
+                   [&](const std::string& bytes) { use_as_table(bytes); }, folder, {});
+}
+
 TEST(AnyBytes, AreAcceptedOrRefusedAsACommandLine)
 {
     const ScratchFolder folder;
