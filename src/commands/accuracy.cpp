@@ -61,7 +61,9 @@ std::string wrong(const AccuracyRow& row, const AccuracySample& sample)
     if (sample.settled == 0) {
         return "-";
     }
-    return row.flips == 0 ? "0" : fmt::format("{:.1e}", double(row.flips) / double(sample.settled));
+    return row.wrong_verdicts == 0
+               ? "0"
+               : fmt::format("{:.1e}", double(row.wrong_verdicts) / double(sample.settled));
 }
 
 void print_row(const AccuracyRow& row, const AccuracySample& sample)

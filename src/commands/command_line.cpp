@@ -119,7 +119,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
             "r over r_max (Eq. 17); default: 1")
         ->type_name("X")
         ->check(is_positive);
-    number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration that is searched")
+    number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search")
         ->capture_default_str();
     command.add_option("--set", options.overrides, "Set a key of [scene]; repeatable")
         ->type_name("scene.KEY=VALUE")
@@ -189,7 +189,7 @@ Command read_command_line(int argc, const char* const* argv)
     RunOptions& boundary_options = arguments->boundary;
     boundary_options.boundary = true;
     CLI::App* const boundary_command = add_command(
-        "boundary", "Find all amplitudes at which verdicts flip, with or without mpirun",
+        "boundary", "Find the amplitudes at which verdicts flip, with or without mpirun",
         help::boundary, run, boundary_options);
     add_run_arguments(*boundary_command, boundary_options, "JOB_boundary.h5");
 
@@ -222,7 +222,8 @@ Command read_command_line(int argc, const char* const* argv)
     add_job_arguments(*history_command, history_options.job);
     history_command
         ->add_option("--at", history_options.at,
-                     "Value on each axis for which the job has several; need not be one of them")
+                     "A value for each axis on which the job has several values;\n"
+                     "it need not be one of them")
         ->type_name("AXIS=VALUE,...")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -234,8 +235,8 @@ Command read_command_line(int argc, const char* const* argv)
         ->check(CLI::PositiveNumber);
     history_command
         ->add_option("--samples", history_options.samples,
-                     "Number of evenly spaced times, at least the samples of a record; events are "
-                     "added")
+                     "Number of evenly spaced times, at least as many as the record has\n"
+                     "samples; events are added")
         ->check(CLI::Range(2, 10000000))
         ->capture_default_str();
 

@@ -202,9 +202,10 @@ inline std::vector<std::string> dimension_warnings(const Job& job)
     const auto periods = periods_of(job);
     if (periods && (periods->first < 0.02 || periods->last > 20)) {
         lines.push_back(fmt::format(
-            "the period of the pulse is {}, outside 0.02 to 20 s; plane.frequency is omega_p / p, "
-            "plane.pulse_frequency is in Hz, and lengths are in metres",
-            periods->text(" s")));
+            "the period of the pulse {} {}; values outside 0.02 to 20 s suggest an error in the "
+            "units. plane.frequency is omega_p / p, plane.pulse_frequency is in Hz, and lengths "
+            "are in metres",
+            periods->first == periods->last ? "is" : "ranges from", periods->text(" s")));
     }
     const double alpha = plane.slenderness.first();
     const double r = plane.restitution_ratio(0, plane.restitution.size() - 1);

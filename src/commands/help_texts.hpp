@@ -13,9 +13,10 @@ inline constexpr const char* overview = R"(Examples:
   overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
   overturn boundary jobs/smoke.toml
 
-Exit codes: 0 complete; 2 error in the command line, or an unsupported processor or launcher; 65
-error in the job; 70 internal error of overturn; 74 a result file cannot be read or written, is
-damaged or belongs to another job; 85 stopped by a signal or a silent rank, resumable.)";
+Exit codes: 0 success (of run: the file is complete); 2 error in the command line, or an
+unsupported processor or launcher; 65 error in the job; 70 internal error of overturn; 74 a result
+file cannot be read or written, is damaged or belongs to another job; 85 stopped by a signal or a
+silent rank, resumable.)";
 
 inline constexpr const char* run = R"(Example:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
@@ -28,24 +29,27 @@ inline constexpr const char* boundary = R"(Example:
   mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200
   tools/plot_boundary figure_07a_boundary.h5
 
-Finds, for every slenderness, restitution and frequency, all amplitudes between the first and the
+Finds, for every slenderness, restitution and frequency, the amplitudes between the first and the
 last of the job at which the verdict flips from safe to unsafe or back, with the regions on both
 sides. The amplitudes of the job are computed first; where they indicate more flips between them,
-the steps are halved. Each flip lies between two settled verdicts whose amplitudes differ by at
-most 1e-12 of their size, regardless of [numerics]. If a block already overturns at the first
-amplitude, overturn info reports it. The same command resumes an unfinished run.
+the steps are halved. Very narrow safe or unsafe strips may be missed. Each flip lies between two
+settled verdicts whose amplitudes differ by at most 1e-12 of their size, regardless of [numerics].
+If a block already overturns at the first amplitude, overturn info reports it. The same command
+resumes an unfinished run.
 
-Under a record there is no complete list: the steps are divided down to 0.1 % of the amplitude, and
-thinner strips exist. The share of the scanned interval that overturns is stored as well.)";
+Under a record there is no complete list: the steps are divided evenly until each is at most 0.1 %
+of the amplitude, and narrower strips exist. The share of the scanned interval in which the block
+overturns is stored as well.)";
 
 inline constexpr const char* topple = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
   overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --plot tilt.png
 
 Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
-it, and every range of the PGA, up to --pga-max, in which it topples: for the given restitution, and
-for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2, unless --set scene.gravity=... changes it.
-The exit code is 0 whatever the verdict. Spectra and suites of records need a job file: see overturn run.)";
+it, and the ranges of the PGA, up to --pga-max, in which it topples: for the given restitution, and
+for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2, unless --set
+scene.gravity=... changes it. The exit code is 0 whatever the verdict. Spectra and suites of records
+need a job file: see overturn run.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
@@ -55,8 +59,8 @@ inline constexpr const char* accuracy = R"(Example:
   tools/plot_accuracy accuracy.h5
 
 Runs both methods (under a record, taylor) at tolerances from 1e-2 to 1e-14, and with resolved
-verdicts at those down to 1e-8, on a sample of the job's plane, on one core. [numerics] and the fields of the job are ignored. OUT.h5 contains these
-columns and more:
+verdicts at those down to 1e-8, on a sample of the job's plane, on one core. [numerics] and the
+fields of the job are ignored. OUT.h5 contains these columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if the block falls in only one of
                    the two computations
@@ -69,10 +73,11 @@ inline constexpr const char* history = R"(Example:
   overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
   tools/plot_history history.h5
 
-Prints the region and the first 24 events; for each, the velocity before and after it, and q
-(Eq. 12) after it; in seconds and degrees if the job gives the size of the block, otherwise in 1/p
-and rad. OUT.h5 contains angle, velocity, acceleration, q and the ground acceleration over tau = p t,
-in rad. The motion is integrated as accurately as doubles allow, regardless of [numerics].)";
+Prints region, margin, peak tilt, the times of fall and rest, and the first 24 events; for each
+event, the velocity before and after it, and q (Eq. 12) after it. Times and angles are in seconds
+and degrees if the job gives the size of the block, otherwise in 1/p and rad; q is in rad2. OUT.h5
+contains angle, velocity, acceleration, q and the ground acceleration over tau = p t, in rad. The
+motion is integrated as accurately as doubles allow, regardless of [numerics].)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";
@@ -115,7 +120,7 @@ and so on. All tools have --help.
   overturn-plot-boundary   draws the minimum overturning amplitude and all other flips
   overturn-plot-history    draws the motion of one block over time
   overturn-plot-accuracy   draws error and wrong verdicts against time
-  overturn-plot-landing    draws where each point of a spectrum lands in phase space
+  overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space
   overturn-join-spectra    joins spectra that differ in slenderness
   overturn-to-csv          writes a spectrum as a table

@@ -62,7 +62,7 @@ Job read_job_of_one_point(const HistoryOptions& options)
     }
     if (job.motions.size() > 1) {
         throw UsageError(fmt::format("{} has {} records, but a history needs exactly one. Choose "
-                                     "it, for example with --set scene.record={}.",
+                                     "one, for example with --set scene.record={}.",
                                      options.job.path, job.motions.size(),
                                      job.motions.front().file));
     }
@@ -74,7 +74,7 @@ Job read_job_of_one_point(const HistoryOptions& options)
         if (axes[i]->size() > 1) {
             throw UsageError(fmt::format(
                 "{} has {} values of plane.{}, from {} to {}, but a history needs exactly one. "
-                "Choose it, for example with --at {}={}.",
+                "Choose one, for example with --at {}={}.",
                 options.job.path, axes[i]->size(), names[i], axes[i]->first(), axes[i]->last(),
                 names[i], axes[i]->first()));
         }
@@ -114,13 +114,14 @@ void expect_gravity(const Job& job, double scale)
 struct Units {
     explicit Units(const std::optional<double>& p)
         : per_second(p.value_or(1)), per_angle(p ? in_degrees(1) : 1), time(p ? "s" : "1/p"),
-          angle(p ? "deg" : "rad")
+          angle(p ? "deg" : "rad"), rate(p ? "deg/s" : "rad")
     {}
 
     double per_second; ///< p [1/s]
     double per_angle;
     const char* time;
     const char* angle;
+    const char* rate;
 };
 
 void print_event(const HistoryEvent& event, const Units& units)
@@ -131,7 +132,7 @@ void print_event(const HistoryEvent& event, const Units& units)
         return std::abs(scaled) < 5e-6 ? 0 : scaled;
     };
     const auto rate = [&](double value) { return shown(value) * units.per_second; };
-    fmt::print("{:>10.4f}  {:<13}{:>10.5f}{:>13.5f}{:>12.5f}{:>12.3e}\n",
+    fmt::print("{:>10.4f}  {:<13}{:>11.5f}{:>21.5f}{:>20.5f}{:>16.3e}\n",
                event.after.time / units.per_second, event_names[std::size_t(event.kind)],
                shown(event.after.angle), rate(event.before.velocity), rate(event.after.velocity),
                event.after.q);
@@ -140,9 +141,10 @@ void print_event(const HistoryEvent& event, const Units& units)
 void print_events(const History& history, const Units& units)
 {
     constexpr std::size_t most_lines = 24;
-    fmt::print("\n{:>10}  {:<13}{:>10}{:>13}{:>12}{:>12}\n", fmt::format("time [{}]", units.time),
-               "event", fmt::format("angle [{}]", units.angle), "vel. before", "vel. after",
-               "q after");
+    fmt::print("\n{:>10}  {:<13}{:>11}{:>21}{:>20}{:>16}\n", fmt::format("time [{}]", units.time),
+               "event", fmt::format("angle [{}]", units.angle),
+               fmt::format("vel. before [{}]", units.rate),
+               fmt::format("vel. after [{}]", units.rate), "q after [rad2]");
     const std::size_t shown = std::min(most_lines, history.events.size());
     for (std::size_t i = 0; i < shown; ++i) {
         print_event(history.events[i], units);

@@ -32,7 +32,7 @@ namespace overturn {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::system_clock; // the record contains the date
+using Clock = std::chrono::system_clock; // the sidecar file contains the date
 
 constexpr int proceed = -1; ///< tiles are missing; not an exit code
 
@@ -186,21 +186,20 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
 }
 
 /// On rank 0.
-void write_record(const Task& task, const std::vector<std::string>& hosts, const FarmReport& report,
-                  double seconds)
+void write_run_info(const Task& task, const std::vector<std::string>& hosts,
+                    const FarmReport& report, double seconds)
 {
-    RunRecord record;
-    record.start = task.start;
-    record.wall_seconds = seconds;
-    record.kernel = name_of(task.kernel);
-    record.requests = report.dealing.requests;
-    record.dealing_seconds = report.dealing.seconds;
+    RunInfo run;
+    run.start = task.start;
+    run.wall_seconds = seconds;
+    run.kernel = name_of(task.kernel);
+    run.requests = report.dealing.requests;
+    run.dealing_seconds = report.dealing.seconds;
     for (std::size_t rank = 0; rank < hosts.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
-        record.ranks.push_back(
-            {hosts[rank], share.tiles, share.compute_seconds, share.write_seconds});
+        run.ranks.push_back({hosts[rank], share.tiles, share.compute_seconds, share.write_seconds});
     }
-    write_sidecar(task.path, record);
+    write_sidecar(task.path, run);
 }
 
 /// Stops all ranks, with a message, if one of them is silent.
@@ -274,7 +273,7 @@ int compute_missing_tiles(const Task& task)
     int code = exit_code::complete;
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        write_record(task, hosts, report, seconds);
+        write_run_info(task, hosts, report, seconds);
         const std::int64_t still_missing = count_missing_tiles(task, report) + still_damaged;
         say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
         if (still_missing > 0) {

@@ -97,18 +97,18 @@ void expect_consistent(const ToppleOptions& options)
 }
 
 /// The answer for one restitution.
-struct Restituted {
+struct RestitutionAnswer {
     double share; ///< r / r_max
     double ratio; ///< r
     TopplingRanges ranges;
 };
 
 struct Answer {
-    std::string verdict; ///< "topples", "does not topple" or "undecided"; empty if not asked
+    std::string verdict; ///< "topples", "does not topple" or "undecided"; empty if not requested
     double peak = 0;     ///< |theta| / alpha
-    double pga = 0;      ///< of the asked point
+    double pga = 0;      ///< of the requested point
     double lifting_pga = 0;
-    std::vector<Restituted> restituted; ///< the asked one first
+    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 };
 
 Answer answer_of(const Job& job, const ToppleOptions& options)
@@ -125,14 +125,14 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
     }
     answer.lifting_pga = uplift_threshold(job.scene.theory, alpha);
     const double r_max = largest_restitution(alpha);
-    const double asked = job.plane.restitution_ratio(0, 0);
-    std::vector<double> ratios{asked};
+    const double requested = job.plane.restitution_ratio(0, 0);
+    std::vector<double> ratios{requested};
     for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
         ratios.push_back(share * r_max);
     }
     for (const double ratio : ratios) {
-        if (!answer.restituted.empty() && ratio == asked) {
-            answer.restituted.push_back(answer.restituted.front());
+        if (!answer.by_restitution.empty() && ratio == requested) {
+            answer.by_restitution.push_back(answer.by_restitution.front());
             continue;
         }
         const BoundaryLine line{
@@ -140,17 +140,17 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
             .restitution = ratio,
             .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first()),
             .unit = unit};
-        answer.restituted.push_back(
+        answer.by_restitution.push_back(
             {ratio / r_max, ratio,
              toppling_ranges(job.scene, line, answer.lifting_pga, options.pga_max, answer.pga)});
     }
     return answer;
 }
 
-double most_undecided_of(const std::vector<Restituted>& restituted)
+double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
 {
     double most = 0;
-    for (const Restituted& each : restituted) {
+    for (const RestitutionAnswer& each : answers) {
         most = std::max(most, each.ranges.undecided_share);
     }
     return most;
@@ -159,7 +159,7 @@ double most_undecided_of(const std::vector<Restituted>& restituted)
 void print_answer(const Job& job, const ToppleOptions& options, const Answer& answer)
 {
     const double alpha = job.plane.slenderness.first();
-    const Restituted& asked = answer.restituted.front();
+    const RestitutionAnswer& requested = answer.by_restitution.front();
     const bool is_recorded = job.scene.is_recorded();
     print_row("block", fmt::format("{} m x {} m, {}", options.width, options.height,
                                    dimension_lines(job)[0]));
@@ -167,26 +167,27 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
                             ? printable(fmt::format("{}, unscaled peak {:.4g} g", options.record,
                                                     job.motions.front().measures.pga))
                             : fmt::format("{}, period {} s", options.pulse, *options.period));
-    print_row("restitution", asked.share == 1 ? fmt::format("r = r_max = {:.4g}", asked.ratio)
-                                              : fmt::format("r = {:.4g} = {:.4g} r_max",
-                                                            asked.ratio, asked.share));
+    print_row("restitution",
+              requested.share == 1
+                  ? fmt::format("r = r_max = {:.4g}", requested.ratio)
+                  : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
     if (!answer.verdict.empty()) {
         print_row("verdict", fmt::format("{} at {:.4g} g", answer.verdict, answer.pga));
         print_row("peak tilt", peak_text(answer.peak, alpha));
     }
     print_row("lifts from", fmt::format("{:.4f} g", answer.lifting_pga));
-    print_row("topples", asked.ranges.text());
+    print_row("topples", requested.ranges.text());
     fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration, up to {} g, of\n", "r/r_max",
                "r", options.pga_max);
-    for (std::size_t i = 1; i < answer.restituted.size(); ++i) {
-        const Restituted& other = answer.restituted[i];
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        const RestitutionAnswer& other = answer.by_restitution[i];
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio, other.ranges.text(6));
     }
     if (is_recorded) {
         fmt::print(
-            "\nUnder a record thinner ranges exist, between the steps of {:.1g} %. Undecided are "
-            "up to {:.2g} % of the accelerations.\n",
-            100 * toppling_step, 100 * most_undecided_of(answer.restituted));
+            "\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. Up to "
+            "{:.2g} % of the accelerations are undecided.\n",
+            100 * toppling_step, 100 * most_undecided_of(answer.by_restitution));
     }
 }
 
@@ -196,39 +197,39 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
         return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
     };
     const double alpha = job.plane.slenderness.first();
-    const auto ranges_of = [&](const Restituted& restituted) {
+    const auto ranges_of = [&](const RestitutionAnswer& each) {
         return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
                            "\"toppling_pga\": {}, \"undecided_share\": {}",
-                           restituted.ratio, restituted.share, restituted.ranges.json(),
-                           restituted.ranges.undecided_share);
+                           each.ratio, each.share, each.ranges.json(), each.ranges.undecided_share);
     };
     std::string others;
-    for (std::size_t i = 1; i < answer.restituted.size(); ++i) {
-        others += fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", ranges_of(answer.restituted[i]));
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        others +=
+            fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", ranges_of(answer.by_restitution[i]));
     }
-    const bool is_asked = !answer.verdict.empty();
-    fmt::print("{{\n"
-               "  \"topples\": {},\n"
-               "  \"pga\": {},\n"
-               "  \"peak_of_alpha\": {},\n"
-               "  \"peak_degrees\": {},\n"
-               "  \"slenderness\": {},\n"
-               "  \"frequency_parameter\": {},\n"
-               "  \"gravity\": {},\n"
-               "  \"lifting_pga\": {},\n"
-               "  \"pga_max\": {},\n"
-               "  \"thinner_ranges_exist\": {},\n"
-               "  {},\n"
-               "  \"by_restitution\": [{}\n  ]\n"
-               "}}\n",
-               answer.verdict == "topples"           ? "true"
-               : answer.verdict == "does not topple" ? "false"
-                                                     : "null",
-               is_asked ? number(answer.pga) : "null", is_asked ? number(answer.peak) : "null",
-               is_asked ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
-               *parameter_of_only_block(job), job.scene.gravity, answer.lifting_pga,
-               options.pga_max, job.scene.is_recorded(), ranges_of(answer.restituted.front()),
-               others);
+    const bool is_requested = !answer.verdict.empty();
+    fmt::print(
+        "{{\n"
+        "  \"topples\": {},\n"
+        "  \"pga\": {},\n"
+        "  \"peak_of_alpha\": {},\n"
+        "  \"peak_degrees\": {},\n"
+        "  \"slenderness\": {},\n"
+        "  \"frequency_parameter\": {},\n"
+        "  \"gravity\": {},\n"
+        "  \"lifting_pga\": {},\n"
+        "  \"pga_max\": {},\n"
+        "  \"narrower_ranges_exist\": {},\n"
+        "  {},\n"
+        "  \"by_restitution\": [{}\n  ]\n"
+        "}}\n",
+        answer.verdict == "topples"           ? "true"
+        : answer.verdict == "does not topple" ? "false"
+                                              : "null",
+        is_requested ? number(answer.pga) : "null", is_requested ? number(answer.peak) : "null",
+        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
+        *parameter_of_only_block(job), job.scene.gravity, answer.lifting_pga, options.pga_max,
+        job.scene.is_recorded(), ranges_of(answer.by_restitution.front()), others);
 }
 
 /// plot_history of the folder in which this program is installed, or of its source folder.

@@ -1,8 +1,8 @@
 // The roles of the ranks in a farm, and their messages: rank 0 leads, all others work, and both
 // compute tiles. A worker requests its next range while it computes the current one, and rank 0
-// answers at once while tiles are left. Then rank 0 keeps the request. At intervals it answers with
-// an empty range, after which the worker repeats its request, which shows that it is alive; the
-// last answer is `end_of_work`.
+// answers at once while tiles are left. Once none is left, rank 0 keeps the request. At
+// intervals it answers with an empty range, after which the worker repeats its request, which shows
+// that it is alive; the last answer is `end_of_work`.
 #pragma once
 
 #include "overturn/farm/farm.hpp"

@@ -93,11 +93,13 @@ void add_columns(const Table& table)
               &Row::velocity);
     table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
               &Row::margin);
-    table.add("flips", "number of points with a wrong verdict", "1", &Row::flips);
-    table.add("flips_by_region", "region", "number of points of the region with a wrong verdict",
-              "1", &Row::flips_by_region);
-    table.add("flips_by_distance", "distance", "number of points of the class with a wrong verdict",
-              "1", &Row::flips_by_distance);
+    table.add("wrong_verdicts", "number of points with a wrong verdict", "1", &Row::wrong_verdicts);
+    table.add("wrong_verdicts_by_region", "region",
+              "number of points of the region with a wrong verdict", "1",
+              &Row::wrong_verdicts_by_region);
+    table.add("wrong_verdicts_by_distance", "distance",
+              "number of points of the class with a wrong verdict", "1",
+              &Row::wrong_verdicts_by_distance);
     table.add("undecided", "number of points without a verdict", "1", &Row::undecided);
     table.add("bound_exceeded", "share of the points whose error of the margin exceeds its bound",
               "1", &Row::bound_exceeded);

@@ -334,7 +334,7 @@ std::vector<Coordinate> coordinates_of(const Job& job)
         add_measures(job, all);
     } else if (plane.size) {
         all.push_back(other_frequency(job));
-        if (!is_boundary) { // a boundary has crossings instead of amplitudes
+        if (!is_boundary) { // a boundary has flips instead of amplitudes
             all.push_back(other_amplitude(job));
         }
     }

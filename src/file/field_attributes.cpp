@@ -33,6 +33,7 @@ Description description_of(Field field, const Job& job)
     const std::string regions = fmt::format("{}", fmt::join(region_names, " "));
     const std::vector<std::uint8_t> regions_or_none{0, 1, 2, 3, 4, 5, 6, 7, 8, no_flip, 254, 255};
     const std::string or_none = regions + " no_flip undecided not_computed";
+    const bool is_recorded = job.scene.is_recorded();
     switch (field) {
     case Field::region:
         return {
@@ -75,35 +76,40 @@ Description description_of(Field field, const Job& job)
         return {
             fmt::format("{} at which the verdict flips, in ascending order; NaN beyond the last "
                         "flip",
-                        job.scene.is_recorded() ? "scale" : "amplitude"),
+                        is_recorded ? "scale" : "amplitude"),
             "1",
-            "each flip lies between two amplitudes with settled verdicts, at most `width` apart "
-            "relative to their size. If region_below or region_above is undecided, the value is "
-            "not a flip but the settled amplitude next to the undecided range. Between neighbours "
-            "of the scan the steps were halved where margins bend or impacts change, down to "
-            "`finest_step` of the amplitude. Strips that are thinner, or that the neighbouring "
-            "amplitudes do not indicate, may be missed; under a record there always are such "
-            "strips"};
+            is_recorded
+                ? "each flip lies between two amplitudes with settled verdicts, at most `width` "
+                  "apart relative to their size. If region_below or region_above is undecided, the "
+                  "value is not a flip but the settled amplitude next to the undecided range. The "
+                  "steps of the scan were divided evenly until each was at most `finest_step` of "
+                  "the amplitude. Narrower strips exist and are missed"
+                : "each flip lies between two amplitudes with settled verdicts, at most `width` "
+                  "apart relative to their size. If region_below or region_above is undecided, the "
+                  "value is not a flip but the settled amplitude next to the undecided range. "
+                  "Between neighbours of the scan the steps were halved where the margin is not "
+                  "linear or the number of impacts changes, down to `finest_step` of the "
+                  "amplitude. Strips that are narrower, or that the neighbouring amplitudes do not "
+                  "indicate, may be missed"};
     case Field::flip_pga:
         return {"peak ground acceleration at which the verdict flips, over g", "1"};
     case Field::region_below:
         return {
             "region just below the flip", "",
-            "if there is no flip, the first crossing has the region at the first amplitude of the "
-            "scan. "
-            "A first flip above a safe region is the minimum overturning amplitude. If the first "
-            "crossing has an unsafe region below, the block overturns at the first amplitude of "
-            "the job",
+            "if there is no flip, the first entry along `crossing` has the region at the first "
+            "amplitude of the scan. A first flip above a safe region is the minimum overturning "
+            "amplitude. If the first entry has an unsafe region below, the block overturns at the "
+            "first amplitude of the job",
             regions_or_none, or_none};
     case Field::region_above:
         return {"region just above the flip", "",
                 "undecided: verdicts could not be settled up to the next flip, or this is the last "
-                "crossing and there are more flips",
+                "stored flip and there are more",
                 regions_or_none, or_none};
     case Field::unsafe_share:
         return {"share of the scanned interval in which the block overturns", "1",
-                "under a record there are ever more flips at ever smaller steps; this share "
-                "depends on them little. Flips beyond the last crossing are included"};
+                "under a record, smaller steps find more flips; this share hardly depends on the "
+                "step. Flips beyond the last stored flip are included"};
     case Field::undecided_share:
         return {"share of the scanned interval in which the verdict could not be settled", "1"};
     }

@@ -14,7 +14,7 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-/// `pga` was named peak_ground_acceleration before version 1.0.
+/// `pga` was named peak_ground_acceleration in earlier files of format 2.
 std::string stored_name_of(const std::string& coordinate, hid_t file)
 {
     const bool has_old_name =

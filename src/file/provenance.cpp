@@ -59,23 +59,23 @@ std::string sidecar_of(const std::string& spectrum_path)
     return spectrum_path + ".json";
 }
 
-std::string as_json(const RunRecord& record)
+std::string as_json(const RunInfo& run)
 {
-    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(record.start);
+    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(run.start);
     std::string text(sidecar_beginning);
     text += fmt::format("{},\n", quoted(program_version()));
     text += fmt::format("  \"program_commit\": {},\n", quoted(program_commit()));
     text += fmt::format("  \"start\": \"{:%Y-%m-%dT%H:%M:%SZ}\",\n", fmt::gmtime(start));
-    text += fmt::format("  \"wall_seconds\": {},\n", record.wall_seconds);
-    text += fmt::format("  \"kernel\": {},\n", quoted(record.kernel));
+    text += fmt::format("  \"wall_seconds\": {},\n", run.wall_seconds);
+    text += fmt::format("  \"kernel\": {},\n", quoted(run.kernel));
     text += fmt::format("  \"compiler\": {},\n", quoted(compiler_version()));
     text += fmt::format("  \"hdf5\": {},\n", quoted(hdf5_version()));
     text += fmt::format("  \"mpi\": {},\n", quoted(mpi_version()));
-    text += fmt::format("  \"requests\": {},\n", record.requests);
-    text += fmt::format("  \"dealing_seconds\": {},\n", record.dealing_seconds);
+    text += fmt::format("  \"requests\": {},\n", run.requests);
+    text += fmt::format("  \"dealing_seconds\": {},\n", run.dealing_seconds);
     text += "  \"ranks\": [";
     const char* separator = "\n";
-    for (const RankRecord& rank : record.ranks) {
+    for (const RankInfo& rank : run.ranks) {
         text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"compute_seconds\": {}, "
                             "\"write_seconds\": {}}}",
                             separator, quoted(rank.host), rank.tiles, rank.compute_seconds,
@@ -120,24 +120,25 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
     }
     if (beginning != sidecar_beginning) {
         throw FileError(
-            fmt::format("\"{}\" exists but is not the record of an overturn run. Move it "
+            fmt::format("\"{}\" exists but is not the sidecar file of an overturn run. Move it "
                         "away, or choose another name with -o.",
                         path));
     }
 }
 
-void write_sidecar(const std::string& spectrum_path, const RunRecord& record)
+void write_sidecar(const std::string& spectrum_path, const RunInfo& run)
 {
     demand_place_for_sidecar(spectrum_path); // a file may have appeared during the run
     PartFile part(sidecar_of(spectrum_path));
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
-    stream << as_json(record);
+    stream << as_json(run);
     stream.close();
     if (!stream) {
-        throw FileError(fmt::format("cannot write \"{0}.json\", the record of this run: {1}. The "
-                                    "computed tiles are in \"{0}\" nevertheless.",
-                                    spectrum_path, system_reason(errno)));
+        throw FileError(
+            fmt::format("cannot write \"{0}.json\", the sidecar file of this run: {1}. The "
+                        "computed tiles are in \"{0}\" nevertheless.",
+                        spectrum_path, system_reason(errno)));
     }
     part.move_into_place();
 }

@@ -70,7 +70,8 @@ void check_range(const Entry& entry, const AxisRange& range)
     const Entry count_entry = *find(entry, "count");
     if (first > last) {
         refuse(first_entry,
-               fmt::format(" = {} is above last = {}. Axes must ascend: swap them.", first, last));
+               fmt::format(" = {} is above last = {}. Axes must ascend. Swap first and last.",
+                           first, last));
     }
     if (count == 1 && first != last) {
         refuse(count_entry, fmt::format(" = 1 needs first = last, but first = {} and last = {}. "

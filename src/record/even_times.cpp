@@ -13,7 +13,7 @@ namespace overturn {
 
 namespace {
 
-// Thirty years: what is beyond is no time of a record, and might overflow.
+// Thirty years: a larger value cannot be a time in a record, and might overflow.
 constexpr double largest_time = 1e9; // [s]
 
 /// The unit of the last printed digit: 0.001 for 1.250 and 10 for 1e1 [s].

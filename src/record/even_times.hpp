@@ -17,7 +17,7 @@ namespace overturn {
 /// for one step. Each time bounds the step on both sides; what is kept is the range that is left.
 class EvenTimes {
 public:
-    /// Refuses a word of the current line that is no number, or a time that is not after the one
+    /// Refuses a word of the current line that is not a number, or a time that is not after the one
     /// before or cannot be even with those before.
     void add(const Lines& lines, std::string_view word);
 

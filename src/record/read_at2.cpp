@@ -69,8 +69,9 @@ void expect_acceleration_in_g(const Lines& lines)
     const std::string_view line = lines.line();
     if (!contains(line, "ACCELERATION") &&
         (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT"))) {
-        lines.refuse(fmt::format("{} is no acceleration. Give the AT2 file of this record.",
-                                 quoted(trimmed(line))));
+        lines.refuse(
+            fmt::format("{} does not contain accelerations. Give the AT2 file of this record.",
+                        quoted(trimmed(line))));
     }
     const std::size_t place = place_after(line, "UNITS OF");
     if (place == line.npos) {

@@ -121,9 +121,11 @@ RecordFile read_text_with_unit(const Lines& lines, const std::string& name,
                                const RecordOptions& options)
 {
     if (!options.unit) {
-        refuse_record(name, fmt::format("text does not state the unit of its accelerations. Give "
-                                        "the unit: {}.",
-                                        fmt::join(acceleration_unit_names, ", ")));
+        refuse_record(
+            name,
+            fmt::format("files in text format do not state the unit of the accelerations. Give "
+                        "the unit: {}.",
+                        fmt::join(acceleration_unit_names, ", ")));
     }
     return read_text(lines, options);
 }

@@ -29,7 +29,7 @@ constexpr double no_value = 1.7e38; // stands for numbers that are not known
 void expect_accelerogram(const Lines& lines)
 {
     if (!contains(lines.line(), "ACCELEROGRAM")) {
-        lines.refuse(fmt::format("{} is no accelerogram. Give the file of the acceleration.",
+        lines.refuse(fmt::format("{} is not an accelerogram. Give the file of the acceleration.",
                                  quoted(trimmed(lines.line()))));
     }
 }

@@ -56,7 +56,7 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected)
 void expect_time_step_of_column(const Lines& lines, const std::optional<double>& time_step)
 {
     if (!time_step) {
-        lines.refuse("the file has one column, so that the time step is not known. Give time_step "
+        lines.refuse("the file has one column, so the time step is not known. Give time_step "
                      "in seconds, or two columns with time in seconds first.");
     }
 }
@@ -106,8 +106,8 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
         component.acceleration.push_back(number_of(lines, row.columns[columns - 1]));
     }
     if (columns == 2 && times.size() == 1) {
-        lines.refuse("the file has one sample, but the time step follows from two or more times. "
-                     "Give the complete file.");
+        lines.refuse("the file has one sample, but the time step can be determined only from two "
+                     "or more. Give the complete file.");
     }
     component.header = std::move(header).kept();
     component.time_step = columns == 1 ? *options.time_step : times.step();

@@ -157,9 +157,9 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
                 ++row.undecided;
             } else if (true_region[point] < decided_regions &&
                        is_safe(Region(region[point])) != is_safe(Region(true_region[point]))) {
-                ++row.flips;
-                ++row.flips_by_region[true_region[point]];
-                ++row.flips_by_distance[distance_class(true_margin[point])];
+                ++row.wrong_verdicts;
+                ++row.wrong_verdicts_by_region[true_region[point]];
+                ++row.wrong_verdicts_by_distance[distance_class(true_margin[point])];
             }
         }
         for (; exact != in_digits_.end() && exact->tile == i; ++exact) {

@@ -122,7 +122,7 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
 }
 
 /// Bisects between two amplitudes at which the block overturns to different sides. Returns a safe
-/// amplitude, or the two closest ones if a verdict cannot be settled or the safe strip is thinner
+/// amplitude, or the two closest ones if a verdict cannot be settled or the safe strip is narrower
 /// than the flip width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {

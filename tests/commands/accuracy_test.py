@@ -44,15 +44,15 @@ class AnAccuracyStudy(Scratch):
         self.study()
         with h5py.File(self.folder / "study.h5") as file:
             resolved = file["resolve"][:] == 1
-            self.assertEqual(file["flips"][:][resolved].sum(), 0)
-            self.assertGreater(file["flips"][:][file["tolerance"][:] == 1e-2].max(), 0)
+            self.assertEqual(file["wrong_verdicts"][:][resolved].sum(), 0)
+            self.assertGreater(file["wrong_verdicts"][:][file["tolerance"][:] == 1e-2].max(), 0)
 
     def test_opens_in_xarray_with_its_coordinates(self):
         self.study()
         for engine in ("netcdf4", "h5netcdf"):
             with xarray.open_dataset(self.folder / "study.h5", engine=engine) as found:
                 self.assertEqual(found.margin_error.dims, ("setting", "quantile"))
-                self.assertEqual(found.flips_by_region.dims, ("setting", "region"))
+                self.assertEqual(found.wrong_verdicts_by_region.dims, ("setting", "region"))
                 self.assertEqual(list(found["quantile"].values), [0.5, 0.9, 0.99, 0.999, 1])
 
     def test_replaces_an_older_study_and_nothing_else(self):

@@ -1,4 +1,4 @@
-"""Jobs in metres, seconds, Hz and g, and their twins in dimensionless numbers."""
+"""Jobs in metres, seconds, Hz and g, and the equivalent dimensionless jobs."""
 
 import math
 import unittest
@@ -40,22 +40,22 @@ class Dimensions(Scratch):
         with xarray.open_dataset(self.folder / name) as data:
             return data.load()
 
-    def twin(self, command, data, *arguments, slenderness=0):
+    def equivalent(self, command, data, *arguments, slenderness=0):
         """Computes the same points with the values of the auxiliary coordinates as axes."""
         frequency = np.sort(data.frequency.values)
         amplitude = data.amplitude.values.reshape(-1, len(data.pga))[slenderness]
-        return self.compute(command, f"twin{slenderness}.h5", "--set",
+        return self.compute(command, f"equivalent{slenderness}.h5", "--set",
                             f"plane.frequency.values={list(map(float, frequency))}", "--set",
                             f"plane.amplitude.values={list(map(float, amplitude))}", "--set",
                             "plane.slenderness.values="
                             f"[{float(data.slenderness[slenderness])!r}]", *arguments)
 
-    def assert_equal(self, data, twin, order):
+    def assert_equal(self, data, equivalent, order):
         for name in ("region", "angle", "velocity", "margin"):
-            self.assertTrue(np.array_equal(data[name].values[..., order], twin[name].values[0],
-                                           equal_nan=True), name)
+            self.assertTrue(np.array_equal(data[name].values[..., order],
+                                           equivalent[name].values[0], equal_nan=True), name)
 
-    def test_a_period_and_a_peak_acceleration_have_the_bits_of_their_twin(self):
+    def test_a_period_and_a_peak_acceleration_have_the_bits_of_dimensionless_axes(self):
         for theory in ("nonlinear", "linear"):
             theory = ("--set", f"scene.theory={theory}")
             data = self.compute("run", f"{theory[1][-9:]}.h5", *theory)
@@ -64,9 +64,9 @@ class Dimensions(Scratch):
             self.assertTrue(np.allclose(data.frequency, 2 * np.pi / (P * data.pulse_period),
                                         rtol=1e-15))
             self.assertTrue((np.diff(data.frequency) < 0).all())
-            self.assert_equal(data.isel(slenderness=0), self.twin("run", data, *theory),
+            self.assert_equal(data.isel(slenderness=0), self.equivalent("run", data, *theory),
                               slice(None, None, -1))
-            (self.folder / "twin0.h5").unlink()
+            (self.folder / "equivalent0.h5").unlink()
 
     def test_a_frequency_in_hertz_and_several_slendernesses_do_too(self):
         data = self.compute("run", "hertz.h5", *TWO_BLOCKS, "--set",
@@ -76,7 +76,7 @@ class Dimensions(Scratch):
         for i in (0, 1):
             self.assertTrue(np.allclose(data.amplitude[i],
                                         data.pga / np.tan(data.slenderness[i]), rtol=1e-15))
-            self.assert_equal(data.isel(slenderness=i), self.twin("run", data, slenderness=i),
+            self.assert_equal(data.isel(slenderness=i), self.equivalent("run", data, slenderness=i),
                               slice(None))
 
     def test_dimensionless_axes_have_their_equivalents(self):
@@ -98,14 +98,14 @@ class Dimensions(Scratch):
         self.assertTrue(np.allclose(data.scan_pga, np.linspace(0.1, 5, 40), rtol=1e-15))
         self.assertTrue(np.allclose(data.flip_pga, data.flip_amplitude / 3, rtol=1e-15,
                                     equal_nan=True))
-        twin = self.compute("boundary", "t.h5", *few, "--set",
-                            "plane.amplitude={ first = 0.3, last = 15, count = 40 }")
+        equivalent = self.compute("boundary", "t.h5", *few, "--set",
+                                  "plane.amplitude={ first = 0.3, last = 15, count = 40 }")
         self.assertGreater(np.isfinite(data.flip_pga).sum(), 8)
         # Each flip is between verdicts that are 1e-12 apart.
-        self.assertTrue(np.allclose(data.flip_pga, twin.flip_pga, rtol=2e-12, equal_nan=True))
-        self.assertTrue(np.array_equal(data.region_above, twin.region_above))
+        self.assertTrue(np.allclose(data.flip_pga, equivalent.flip_pga, rtol=2e-12, equal_nan=True))
+        self.assertTrue(np.array_equal(data.region_above, equivalent.region_above))
 
-    def test_a_history_is_that_of_its_twin(self):
+    def test_a_history_is_that_of_the_equivalent_dimensionless_job(self):
         at = "--at=pulse_period=0.5,pga=0.4,restitution=1"
         result = self.overturn("history", "job.toml", at, "-o", "h.h5")
         self.assert_exit(result, 0, "peak 0.8868 degrees, 4.81 % of alpha", "time [s]",

@@ -14,7 +14,7 @@ TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 
 class ABoundaryUnderARecord(ScratchWithRecords):
     SIZES = "plane.size.values=[0.4, 0.6, 0.9]"
-    STRIPS = "strips thinner than the steps of the scan exist"
+    STRIPS = "strips narrower than the steps of the scan exist"
 
     def boundary(self, *arguments, out="boundary.h5", ranks=None):
         result = self.overturn("boundary", "job.toml", "-o", out, "--set", self.SIZES, "--set",
@@ -55,7 +55,7 @@ class ABoundaryUnderARecord(ScratchWithRecords):
             flips = whole.flip_amplitude.values[:, column]
             wide = np.diff(np.concatenate([[1.0], flips])) > 2 * step
             # Every scan finds the flip between two wide strips in the step that contains it, or, if
-            # one end of this step is in a thinner strip, in the next one.
+            # one end of this step is in a narrower strip, in the next one.
             for flip in flips[:-1][wide[:-1] & wide[1:]]:
                 found = divided.flip_amplitude.values[:, column]
                 self.assertLess(np.nanmin(np.abs(found - flip)), 2 * step)
@@ -96,12 +96,12 @@ class ABoundaryUnderARecord(ScratchWithRecords):
         self.assertEqual((self.folder / "boundary.h5").read_bytes(), whole)
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, self.STRIPS, "unsafe_share")
 
-    def test_is_drawn_with_a_note_on_thinner_strips(self):
+    def test_is_drawn_with_a_note_on_narrower_strips(self):
         self.boundary("--set", "plane.scale={ first = 1.0, last = 1.5, count = 11 }")
         subprocess.run([TOOLS / "plot_boundary", "boundary.h5", "-o", "boundary.svg"], cwd=self.folder,
                        check=True, capture_output=True, timeout=60)
         picture = (self.folder / "boundary.svg").read_text()
-        for words in ("Scanned in steps of 0.1 %", "thinner strips", "lowest flip found",
+        for words in ("Scanned in steps of 0.1 %", "narrower strips", "lowest flip found",
                       "scale of the record"):
             self.assertIn(words, picture)
 

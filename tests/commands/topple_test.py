@@ -60,13 +60,13 @@ class Toppling(Scratch):
         self.assertEqual([round(share, 12) for share in shares], [0.8, 0.85, 0.9, 0.95, 1])
         self.assertEqual(self.answer(*PULSE, "--pga-max", "0.3")["toppling_pga"], [])
 
-    def test_under_a_record_says_that_thinner_ranges_exist(self):
+    def test_under_a_record_says_that_narrower_ranges_may_be_missed(self):
         began = time.monotonic()
         text = self.topple(*RECORD, "--scale", "1.5")
         self.assertLess(time.monotonic() - began, 60)
         self.assertIn("does not topple at 0.6 g", text)
-        self.assertIn("thinner ranges exist", text)
-        self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["thinner_ranges_exist"])
+        self.assertIn("ranges narrower than the steps of 0.5 % may be missed", text)
+        self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["narrower_ranges_exist"])
 
     def test_under_a_record_has_the_verdict_of_the_spectrum_in_its_ranges(self):
         (self.folder / "job.toml").write_text(f"""

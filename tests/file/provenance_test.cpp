@@ -12,29 +12,29 @@ namespace {
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
-RunRecord sample_record()
+RunInfo sample_run()
 {
-    RunRecord record;
-    record.start = std::chrono::system_clock::time_point(std::chrono::seconds(1'600'000'000));
-    record.wall_seconds = 12.5;
-    record.kernel = "avx2";
-    record.requests = 17;
-    record.dealing_seconds = 0.5;
-    record.ranks = {{"node\"1\"\\\n", 4117, 12.25, 0.125}, {"node2", 0, 0, 0}};
-    return record;
+    RunInfo run;
+    run.start = std::chrono::system_clock::time_point(std::chrono::seconds(1'600'000'000));
+    run.wall_seconds = 12.5;
+    run.kernel = "avx2";
+    run.requests = 17;
+    run.dealing_seconds = 0.5;
+    run.ranks = {{"node\"1\"\\\n", 4117, 12.25, 0.125}, {"node2", 0, 0, 0}};
+    return run;
 }
 
 TEST(Sidecar, IsWrittenNextToTheSpectrum)
 {
     const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_record());
+    write_sidecar(folder / "a.h5", sample_run());
     EXPECT_TRUE(std::filesystem::exists(folder / "a.h5.json"));
 }
 
 TEST(Sidecar, StatesTimeAndHostOfTheRun)
 {
     const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_record());
+    write_sidecar(folder / "a.h5", sample_run());
     const std::string text = bytes_of(folder / "a.h5.json");
     // `date -u -d @1600000000`
     EXPECT_THAT(text, HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
@@ -51,18 +51,18 @@ TEST(Sidecar, StatesTimeAndHostOfTheRun)
 TEST(Sidecar, EscapesCharactersReservedInJson)
 {
     const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_record());
+    write_sidecar(folder / "a.h5", sample_run());
     EXPECT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr(R"("node\"1\"\\\u000a")"));
 }
 
 TEST(Sidecar, ReplacesAnOlderOne)
 {
     const ScratchFolder folder;
-    RunRecord longer = sample_record();
+    RunInfo longer = sample_run();
     longer.kernel = std::string(10000, 'x');
     write_sidecar(folder / "a.h5", longer);
     ASSERT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr("xx"));
-    write_sidecar(folder / "a.h5", sample_record());
+    write_sidecar(folder / "a.h5", sample_run());
     EXPECT_THAT(bytes_of(folder / "a.h5.json"), Not(HasSubstr("xx")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
 }
@@ -71,7 +71,7 @@ TEST(Sidecar, DoesNotReplaceAForeignFile)
 {
     const ScratchFolder folder;
     write_bytes(folder / "a.h5.json", "somebody else's");
-    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_record()), FileError);
+    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_run()), FileError);
     EXPECT_EQ(bytes_of(folder / "a.h5.json"), "somebody else's");
 }
 
@@ -80,10 +80,11 @@ TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
     const ScratchFolder folder;
     const FileSizeLimit limit(20);
     try {
-        write_sidecar(folder / "a.h5", sample_record());
+        write_sidecar(folder / "a.h5", sample_run());
         ADD_FAILURE() << "the sidecar was written";
     } catch (const FileError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("a.h5.json\", the record of this run: file too large"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("a.h5.json\", the sidecar file of this run: file too large"));
         EXPECT_THAT(error.what(), HasSubstr("nevertheless"));
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
@@ -92,7 +93,7 @@ TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 TEST(Sidecar, RequiresAFolder)
 {
     const ScratchFolder folder;
-    EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_record()), FileError);
+    EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_run()), FileError);
 }
 
 TEST(ProgramIdentity, HasAVersionAndACommit)

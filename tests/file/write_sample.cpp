@@ -60,15 +60,15 @@ void write_sample(const std::string& path, Stop stop)
     }
     file.close();
     if (rank == 0) {
-        RunRecord record;
-        record.start = std::chrono::system_clock::now();
-        record.wall_seconds = 1.5;
-        record.kernel = "double";
-        record.ranks.resize(std::size_t(ranks), {.host = "a \"host\"",
-                                                 .tiles = written,
-                                                 .compute_seconds = 1.25,
-                                                 .write_seconds = 0.25});
-        write_sidecar(path, record);
+        RunInfo run;
+        run.start = std::chrono::system_clock::now();
+        run.wall_seconds = 1.5;
+        run.kernel = "double";
+        run.ranks.resize(std::size_t(ranks), {.host = "a \"host\"",
+                                              .tiles = written,
+                                              .compute_seconds = 1.25,
+                                              .write_seconds = 0.25});
+        write_sidecar(path, run);
     }
 }
 

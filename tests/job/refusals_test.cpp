@@ -124,7 +124,7 @@ MISTAKES(Lists,
     {"ListAndSpacing", 6, "amplitude = { values = [1], spacing = \"log\" }", "6:39", {"spacing cannot be combined with"}});
 
 MISTAKES(Ranges,
-    {"FirstAboveLast", 5, "frequency = { first = 3, last = 1, count = 2 }", "5:23", {"first = 3 is above last = 1", "swap"}},
+    {"FirstAboveLast", 5, "frequency = { first = 3, last = 1, count = 2 }", "5:23", {"first = 3 is above last = 1", "Swap first and last"}},
     {"ACountOfZero", 5, "frequency = { first = 1, last = 2, count = 0 }", "5:44", {"count = 0 is below 1"}},
     {"ANegativeCount", 5, "frequency = { first = 1, last = 2, count = -3 }", "5:44", {"count = -3 is below 1"}},
     {"ASingleValueWithTwoEnds", 5, "frequency = { first = 1, last = 2, count = 1 }", "5:44", {"count = 1 needs first = last"}},

@@ -48,7 +48,7 @@ TEST_P(EveryPulse, HasNoExtremumExceptItsPeaks)
     }
 }
 
-TEST_P(EveryPulse, HasNoLargerSecondDerivativeThanItTells)
+TEST_P(EveryPulse, HasNoLargerSecondDerivativeThanItsBound)
 {
     // The bound of low_bounces.hpp. A second difference is the mean of f'' over the two steps; its
     // rounding error is 4 epsilon / step^2, at most 1e-8.

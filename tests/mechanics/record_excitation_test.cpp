@@ -222,7 +222,7 @@ TEST(RecordExcitation, ALaterUpliftIsLater)
     }
 }
 
-TEST(RecordExcitation, MirroredIsMirrored)
+TEST(RecordExcitation, MirroredRecordMirrorsThePush)
 {
     std::mt19937_64 generator(8);
     for (int i = 0; i < 1000; ++i) {

@@ -20,8 +20,8 @@ class OneSine(unittest.TestCase):
         self.all = spectrum("07a")
         self.i, self.ii, self.iv, self.vi, self.vii = map(self.all.of,
                                                           ("U0+", "S", "U1+", "U0-", "F-"))
-        # V continues towards longer periods as a strip thinner than the spacing of the points: 8 of
-        # its points are not connected with the others.
+        # V continues towards longer periods as a strip narrower than the spacing of the points: 8
+        # of its points are not connected with the others.
         strips = parts(self.all.of("S+"))[:2]
         self.iii, self.v = sorted(strips, key=lambda part: self.all.amplitude[part].min())
 

@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Of, At2Refusal, testing::Values(
     Refusal{"AWordAsTimeStep", at2("NPTS= 3, DT= unknown"),
             "a.txt:4: \"unknown\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
     Refusal{"Velocities", with(sound, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"),
-            "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" is no acceleration. Give the AT2 file of this "
+            "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" does not contain accelerations. Give the AT2 file of this "
             "record."},
     Refusal{"AnotherUnit", with(sound, "OF G", "OF CM/S/S, FILTERED"),
             "a.txt:3: the unit is \"CM/S/S\", but must be G in AT2 files. Give the values as text with their "

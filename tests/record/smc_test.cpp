@@ -104,11 +104,11 @@ TEST_P(SmcRefusal, NamesFileLineAndReason)
 // clang-format off
 INSTANTIATE_TEST_SUITE_P(Of, SmcRefusal, testing::Values(
     Refusal{"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
-            "a.txt:1: \"3 VELOCITY\" is no accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"3 VELOCITY\" is not an accelerogram. Give the file of the acceleration."},
     Refusal{"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
-            "a.txt:1: \"4 DISPLACEMENT\" is no accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"4 DISPLACEMENT\" is not an accelerogram. Give the file of the acceleration."},
     Refusal{"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
-            "a.txt:1: \"5 RESPONSE SPECTRA\" is no accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"5 RESPONSE SPECTRA\" is not an accelerogram. Give the file of the acceleration."},
     Refusal{"FewerSamples", with(sound, "-9.7655E-1", ""),
             "a.txt:31: the file ends after 9 samples, but the header announces 10 in line 14. Give the complete "
             "file."},

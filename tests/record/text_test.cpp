@@ -40,13 +40,13 @@ TEST(Text, KeepsItsCommentsAsHeader)
               header);
 }
 
-TEST(Text, IsNoAt2FileIfTheFourthLineIsAComment)
+TEST(Text, IsNotAnAt2FileIfTheFourthLineIsAComment)
 {
     EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .01\n1\n2\n", one_column).acceleration,
               (Values{1, 2}));
 }
 
-TEST(Text, IsNoSmcFileIfItBeginsWithADigit)
+TEST(Text, IsNotAnSmcFileIfItBeginsWithADigit)
 {
     EXPECT_EQ(component_of("2 1\n3 1\n", in_g).time_step, 1);
 }
@@ -153,11 +153,11 @@ constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
 // clang-format off
 INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
     Refusal{"AMissingUnit", "0.1\n", only_a_time_step,
-            "a.txt: text does not state the unit of its accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+            "a.txt: files in text format do not state the unit of the accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
     Refusal{"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
-            "a.txt: text does not state the unit of its accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+            "a.txt: files in text format do not state the unit of the accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
     Refusal{"AMissingTimeStep", "# a\n0.1\n", in_g,
-            "a.txt:2: the file has one column, so that the time step is not known. Give time_step in seconds, or "
+            "a.txt:2: the file has one column, so the time step is not known. Give time_step in seconds, or "
             "two columns with time in seconds first."},
     Refusal{"ATimeStepForTwoColumns", "0 0.1\n1 0.1\n", one_column,
             "a.txt:1: time_step = 0.02 was given, but the file has two columns, which state the times. Remove "
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "a.txt:2: \"1e999\" is outside the range of double precision. Correct it."},
     Refusal{"ATimeThatIsNan", "0 1\nnan 1\n", in_g, "a.txt:2: \"nan\" is not finite. Give a record without gaps."},
     Refusal{"OneTime", "0 1\n", in_g,
-            "a.txt:1: the file has one sample, but the time step follows from two or more times. Give the complete "
+            "a.txt:1: the file has one sample, but the time step can be determined only from two or more. Give the complete "
             "file."},
     Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
             "a.txt:4: the time is 0.040 s, but must be 0.03 s within half a unit of its last digit: times must be "

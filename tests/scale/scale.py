@@ -3,9 +3,9 @@
 
     scale.py [FOLDER] [--part PART] [--points-per-side N] [--more-points-per-side N] [--ranks N] [--seed N]
 
-    ranks    64 ranks on this machine's cores: the same bytes as one rank, also when stopped and
-    resumed points   10^9 points, stopped once and a rank killed once: bounded memory and correct
-    values beyond   the last tiles of a plane of more than 2^32 points
+    ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed
+    points   10^9 points, stopped once and a rank killed once: bounded memory and correct values
+    beyond   the last tiles of a plane of more than 2^32 points
 
 Files are created in a subfolder of FOLDER (or $TMPDIR, or the current folder), which is removed at
 the end; the largest takes 4.4 GB. Requires OVERTURN and MPIEXEC in the environment."""

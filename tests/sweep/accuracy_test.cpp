@@ -66,7 +66,7 @@ TEST(AccuracyStudy, HasErrorsThatDecreaseWithTheTolerance)
         EXPECT_LT(tight.margin[0], 1e-4 * loose.margin[0]);
         EXPECT_GT(tight.steps, loose.steps);
         EXPECT_GT(tight.margin[0], 0);
-        EXPECT_EQ(tight.flips, 0);
+        EXPECT_EQ(tight.wrong_verdicts, 0);
     }
 }
 
@@ -83,15 +83,15 @@ TEST(AccuracyStudy, CurveOfRungeKuttaHasTheSlopeOfItsOrder)
 TEST(AccuracyStudy, FindsWrongVerdictsAtLooseTolerancesAndNoneIfResolved)
 {
     const AccuracyRow loose = study().measure({Method::rk45, 1e-2});
-    EXPECT_GT(loose.flips, 0);
-    EXPECT_EQ(std::accumulate(loose.flips_by_region.begin(), loose.flips_by_region.end(),
-                              std::int64_t(0)),
-              loose.flips);
-    EXPECT_EQ(std::accumulate(loose.flips_by_distance.begin(), loose.flips_by_distance.end(),
-                              std::int64_t(0)),
-              loose.flips);
+    EXPECT_GT(loose.wrong_verdicts, 0);
+    EXPECT_EQ(std::accumulate(loose.wrong_verdicts_by_region.begin(),
+                              loose.wrong_verdicts_by_region.end(), std::int64_t(0)),
+              loose.wrong_verdicts);
+    EXPECT_EQ(std::accumulate(loose.wrong_verdicts_by_distance.begin(),
+                              loose.wrong_verdicts_by_distance.end(), std::int64_t(0)),
+              loose.wrong_verdicts);
     const AccuracyRow resolved = study().measure({Method::taylor, 1e-2, true});
-    EXPECT_EQ(resolved.flips, 0);
+    EXPECT_EQ(resolved.wrong_verdicts, 0);
     EXPECT_EQ(resolved.undecided, 0);
 }
 

@@ -86,7 +86,7 @@ TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsThatOfMakrisAndRoussos)
     }
 }
 
-TEST(Boundary, FindsSafeStripsThatAreThinnerThanAStepOfTheScan)
+TEST(Boundary, FindsSafeStripsThatAreNarrowerThanAStepOfTheScan)
 {
     // Above 3.65 the block overturns to the other side; the strip between is 0.057 wide.
     const Boundary coarse =
@@ -97,9 +97,9 @@ TEST(Boundary, FindsSafeStripsThatAreThinnerThanAStepOfTheScan)
     EXPECT_EQ(coarse.flips[2].region_above, Region::U0_minus);
 }
 
-TEST(Boundary, FindsIslandsThatAreThinnerThanAStepOfTheScan)
+TEST(Boundary, FindsIslandsThatAreNarrowerThanAStepOfTheScan)
 {
-    // Just below the frequency at which the region of one impact ends, it is a thin island.
+    // Just below the frequency at which the region of one impact ends, it is a narrow island.
     const auto boundary = [](double frequency, int count) {
         return boundary_on({}, {paper_alpha, paper_r_max, frequency}, evenly(1, 40, count),
                            widest_kernel());
@@ -181,11 +181,11 @@ TEST(Boundary, FindsAllFlipsOfAFinerScan)
     EXPECT_EQ(comparison.missed_by_the_finer, 0u);
 }
 
-TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreThin)
+TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreNarrow)
 {
-    // Strips accumulate towards the amplitude 1, each next to thinner ones. Without bisection where
-    // the number of impacts changes, one in ten would be missed, of up to 1e-3.
-    // Under a sum of sines of two periods, strips of up to 4e-3 are missed, see boundaries.md.
+    // Strips accumulate towards the amplitude 1, each next to narrower ones. Without bisection
+    // where the number of impacts changes, one in ten would be missed, of up to 1e-3. Under a sum
+    // of sines of two periods, strips of up to 4e-3 are missed, see boundaries.md.
     std::vector<Scene> scenes = every_scene();
     std::erase_if(scenes, [](const Scene& scene) {
         return traits_of(scene.pulse).form == PulseForm::modulated;

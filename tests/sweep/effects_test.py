@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Options cost nothing unless requested: the leanest scene, which computes only the region, pays
-for nothing else. Instruction counts are exact and repeatable; each is compared with that of the
+"""Options cost nothing unless requested: the minimal scene, which computes only the region, costs
+nothing else. Instruction counts are exact and repeatable; each is compared with that of the
 same build when it calls the kernel directly, or for another scene, so that none depends on the
 compiler.
 
 Changes that make these tests fail, each tried:
-  TheLeanestStage   a record that is a flag at run time, checked at each impact or in each step; a
+  TheMinimalStage   a record that is a flag at run time, checked at each impact or in each step; a
                     record that every scene keeps. (One outside of any `if` stops the build.)
-  TheLeanestScene   the sweep runs the kernel that counts impacts, or computes a field, in any scene
+  TheMinimalScene   the sweep runs the kernel that counts impacts, or computes a field, in any scene
                     or with every region, whether it keeps the values or not; one kernel for both
   EveryField        a field that is computed for the region; all fields in every scene; memory for
                     fields that were not requested
@@ -34,8 +34,8 @@ BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status
                     "peak": 8 + 8, "fall_time": 8 + 8}
 BYTES_BESIDE = 0.25
 # Impacts, errors and peaks have kernels of their own. The compiler may make the one that counts
-# impacts cheaper than the one without: it has no price that a test could rely on.
-PRICED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak")]
+# impacts cheaper than the one without: it has no cost that a test could rely on.
+MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak")]
 
 
 @functools.cache
@@ -52,23 +52,23 @@ def by_hand(what, method="rk45", side=SIDE, tolerance="1e-5"):
     return measure("by-hand", method, side, tolerance, what)
 
 
-def price(dearer, cheaper, of="instructions"):
+def difference(larger, smaller, of="instructions"):
     """Returns the difference per point."""
-    return (dearer[of] - cheaper[of]) / dearer["points"]
+    return (larger[of] - smaller[of]) / larger["points"]
 
 
-def price_of(field):
-    return price(sweep("region", field), sweep("region"))
+def cost_of(field):
+    return difference(sweep("region", field), sweep("region"))
 
 
-def waste(fields, what):
+def overhead(fields, what):
     """Returns what the sweep needs per point in addition to the direct call; on a larger tile, on
     which one-time costs are small."""
     large = {"side": 64, "tolerance": "1e-3"}
-    return price(sweep(*fields, **large), by_hand(what, **large))
+    return difference(sweep(*fields, **large), by_hand(what, **large))
 
 
-class TheLeanestStage(unittest.TestCase):
+class TheMinimalStage(unittest.TestCase):
     def test_has_the_same_machine_code_as_without_records(self):
         def code(path):
             listing = subprocess.run([os.environ["OBJDUMP"], "-d", "--no-show-raw-insn", path],
@@ -84,7 +84,7 @@ class TheLeanestStage(unittest.TestCase):
                         f"the first that differ: {differing}")
 
 
-class TheLeanestScene(unittest.TestCase):
+class TheMinimalScene(unittest.TestCase):
     def test_runs_the_kernel_that_records_nothing(self):
         # The cost around the kernel does not depend on the tolerance: the difference between two
         # tolerances is that of the kernel, to the instruction.
@@ -102,31 +102,31 @@ class TheLeanestScene(unittest.TestCase):
                     self.assertEqual(swept, lean, fields)
 
     def test_computes_only_its_kernel_and_its_region(self):
-        cheapest = min(price_of(field) for field in PRICED)
-        self.assertLess(waste((), "nothing"), 0.5 * cheapest)
-        self.assertLess(waste(("region",), "region"), 0.5 * cheapest)
+        cheapest = min(cost_of(field) for field in MEASURED)
+        self.assertLess(overhead((), "nothing"), 0.5 * cheapest)
+        self.assertLess(overhead(("region",), "region"), 0.5 * cheapest)
 
     def test_allocates_only_end_states_and_regions(self):
-        self.assertLess(price(sweep(), by_hand("nothing"), "bytes"), BYTES_BESIDE)
-        self.assertAlmostEqual(price(sweep("region"), sweep(), "bytes"), 1, delta=BYTES_BESIDE)
+        self.assertLess(difference(sweep(), by_hand("nothing"), "bytes"), BYTES_BESIDE)
+        self.assertAlmostEqual(difference(sweep("region"), sweep(), "bytes"), 1, delta=BYTES_BESIDE)
 
 
 class EveryField(unittest.TestCase):
     def test_costs_instructions_only_where_it_is_requested(self):
-        for field in PRICED:
+        for field in MEASURED:
             with self.subTest(field=field):
                 other = "angle" if field == "status" else "status"
                 other = "angle" if field == "status" else "status"
-                beside_other = price(sweep(other, field), sweep(other))
+                beside_other = difference(sweep(other, field), sweep(other))
                 # A field that the region computes anyway would be cheaper together with it, and a
                 # field computed in any case would cost nothing.
-                self.assertGreater(beside_other, 2 * waste((), "nothing"))
-                self.assertAlmostEqual(price_of(field), beside_other, delta=0.1 * beside_other)
+                self.assertGreater(beside_other, 2 * overhead((), "nothing"))
+                self.assertAlmostEqual(cost_of(field), beside_other, delta=0.1 * beside_other)
 
     def test_allocates_its_own_memory(self):
         for field in effects.FIELDS:
             with self.subTest(field=field):
-                self.assertAlmostEqual(price(sweep("region", field), sweep("region"), "bytes"),
+                self.assertAlmostEqual(difference(sweep("region", field), sweep("region"), "bytes"),
                                        BYTES_OF_A_POINT[field], delta=BYTES_BESIDE)
 
 

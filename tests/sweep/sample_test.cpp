@@ -64,7 +64,7 @@ TEST(EvenlyChosen, PointsAreAllPointsOfASmallPlane)
     }
 }
 
-TEST(EvenlyChosen, PointMayBeOne)
+TEST(EvenlyChosen, MayBeASinglePoint)
 {
     EXPECT_EQ(met_by(plane_of(300, 200, 1), 1).points, 1u);
     EXPECT_EQ(met_by(plane_of(1, 1, 1), 1).points, 1u);

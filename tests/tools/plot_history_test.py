@@ -95,7 +95,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
                                    "region": 8, **strength})
                 self.assertEqual(TOOL["describe"](file),
                                  rf"a_\$1\$.AT2, {words}, $R$ = 3 m, $\alpha$ = 0.2 rad, "
-                                 "$r$ = 0.9: overturns during the record (F−)")
+                                 "$r$ = 0.9: falls during the record (F−)")
 
     def test_without_a_title_is_titled_by_its_record(self):
         self.under_a_record(title="")

@@ -113,7 +113,7 @@ class TestThePlane(Recorded):
         self.recorded([[S, F_MINUS]])
         words = self.words()
         self.assertIn("At the end of the record", words)
-        self.assertIn("F−  overturns during the record", words)
+        self.assertIn("F−  falls during the record", words)
         self.assertNotIn("pulse", " ".join(words))
 
     def test_shows_undecided_points_and_those_without_gravity_as_undecided(self):

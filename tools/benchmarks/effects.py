@@ -69,16 +69,16 @@ def scenes(program):
 def records(program, options):
     rows = []
     for method in METHODS:
-        leanest = None
+        minimal = None
         for adds, pulse, theory, fields in scenes(program):
             found = measure(program, "sweep", method, pulse, theory, KERNEL, options.points,
                             f"{options.tolerance:.6e}", *fields)
             instructions = found["instructions"] / found["points"]
-            leanest = instructions if leanest is None else leanest
+            minimal = instructions if minimal is None else minimal
             rows.append({"method": method, "pulse": pulse, "theory": theory,
                          "fields": list(fields), "adds": adds,
                          "instructions_per_point": instructions,
-                         "price_per_point": instructions - leanest,
+                         "price_per_point": instructions - minimal,
                          "bytes_per_point": found["bytes"] / found["points"]})
     return rows, found["compiler"]
 
@@ -89,10 +89,10 @@ def print_table(rows, options):
     print(f"{'':28}" + "".join(f"{method:>12}{'':>9}" for method in METHODS) + f"{'bytes':>9}")
     for adds in dict.fromkeys(row["adds"] for row in rows):
         mine = [row for row in rows if row["adds"] == adds]
-        leanest = [row["instructions_per_point"] - row["price_per_point"] for row in mine]
+        minimal = [row["instructions_per_point"] - row["price_per_point"] for row in mine]
         cells = "".join(
             f"{row['price_per_point']:>+12.1f}{100 * row['price_per_point'] / least:>+8.2f}%"
-            if adds else f"{least:>12.1f}{'':>9}" for row, least in zip(mine, leanest))
+            if adds else f"{least:>12.1f}{'':>9}" for row, least in zip(mine, minimal))
         print(f"{adds or 'minimal scene: region':28}{cells}{mine[0]['bytes_per_point']:>9.1f}")
     print("\nBytes: heap memory that the sweep allocates per point, including its end states. The "
           "other theory\nand the other pulses have different motions and numbers of steps.")

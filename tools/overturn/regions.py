@@ -15,14 +15,14 @@ REGIONS = {
     4: ("U0−", "overturns, no more impacts", "#ffe27a"),
     5: ("U1+", "overturns, one more impact", "#c9961a"),
     6: ("U1−", "overturns, one more impact", "#b6801e"),
-    7: ("F+", "overturns during the pulse", "#73737a"),
-    8: ("F−", "overturns during the pulse", "#5e5e66"),
+    7: ("F+", "falls during the pulse", "#73737a"),
+    8: ("F−", "falls during the pulse", "#5e5e66"),
     254: ("", "undecided: see field status", "#e6007e"),
 }
 NOT_COMPUTED = 255
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
 LAST_SAFE = 2  # the largest code of a safe block
-LEFT_STANDING = 6  # the largest code of a block that is not overturned during the ground motion
+LEFT_STANDING = 6  # the largest code of a block that does not fall during the ground motion
 
 
 def coloured(codes):

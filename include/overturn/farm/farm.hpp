@@ -65,8 +65,9 @@ struct FarmReport {
 /// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done) is
 /// called on rank 0 at intervals. A rank that is asked to stop finishes or drops its current tile;
 /// the others finish the ranges that they were given before rank 0 received the stop. An exception
-/// leaves farm_out on one rank only, so the caller must abort the session. It is SilentRank if
-/// rank 0 receives nothing from a worker for `patience`, or a worker nothing from rank 0.
+/// leaves farm_out on one rank only, so the caller must abort the session. SilentRank is
+/// thrown if rank 0 receives nothing from a worker for `patience`, or if a worker waits longer than
+/// that for an answer from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                     const TileWork& tile_work,
                     const std::function<void(std::int64_t done)>& on_progress,

@@ -23,7 +23,7 @@ std::string_view program_commit();
 std::string hdf5_version();
 
 /// One rank's share of a run.
-struct RankRecord {
+struct RankInfo {
     std::string host;
     std::int64_t tiles = 0; ///< computed in this run
     double compute_seconds = 0;
@@ -31,21 +31,21 @@ struct RankRecord {
 };
 
 /// One run, since it was started or resumed.
-struct RunRecord {
+struct RunInfo {
     std::chrono::system_clock::time_point start;
     double wall_seconds = 0; ///< from the program's start
     std::string kernel;
-    std::int64_t requests = 0;     ///< for tiles, from the other ranks to rank 0
-    double dealing_seconds = 0;    ///< spent by rank 0 on the answers
-    std::vector<RankRecord> ranks; ///< by rank number
+    std::int64_t requests = 0;   ///< for tiles, from the other ranks to rank 0
+    double dealing_seconds = 0;  ///< spent by rank 0 on the answers
+    std::vector<RankInfo> ranks; ///< by rank number
 };
 
 /// Throws FileError if the sidecar cannot be written, because another kind of file has its name or
 /// the name is too long. To be called before the computation.
 void demand_place_for_sidecar(const std::string& spectrum_path);
 
-/// Writes the record to spectrum_path + ".json", together with the compiler and the versions of
+/// Writes the sidecar file spectrum_path + ".json", together with the compiler and the versions of
 /// HDF5 and MPI. Replaces an older sidecar atomically. Throws FileError.
-void write_sidecar(const std::string& spectrum_path, const RunRecord& record);
+void write_sidecar(const std::string& spectrum_path, const RunInfo& run);
 
 } // namespace overturn

@@ -59,7 +59,7 @@ SpectrumSummary summarize(const std::string& path);
 struct BoundaryLines {
     std::int64_t computed = 0;
     std::int64_t unsafe_at_first = 0; ///< overturn at the first amplitude of the job
-    std::int64_t undecided = 0;       ///< at some amplitude, or beyond the last crossing
+    std::int64_t undecided = 0;       ///< at some amplitude, or beyond the last stored flip
     bool has_shares = false;          ///< under a record
     double unsafe_share = 0;          ///< mean of the computed lines [1]
     double undecided_share = 0;       ///< mean of the computed lines [1]

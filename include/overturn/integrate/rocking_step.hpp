@@ -90,10 +90,11 @@ struct StepPoint {
 };
 
 /// The tilt where the rate changes its sign within a step of length h, if it may be near the ground
-/// or pi/2; otherwise a tilt that is nearer to either than the turn is. If the rate has the same
-/// sign at both ends, the block may have turned twice: then this is the lower turn. lowest,
-/// highest: bounds of the tilt within the step [rad]; tilt_at_turn(lanes, share) finds it in these
-/// lanes, starting from an estimate of its share of the step.
+/// or pi/2; otherwise a tilt nearer to the ground or to pi/2 than the turn, as a conservative
+/// substitute [rad]. If the rate has the same sign at both ends, the block may have turned twice:
+/// then this is the lower turn. lowest, highest: bounds of the tilt within the step [rad];
+/// tilt_at_turn(lanes, share) finds it in these lanes, starting from an estimate of its share of
+/// the step.
 template <Number T, class Find>
 T turning_tilt(const T& slenderness, const StepPoint<T>& start, const StepPoint<T>& end, const T& h,
                const T& lowest, const T& highest, const Find& tilt_at_turn)

@@ -19,7 +19,7 @@ template <Theory theory, Number T, Records records = Records{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
-    /// The largest phase difference, of the fastest harmonic, of a step whose error can be
+    /// The largest change of phase of the fastest harmonic over a step whose error can be
     /// estimated [rad].
     static constexpr double longest_angle = 2;
 

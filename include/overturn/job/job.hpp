@@ -87,7 +87,8 @@ struct Job {
 /// string) and replaces a key of the file; keys that contradict it are dropped. Throws JobError.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same for a text; `name` replaces the path in messages. Records are searched in its folder.
+/// The same for a text; `name` replaces the path in messages. Records are searched for in
+/// its folder.
 Job read_job_text(std::string text, const std::string& name,
                   const std::vector<std::string>& overrides = {});
 
@@ -103,8 +104,9 @@ std::string checksum_of(const Table& table);
 /// valid.
 void restore_blocks(Job& job, Table table);
 
-/// The job that computes the boundary of a spectrum. The amplitudes become the scan, and crossings
-/// replace them in the plane: the flips of a block at one frequency, counted from 0.
+/// The job that computes the boundary of a spectrum. The amplitudes become the scan, and the
+/// dimension `crossing` replaces them in the plane: the flips of a block at one frequency, counted
+/// from 0.
 /// Throws JobError if there is only one amplitude, or if the result would be too large.
 Job boundary_of(Job spectrum);
 

@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// Signed distance to the top of the rocking arc, negative beyond the top.
+/// Signed distance to the top of the rocking arc, negative beyond the top [rad].
 ///
 ///     c = 2 sin((alpha - |theta|) / 2)          linear theory: alpha - |theta|
 template <Theory theory, Number T>
@@ -26,9 +26,11 @@ T separatrix_rate(const T& tilt, const T& slenderness)
 /// outward rate u satisfies -inward <= u <= outward.
 template <Number T>
 struct SafeRates {
-    T outward; ///< c: if u > outward, the block overturns to the side of its tilt, without impact
-    T inward;  ///< sqrt(c^2 - q_min): if u < -inward, to the other side, after one impact
-    T largest; ///< sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16)
+    /// c: if u > outward, the block overturns to the side of its tilt, without impact [rad].
+    T outward;
+    T inward; ///< sqrt(c^2 - q_min): if u < -inward, to the other side, after one impact [rad]
+    /// sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16) [rad].
+    T largest;
     T minus_q_min; ///< [rad^2]
 };
 

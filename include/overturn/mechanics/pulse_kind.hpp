@@ -50,7 +50,7 @@ inline constexpr std::array<std::pair<std::string_view, ShapeNumber>, 4> shape_n
 /// Properties that distinguish a pulse from others with the same formula.
 struct PulseTraits {
     std::string_view name; ///< in job files and result files
-    int half_turns;        ///< duration: phase 0 to half_turns pi; 0 if the shape tells
+    int half_turns;        ///< duration: phase 0 to half_turns pi; 0 if PulseShape determines it
     PulseForm form;
     std::array<ShapeNumber, 2> numbers{}; ///< that complete the pulse; null if there are fewer
 };

@@ -34,13 +34,13 @@ struct AccuracyRow {
     double steps = 0;             ///< tried, per point; with resolve, of the last integration only
     double evaluations = 0; ///< per point: of the acceleration (rk45), or of its series (taylor)
     /// Infinite for points with a different kind of end; NaN if there are no points.
-    ErrorDistribution angle{};                                   ///< [rad]
-    ErrorDistribution velocity{};                                ///< [rad]
-    ErrorDistribution margin{};                                  ///< [1]
-    std::int64_t flips = 0;                                      ///< wrong verdicts
-    std::int64_t undecided = 0;                                  ///< points without a verdict
-    std::array<std::int64_t, decided_regions> flips_by_region{}; ///< by the true region
-    std::array<std::int64_t, distance_limits.size()> flips_by_distance{};
+    ErrorDistribution angle{};    ///< [rad]
+    ErrorDistribution velocity{}; ///< [rad]
+    ErrorDistribution margin{};   ///< [1]
+    std::int64_t wrong_verdicts = 0;
+    std::int64_t undecided = 0; ///< points without a verdict
+    std::array<std::int64_t, decided_regions> wrong_verdicts_by_region{}; ///< by the true region
+    std::array<std::int64_t, distance_limits.size()> wrong_verdicts_by_distance{};
     /// The share of points whose error exceeds its bound, and the median of bound over error; NaN
     /// for settings without error bounds.
     double bound_exceeded = 0;

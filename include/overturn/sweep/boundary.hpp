@@ -1,4 +1,4 @@
-// Boundaries between safe and unsafe: for one block at one frequency, all amplitudes at which the
+// Boundaries between safe and unsafe: for one block at one frequency, the amplitudes at which the
 // verdict changes, in ascending order.
 #pragma once
 
@@ -29,13 +29,15 @@ struct Flip {
 
 /// How closely a line is searched for flips; both over the amplitude [1].
 struct SearchResolution {
-    double finest_step; ///< steps of the scan that are smaller are not halved
-    double flip_width;  ///< of the two amplitudes of a flip, unless they are adjacent doubles
+    /// Steps of the scan that are smaller are not halved. Under a record all steps are divided
+    /// evenly until each is at most this.
+    double finest_step;
+    double flip_width; ///< of the two amplitudes of a flip, unless they are adjacent doubles
     int most_in_50_digits = Numerics().most_in_50_digits; ///< see Numerics; per step of the search
 };
 
-/// Under a record there are ever more flips at ever smaller steps, and the verdicts next to a flip
-/// need ever more digits.
+/// Under a record, smaller steps find more flips, and the verdicts closer to a flip need more
+/// digits.
 inline SearchResolution search_resolution(const Scene& scene)
 {
     return scene.is_recorded() ? SearchResolution{.finest_step = 1e-3, .flip_width = 1e-4}
@@ -64,13 +66,15 @@ struct Boundary {
 
 /// The lowest flips, at most most_flips, between the first and the last of these ascending
 /// amplitudes, all of which are computed.
-/// Steps are halved where the margin bends or the number of impacts changes, down to the finest
-/// step of the search resolution.
+/// Steps are halved where the margin is not linear or the number of impacts changes, down to the
+/// finest step of the search resolution.
 /// If the verdicts of two neighbours differ, there is a flip between them. If both overturn to
-/// different sides, there is a safe strip between them, however thin. If |margin| has a local
+/// different sides, there is a safe strip between them, however narrow. If |margin| has a local
 /// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
-/// thinner than two steps of the scan that satisfies none of these criteria can be missed. Under a
-/// record there are always such strips. resolution: default: search_resolution().
+/// narrower than two steps of the scan that satisfies none of these criteria can be missed.
+/// Under a record all steps are divided evenly until each is at most finest_step; the other
+/// criteria are not applied, and narrower strips are missed. resolution: default:
+/// search_resolution().
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      std::size_t most_flips = std::numeric_limits<std::size_t>::max(),

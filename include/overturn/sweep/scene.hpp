@@ -63,8 +63,8 @@ struct Numerics {
     double tolerance =
         1e-9;             ///< local error per step, over the size of the motion, at most alpha [1]
     bool resolve = false; ///< settle verdicts in doubt with more digits
-    /// Of the points of a tile under a record. A point takes about a second in 50 digits: 8192
-    /// samples take 0.4 s to 1.3 s. Of 256 points under the GeoNet record WTMC, at most 5 need them
+    /// Of the points of a tile under a record. In 50 digits, a point takes 0.4 s to 1.3 s under a
+    /// record of 8192 samples. Of 256 points under the GeoNet record WTMC, at most 5 need them
     /// if r = r_max, and 26 if r = 1.
     int most_in_50_digits = 32;
 };

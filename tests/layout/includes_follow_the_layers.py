@@ -1,29 +1,30 @@
 #!/usr/bin/env python3
-"""floors_hold.py SOURCE_DIR: checks that headers include only the same layer or a lower one, that
-of the modules of layer 4 only job is included by the others and only record by job, that only certain
-modules include TOML, HDF5 and MPI, and that headers have an include guard."""
+"""includes_follow_the_layers.py SOURCE_DIR: checks that files include only headers of the same
+layer or a lower one; that within layer 4, other modules may include only `job`, and only `job` may
+include `record`; that only certain modules include TOML, HDF5 and MPI; and that headers have an
+include guard."""
 
 import pathlib
 import re
 import sys
 
-FLOOR = {"number": 0, "mechanics": 1, "integrate": 2, "sweep": 3, "record": 4, "job": 4, "file": 4,
+LAYER = {"number": 0, "mechanics": 1, "integrate": 2, "sweep": 3, "record": 4, "job": 4, "file": 4,
          "farm": 4, "commands": 5}
 # The modules of layer 4 that another of layer 4 may include.
 NEIGHBOURS = {"record": set(), "job": {"record"}, "file": {"job"}, "farm": {"job"}}
 # Only these modules may include these headers. Module file opens files on a communicator.
-ROOMS_OF = {"toml++/": {"job"}, "hdf5": {"file"}, "H5": {"file"}, "mpi.h": {"farm", "file"},
-            "CLI/": {"commands"}, "xsimd/": {"number"}}
+MODULES_OF = {"toml++/": {"job"}, "hdf5": {"file"}, "H5": {"file"}, "mpi.h": {"farm", "file"},
+              "CLI/": {"commands"}, "xsimd/": {"number"}}
 STREAMS = {"iostream", "fstream", "sstream", "cstdio", "chrono", "ctime"}
 
 
-def room_of(path, source):
+def module_of(path, source):
     parts = path.relative_to(source).parts
     return parts[2] if parts[0] == "include" else (parts[1] if len(parts) > 2 else "commands")
 
 
 def mistakes_in(path, source):
-    room = room_of(path, source)
+    module = module_of(path, source)
     if path.suffix == ".hpp" and "#pragma once\n" not in path.read_text():
         yield f"{path.relative_to(source)}: #pragma once is missing"
     for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -31,17 +32,17 @@ def mistakes_in(path, source):
         if not found:
             continue
         header = found.group(1)
-        where = f"{path.relative_to(source)}:{number}: module {room} includes {header}"
+        where = f"{path.relative_to(source)}:{number}: module {module} includes {header}"
         if header.startswith("overturn/"):
             other = header.split("/")[1]
-            if FLOOR[other] > FLOOR[room]:
+            if LAYER[other] > LAYER[module]:
                 yield f"{where}, which belongs to a higher layer"
-            elif FLOOR[room] == FLOOR[other] == 4 and other not in NEIGHBOURS[room] | {room}:
+            elif LAYER[module] == LAYER[other] == 4 and other not in NEIGHBOURS[module] | {module}:
                 yield f"{where}, another module of layer 4"
-        for prefix, rooms in ROOMS_OF.items():
-            if header.startswith(prefix) and room not in rooms:
-                yield f"{where}; only {', '.join(sorted(rooms))} may"
-        if header in STREAMS and FLOOR[room] < 4:
+        for prefix, modules in MODULES_OF.items():
+            if header.startswith(prefix) and module not in modules:
+                yield f"{where}; only {', '.join(sorted(modules))} may"
+        if header in STREAMS and LAYER[module] < 4:
             yield f"{where}; streams and clocks are not allowed below layer 4"
 
 
