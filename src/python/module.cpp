@@ -131,7 +131,8 @@ private:
         std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
 };
 
-/// The fields of every block by name; columns: arrays of equal length, see block_list().
+/// The fields of every block by name; columns: arrays of equal length, see block_list(). Columns
+/// without rows are not checked.
 py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
                           const std::map<std::string, Values>& columns)
 {
@@ -144,7 +145,7 @@ py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
     py::array_t<double> peak(size), margin(size);
     const FieldArrays to{region.mutable_data(), status.mutable_data(), peak.mutable_data(),
                          margin.mutable_data()};
-    {
+    if (size > 0) {
         const py::gil_scoped_release released;
         evaluate(scene, numerics, given, to, SignalCheck());
     }
