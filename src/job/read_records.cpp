@@ -68,19 +68,6 @@ const RecordComponent* chosen(const RecordFile& file, const ComponentChoice& cho
     return nullptr;
 }
 
-/// Accelerations over g.
-std::vector<double> over_gravity(const RecordComponent& component, double gravity)
-{
-    constexpr std::array metres{0, 1, 100, 1000}; // units per metre, in the order of the units
-    std::vector<double> values = component.acceleration;
-    if (component.unit != AccelerationUnit::g) {
-        const double g = gravity * metres[std::size_t(component.unit)];
-        std::transform(values.begin(), values.end(), values.begin(),
-                       [&](double value) { return value / g; });
-    }
-    return values;
-}
-
 std::uint64_t checksum_of(const Accelerogram& record)
 {
     const auto hash = [](const std::vector<double>& values, std::uint64_t seed) {
@@ -240,11 +227,7 @@ RecordOptions read_options(const Entry& scene)
     RecordOptions options;
     if (const auto step = find(scene, "time_step")) {
         options.time_step = number_of(*step);
-        if (!(*options.time_step > 0)) {
-            refuse(*step, fmt::format(" = {} is outside (0, inf). It is the time between two "
-                                      "samples in seconds.",
-                                      *options.time_step));
-        }
+        expect_allowed(*step, quantity("time_step"), *options.time_step);
     }
     if (const auto units = find(scene, "units")) {
         options.unit = choice_of<AccelerationUnit>(*units, acceleration_unit_names);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace overturn {
 
@@ -22,79 +21,18 @@ constexpr std::array<std::string_view, 4> record_keys{"component", "vertical", "
 constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
 constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
-struct ShapeRange {
-    double least;
-    bool excludes_least;
-    double largest;
-    bool is_required;
-    std::string_view meaning;
-
-    bool contains(double x) const
-    {
-        return x <= largest && (excludes_least ? x > least : x >= least);
-    }
-    std::string text() const
-    {
-        return fmt::format("{}{}, {}]", excludes_least ? '(' : '[', least, largest);
-    }
-};
-
-// In the order of shape_numbers. At 8 periods the wavelets are below 1e-180 of their peak.
-constexpr std::array<ShapeRange, shape_numbers.size()> shape_ranges{
-    {{0, true, 8, false, "It is the half width in pulse periods."},
-     {0.5, false, most_cycles, true, "It is the duration in pulse periods, a multiple of 0.5."},
-     {1, true, largest_gamma, true, "It is the duration in pulse periods."},
-     {-2 * std::numbers::pi, false, 2 * std::numbers::pi, true,
-      "It is the phase of the oscillation in the middle of the pulse, in radians."}}};
-
-// Below this range the round-off of a step is as large as the tolerance; above it verdicts are not
-// reliable.
-constexpr double least_tolerance = 1e-14;
-constexpr double largest_tolerance = 1e-2;
-
-// About one verdict in a thousand needs more; at looser tolerances errors are not known well.
-constexpr double tolerance_to_resolve_from = 1e-4;
-
-/// The names of the pulses that have this number.
-std::string pulses_with(ShapeNumber number)
-{
-    std::vector<std::string_view> names;
-    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
-        if (has_number(PulseKind(kind), number)) {
-            names.push_back(pulse_names[kind]);
-        }
-    }
-    return fmt::format("{}", fmt::join(names, ", "));
-}
-
 PulseShape read_shape(const Entry& scene, PulseKind pulse)
 {
     PulseShape shape;
-    for (std::size_t i = 0; i < shape_numbers.size(); ++i) {
-        const auto& [name, number] = shape_numbers[i];
-        const ShapeRange& range = shape_ranges[i];
-        auto entry = find(scene, name);
-        if (entry && !has_number(pulse, number)) {
-            refuse(*entry, fmt::format(" has no meaning for the pulse \"{}\", only for {}. Remove "
-                                       "it.",
-                                       name_of(pulse), pulses_with(number)));
+    for (const auto& [name, number] : shape_numbers) {
+        const auto entry = find(scene, name);
+        const auto value = entry ? std::optional(number_of(*entry)) : std::nullopt;
+        const std::string refusal = refusal_of(pulse, number, value);
+        if (!refusal.empty()) {
+            refuse(entry ? *entry : Entry{scene.node, fmt::format("{}.{}", scene.key, name)},
+                   refusal);
         }
-        if (!entry && has_number(pulse, number) && range.is_required) {
-            entry = require(scene, name,
-                            fmt::format("Give a number in {}. {}", range.text(), range.meaning));
-        }
-        if (entry) {
-            shape.*number = number_of(*entry);
-            if (!range.contains(shape.*number)) {
-                refuse(*entry, fmt::format(" = {} is outside {}. {}", shape.*number, range.text(),
-                                           range.meaning));
-            }
-        }
-    }
-    if (2 * shape.cycles != std::floor(2 * shape.cycles)) {
-        refuse(*find(scene, "cycles"), fmt::format(" = {} is not a multiple of 0.5. Give whole or "
-                                                   "half cycles.",
-                                                   shape.cycles));
+        shape.*number = value.value_or(shape.*number);
     }
     return shape;
 }
@@ -111,10 +49,7 @@ Scene read_scene(const Entry& job)
     }
     if (const auto gravity = find(entry, "gravity")) {
         scene.gravity = number_of(*gravity);
-        if (!(scene.gravity > 0)) {
-            refuse(*gravity,
-                   fmt::format(" = {} is outside (0, inf). It is g in m/s2.", scene.gravity));
-        }
+        expect_allowed(*gravity, quantity("gravity"), scene.gravity);
     }
     const bool is_recorded = find(entry, "record").has_value();
     for (const std::string_view key : is_recorded ? Names(pulse_keys) : Names(record_keys)) {
@@ -169,12 +104,7 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
     }
     if (const auto tolerance = find(*entry, "tolerance")) {
         numerics.tolerance = number_of(*tolerance);
-        if (!(numerics.tolerance >= least_tolerance && numerics.tolerance <= largest_tolerance)) {
-            refuse(*tolerance,
-                   fmt::format(" = {} is outside [{}, {}]. It is the local error per step, "
-                               "relative to the size of the motion.",
-                               numerics.tolerance, least_tolerance, largest_tolerance));
-        }
+        expect_allowed(*tolerance, quantity("tolerance"), numerics.tolerance);
     }
     return numerics;
 }

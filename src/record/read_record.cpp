@@ -168,6 +168,18 @@ constexpr TextFileKind record_file{"a record", largest_record_file,
 
 } // namespace
 
+std::vector<double> over_gravity(const RecordComponent& component, double gravity)
+{
+    constexpr std::array metres{0, 1, 100, 1000}; // units per metre, in the order of the units
+    std::vector<double> values = component.acceleration;
+    if (component.unit != AccelerationUnit::g) {
+        const double g = gravity * metres[std::size_t(component.unit)];
+        std::transform(values.begin(), values.end(), values.begin(),
+                       [&](double value) { return value / g; });
+    }
+    return values;
+}
+
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options)
 {

@@ -86,7 +86,7 @@ void read_blocks(const Scene& scene, const ColumnReader& columns, BlockList& lis
     const char* height = columns.only_one_of({"height", "half_height", "slenderness"});
     const char* size = columns.only_one_of({"size", "frequency_parameter"});
     if (width == nullptr || height == nullptr) {
-        refuse_columns("the blocks are not described. Add the columns width and height, or "
+        refuse_columns("the blocks are not described. Give width and height, or "
                        "half_width and half_height, or slenderness and size.");
     }
     const bool has_slenderness = columns.has("slenderness");
@@ -130,7 +130,7 @@ void read_restitutions(const ColumnReader& columns, BlockList& list)
 {
     const char* name = columns.only_one_of({"restitution", "restitution_of_maximum"});
     if (name == nullptr) {
-        refuse_columns("the restitution is missing. Add the column restitution (the energy ratio "
+        refuse_columns("the restitution is missing. Give restitution (the energy ratio "
                        "r) or restitution_of_maximum (its share of r_max).");
     }
     list.restitution = columns.values(name);
@@ -147,7 +147,7 @@ void read_restitutions(const ColumnReader& columns, BlockList& list)
             throw ListError(std::int64_t(row), name,
                             fmt::format("{} = {} gives r = {} at the slenderness {} rad, which is "
                                         "outside {}. r_max is defined below {} rad (Eq. 17). Use "
-                                        "the column restitution.",
+                                        "restitution instead.",
                                         name, share, r, alpha, rule.interval, largest_slenderness));
         }
         list.restitution[row] = r;
@@ -158,7 +158,7 @@ void read_restitutions(const ColumnReader& columns, BlockList& list)
 const std::vector<double>& parameters(const BlockList& list, const char* needed_by)
 {
     if (list.frequency_parameter.empty()) {
-        refuse_columns(fmt::format("{} needs the size of the blocks. Add the column size or "
+        refuse_columns(fmt::format("{} needs the size of the blocks. Give size or "
                                    "frequency_parameter.",
                                    needed_by));
     }

@@ -126,11 +126,12 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
     const auto have_one_push = [](const PlanePoint& one, const PlanePoint& other) {
         return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
     };
+    const PerLobe<FlankInPulse<double>> flanks = flanks_of(motion);
     for (std::size_t first = 0; first < points.size();) {
         const double threshold = uplift_threshold(theory, points[first].slenderness);
         const auto number = int(pushes.size());
         const double amplitude = points[first].amplitude;
-        pushes.push_back({amplitude * threshold, uplift_phases(motion, amplitude)});
+        pushes.push_back({amplitude * threshold, uplift_phases(motion, flanks, amplitude)});
         std::size_t next = first;
         for (; next < points.size() && have_one_push(points[first], points[next]); ++next) {
             of_point[next] = number;

@@ -1,5 +1,7 @@
 #include "overturn/sweep/quantity.hpp"
 
+#include "overturn/mechanics/pulse_kind.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -31,6 +33,36 @@ bool is_slenderness(double value)
     return value >= 1e-100 && value < std::numbers::pi / 2;
 }
 
+// At 8 periods the wavelets are below 1e-180 of their peak.
+bool is_window(double value)
+{
+    return value > 0 && value <= 8;
+}
+
+bool is_count_of_cycles(double value)
+{
+    static_assert(most_cycles == 10);
+    return value >= 0.5 && value <= most_cycles && 2 * value == std::floor(2 * value);
+}
+
+bool is_gamma(double value)
+{
+    static_assert(largest_gamma == 10);
+    return value > 1 && value <= largest_gamma;
+}
+
+bool is_phase(double value)
+{
+    return std::abs(value) <= 2 * std::numbers::pi;
+}
+
+// Below this range the round-off of a step is as large as the tolerance; above it verdicts are not
+// reliable.
+bool is_tolerance(double value)
+{
+    return value >= 1e-14 && value <= 1e-2;
+}
+
 constexpr std::string_view positive = "(0, inf)";
 constexpr std::string_view not_negative = "[0, inf)";
 constexpr std::string_view of_length = "It is a length in metres.";
@@ -59,6 +91,17 @@ constexpr std::array quantities{
     Quantity{"scale", "1", not_negative, is_not_negative, "It is the factor on the record."},
     Quantity{"pga", "1", not_negative, is_not_negative,
              "It is the peak ground acceleration over g."},
+    Quantity{"window", "1", "(0, 8]", is_window, "It is the half width in pulse periods."},
+    Quantity{"cycles", "1", "{0.5, 1, 1.5, ..., 10}", is_count_of_cycles,
+             "It is the duration in pulse periods, a multiple of 0.5."},
+    Quantity{"gamma", "1", "(1, 10]", is_gamma, "It is the duration in pulse periods."},
+    Quantity{"nu", "rad", "[-2 pi, 2 pi]", is_phase,
+             "It is the phase of the oscillation in the middle of the pulse, in radians."},
+    Quantity{"gravity", "m s-2", positive, is_positive, "It is g in m/s2."},
+    Quantity{"time_step", "s", positive, is_positive,
+             "It is the time between two samples in seconds."},
+    Quantity{"tolerance", "1", "[1e-14, 0.01]", is_tolerance,
+             "It is the local error per step, relative to the size of the motion."},
 };
 
 } // namespace

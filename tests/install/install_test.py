@@ -92,6 +92,19 @@ class AnInstallation(unittest.TestCase):
         with h5py.File(self.folder / "both.h5") as file:
             self.assertEqual(list(file["slenderness"]), [0.1, 0.2])
 
+    def test_the_python_package_has_its_module_beside_it(self):
+        tools = self.prefix / "share/overturn/tools"
+        if not list((tools / "overturn").glob("_core.*")):
+            self.skipTest("the build has no Python module")
+        script = (f"import sys; sys.path.insert(0, {str(tools)!r}); import overturn; "
+                  f"print(overturn.evaluate(slenderness={SLENDERNESS}, restitution={RESTITUTION}, "
+                  f"frequency={FREQUENCY}, amplitude={list(AMPLITUDES)}, method='rk45')['margin'].tobytes().hex()); "
+                  f"print(overturn.check({str(self.folder / 'job.toml')!r}))")
+        shown = run(sys.executable, "-c", script)
+        with h5py.File(self.spectrum) as file:
+            self.assertEqual(shown.splitlines()[0], file["margin"][0, 0, :, 0].tobytes().hex())
+        self.assertIn("points ", shown)
+
     @unittest.skipUnless(shutil.which("man") and shutil.which("groff"), "no man or groff")
     def test_man_shows_the_manual_without_a_warning(self):
         page = self.prefix / "share/man/man1/overturn.1.gz"

@@ -1,1 +1,35 @@
-"""Shared code of the tools: reading and plotting result files, spectra, regions and phase space."""
+"""overturn from Python: the outcome of single blocks (evaluate), the program (run, check), result
+files (open) and recorded motions (read_record). The other modules are shared by the tools.
+
+Modules are imported when they are used, because every tool imports this package."""
+
+import importlib
+
+from overturn.checkout import overturn_path
+
+_MODULE_OF = {
+    "evaluate": "evaluation",
+    "Outcome": "evaluation",
+    "Verdict": "evaluation",
+    "open": "datasets",
+    "run": "program",
+    "check": "program",
+    "ProgramError": "program",
+    "read_record": "records",
+    "Record": "records",
+    "RecordError": "records",
+}
+__all__ = list(_MODULE_OF)
+
+# An installed package contains the compiled module; that of a build is in a folder next to the program.
+__path__.append(str(overturn_path().parent / "python"))
+
+
+def __getattr__(name):
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})

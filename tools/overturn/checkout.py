@@ -1,17 +1,27 @@
-"""Paths of the checkout and of the overturn program."""
+"""Paths of the checkout and of the overturn program.
+
+Every tool imports this module: it must remain light."""
 
 import os
 import pathlib
 
-from overturn.result_file import USAGE, PlotError
-
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 
 
+def overturn_path(given=None):
+    """Returns the path of the program given by an argument or $OVERTURN, or of the one built here."""
+    return pathlib.Path(given or os.environ.get("OVERTURN") or CHECKOUT / "build" / "overturn").absolute()
+
+
+def is_program(path):
+    return os.access(path, os.X_OK) and not path.is_dir()
+
+
 def find_overturn(given):
-    """Returns the program given by an argument or $OVERTURN, or the one built here."""
-    path = pathlib.Path(given or os.environ.get("OVERTURN") or CHECKOUT / "build" / "overturn")
-    if not os.access(path, os.X_OK) or path.is_dir():
+    """Returns the program; `given` is the argument of a tool."""
+    from overturn.result_file import USAGE, PlotError
+    path = overturn_path(given)
+    if not is_program(path):
         raise PlotError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
                         "pass another one with --overturn PATH.", USAGE)
     return path.resolve()

@@ -228,36 +228,67 @@ PerLobe<S> uplift_phases_by_peaks(const GroundMotion<S>& motion, const S& amplit
     return result;
 }
 
-/// For each lobe of the pulse, the first phase [rad] at which amplitude * |f| exceeds 1 and a block
-/// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
-/// amplitude [1].
+/// The part of a flank within the pulse, with |f| at its ends.
 template <class S>
-PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
+struct FlankInPulse {
+    Flank<S> flank;
+    S foot_height = S(0); ///< [1]
+    S peak_height = S(0); ///< 0 if the flank is outside the pulse [1]
+};
+
+/// The flanks of a pulse; none of a ModulatedSine.
+template <class S>
+PerLobe<FlankInPulse<S>> flanks_of(const GroundMotion<S>& motion)
 {
     using std::abs;
-    const auto by_flanks = [&]<class Pulse>() {
-        PerLobe<S> result;
-        const auto lifts = [&](const S& phase) { return amplitude * abs(Pulse::value(phase)) > 1; };
+    const auto within_pulse = [&]<class Pulse>() {
+        PerLobe<FlankInPulse<S>> result;
         const auto flanks = Pulse::template flanks<S>();
         for (std::size_t i = 0; i < flanks.size(); ++i) {
             const Flank<S>& whole = flanks[i];
             const S next_foot = i + 1 < flanks.size() ? flanks[i + 1].foot : motion.end;
-            // The part of the flank within the pulse. If the pulse begins past the peak, |f| has
-            // its largest value of the lobe at the beginning of the pulse.
+            // If the pulse begins past the peak, |f| has its largest value of the lobe at the
+            // beginning of the pulse.
             const bool begins_past_peak = whole.peak < motion.begin && motion.begin < next_foot;
-            const Flank<S> flank{whole.foot < motion.begin ? motion.begin : whole.foot,
-                                 begins_past_peak          ? motion.begin
-                                 : whole.peak < motion.end ? whole.peak
-                                                           : motion.end};
-            const bool stays_below = flank.foot > flank.peak || !lifts(flank.peak);
-            result.push_back(stays_below         ? std::numeric_limits<S>::infinity()
-                             : lifts(flank.foot) ? flank.foot
-                                                 : Pulse::phase_at(flank, S(S(1) / amplitude)));
+            FlankInPulse<S> part{{whole.foot < motion.begin ? motion.begin : whole.foot,
+                                  begins_past_peak          ? motion.begin
+                                  : whole.peak < motion.end ? whole.peak
+                                                            : motion.end}};
+            if (part.flank.foot <= part.flank.peak) {
+                part.foot_height = abs(Pulse::value(part.flank.foot));
+                part.peak_height = abs(Pulse::value(part.flank.peak));
+            }
+            result.push_back(part);
+        }
+        return result;
+    };
+    return with_pulse(motion.pulse, within_pulse, [] { return PerLobe<FlankInPulse<S>>(); });
+}
+
+/// For each lobe of the pulse, the first phase [rad] at which amplitude * |f| exceeds 1 and a block
+/// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
+/// flanks: flanks_of(motion); amplitude [1].
+template <class S>
+PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
+                         const S& amplitude)
+{
+    const auto by_flanks = [&]<class Pulse>() {
+        PerLobe<S> result;
+        for (const auto& [flank, foot_height, peak_height] : flanks) {
+            result.push_back(!(amplitude * peak_height > 1) ? std::numeric_limits<S>::infinity()
+                             : amplitude * foot_height > 1
+                                 ? flank.foot
+                                 : Pulse::phase_at(flank, S(S(1) / amplitude)));
         }
         return result;
     };
     return with_pulse(motion.pulse, by_flanks,
                       [&] { return uplift_phases_by_peaks(motion, amplitude); });
+}
+template <class S>
+PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
+{
+    return uplift_phases(motion, flanks_of(motion), amplitude);
 }
 
 } // namespace overturn

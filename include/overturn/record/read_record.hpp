@@ -41,6 +41,9 @@ struct RecordComponent {
     std::vector<std::string> header;
 };
 
+/// Its accelerations over g; gravity: g [m/s2].
+std::vector<double> over_gravity(const RecordComponent& component, double gravity);
+
 struct RecordFile {
     std::string format; ///< "AT2", "V2A", "SMC" or "text"
     std::vector<RecordComponent> components;

@@ -1,4 +1,5 @@
-// The quantities that describe a block and its ground motion: names, units and allowed values.
+// The quantities that describe a block, its ground motion and the integration: names, units and
+// allowed values.
 #pragma once
 
 #include <string_view>

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -58,6 +60,10 @@ struct Scene {
     bool is_recorded() const { return !records.empty(); }
 };
 
+/// Why a pulse cannot have this value of a number of its shape, as a text that follows the name of
+/// the number: it has no meaning for the pulse, is missing, or is not allowed. Empty if it can.
+std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value);
+
 struct Numerics {
     Method method = Method::rk45;
     double tolerance =
@@ -68,6 +74,10 @@ struct Numerics {
     /// if r = r_max, and 26 if r = 1.
     int most_in_50_digits = 32;
 };
+
+/// The default tolerance if verdicts are resolved: about one in a thousand needs more digits; at
+/// looser tolerances errors are not known well.
+inline constexpr double tolerance_to_resolve_from = 1e-4;
 
 /// The error estimate of longer Runge-Kutta steps is not reliable.
 inline constexpr double largest_rk45_tolerance_with_error = 1e-4;

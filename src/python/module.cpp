@@ -1,0 +1,228 @@
+// The module overturn._core: what the Python package calls of the program's libraries. It knows
+// nothing of shapes and optional arguments; tools/overturn/evaluation.py and records.py do.
+#include "evaluate.hpp"
+
+#include "overturn/mechanics/region.hpp"
+#include "overturn/record/read_record.hpp"
+#include "overturn/sweep/quantity.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace py = pybind11;
+
+namespace overturn {
+
+namespace {
+
+using Values = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+std::vector<double> vector_of(const Values& values)
+{
+    return {values.data(), values.data() + values.size()};
+}
+
+template <class Enumeration, class Names>
+Enumeration choice_of(const char* argument, const std::string& text, const Names& names)
+{
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) {
+        throw std::invalid_argument(
+            fmt::format("{} = \"{}\" is not one of {}.", argument, text, fmt::join(names, ", ")));
+    }
+    return Enumeration(found - names.begin());
+}
+
+double allowed(const char* name, double value)
+{
+    const Quantity& rule = quantity(name);
+    if (!rule.allows(value)) {
+        throw std::invalid_argument(
+            fmt::format("{} = {} is outside {}. {}", name, value, rule.interval, rule.reason));
+    }
+    return value;
+}
+
+/// A scene under a pulse; shape: the given numbers of the pulse by name.
+Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double gravity,
+                     const std::map<std::string, double>& shape)
+{
+    Scene scene;
+    scene.pulse = choice_of<PulseKind>("pulse", pulse, pulse_names);
+    scene.theory = choice_of<Theory>("theory", theory, theory_names);
+    scene.gravity = allowed("gravity", gravity);
+    for (const auto& [name, number] : shape_numbers) {
+        const auto given = shape.find(std::string(name));
+        const auto value = given == shape.end() ? std::nullopt : std::optional(given->second);
+        const std::string refusal = refusal_of(scene.pulse, number, value);
+        if (!refusal.empty()) {
+            throw std::invalid_argument(std::string(name) + refusal);
+        }
+        scene.shape.*number = value.value_or(scene.shape.*number);
+    }
+    return scene;
+}
+
+/// A scene under a record; horizontal and upwards: accelerations over g, finite, upwards of the
+/// same number or empty.
+Scene scene_of_record(const Values& horizontal, const Values& upwards, double time_step,
+                      const std::string& theory, double gravity)
+{
+    Scene scene;
+    scene.theory = choice_of<Theory>("theory", theory, theory_names);
+    scene.gravity = allowed("gravity", gravity);
+    scene.records.push_back(std::make_shared<const Accelerogram>(
+        vector_of(horizontal), vector_of(upwards), allowed("time_step", time_step)));
+    return scene;
+}
+
+/// tolerance: the default of job files if it is not given.
+Numerics numerics_of(const Scene& scene, const std::string& method, std::optional<double> tolerance,
+                     bool resolve)
+{
+    Numerics numerics;
+    numerics.method = choice_of<Method>("method", method, method_names);
+    numerics.resolve = resolve;
+    if (tolerance || resolve) {
+        numerics.tolerance = allowed("tolerance", tolerance.value_or(tolerance_to_resolve_from));
+    }
+    if (scene.is_recorded() && numerics.method != Method::taylor) {
+        throw std::invalid_argument(fmt::format("method = \"{}\" is for pulses only. Use "
+                                                "\"taylor\", the default.",
+                                                method));
+    }
+    if (resolve && !knows_errors(numerics)) {
+        throw std::invalid_argument(
+            fmt::format("tolerance = {} is too loose for resolve = True with \"rk45\". Use at most "
+                        "{}, or the method \"taylor\".",
+                        numerics.tolerance, largest_rk45_tolerance_with_error));
+    }
+    return numerics;
+}
+
+/// Lets Python handle signals, at most ten times a second. Throws py::error_already_set, such as
+/// KeyboardInterrupt.
+class SignalCheck {
+public:
+    bool operator()()
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) {
+            return false;
+        }
+        next_ = now + std::chrono::milliseconds(100);
+        const py::gil_scoped_acquire locked;
+        if (PyErr_CheckSignals() != 0) {
+            throw py::error_already_set();
+        }
+        return false;
+    }
+
+private:
+    std::chrono::steady_clock::time_point next_ =
+        std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+};
+
+/// The fields of every block by name; columns: arrays of equal length, see block_list(). Columns
+/// without rows are not checked.
+py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
+                          const std::map<std::string, Values>& columns)
+{
+    Columns given;
+    for (const auto& [name, values] : columns) {
+        given[name] = vector_of(values);
+    }
+    const py::ssize_t size = columns.empty() ? 0 : columns.begin()->second.size();
+    py::array_t<std::uint8_t> region(size), status(size);
+    py::array_t<double> peak(size), margin(size);
+    const FieldArrays to{region.mutable_data(), status.mutable_data(), peak.mutable_data(),
+                         margin.mutable_data()};
+    if (size > 0) {
+        const py::gil_scoped_release released;
+        evaluate(scene, numerics, given, to, SignalCheck());
+    }
+    using namespace py::literals;
+    return py::dict("region"_a = region, "status"_a = status, "peak"_a = peak, "margin"_a = margin);
+}
+
+/// The components of a file: dictionaries with name, acceleration (over g), time_step and header.
+py::list components_of(const std::string& path, std::optional<double> time_step,
+                       const std::optional<std::string>& units, double gravity)
+{
+    RecordOptions options;
+    options.time_step = time_step;
+    if (units) {
+        options.unit = choice_of<AccelerationUnit>("units", *units, acceleration_unit_names);
+    }
+    allowed("gravity", gravity);
+    const RecordFile file = [&] {
+        const py::gil_scoped_release released;
+        return read_record(path, options);
+    }();
+    py::list components;
+    for (const RecordComponent& component : file.components) {
+        using namespace py::literals;
+        const std::vector<double> values = over_gravity(component, gravity);
+        py::list header; // in any encoding
+        for (const std::string& line : component.header) {
+            header.append(py::reinterpret_steal<py::str>(
+                PyUnicode_DecodeUTF8(line.data(), py::ssize_t(line.size()), "replace")));
+        }
+        components.append(py::dict(
+            "name"_a = component.name,
+            "acceleration"_a = py::array_t<double>(py::ssize_t(values.size()), values.data()),
+            "time_step"_a = component.time_step, "format"_a = file.format, "header"_a = header));
+    }
+    return components;
+}
+
+/// The regions of this kind by name.
+py::dict regions(bool (*is_of_kind)(Region))
+{
+    py::dict codes;
+    for (int code = 0; code < 256; ++code) {
+        const auto region = Region(code);
+        if (is_of_kind(region)) {
+            codes[py::str(std::string(name_of(region)))] = code;
+        }
+    }
+    return codes;
+}
+
+PYBIND11_MODULE(_core, module)
+{
+    py::class_<Scene>(module, "Scene");
+    py::class_<Numerics>(module, "Numerics");
+    module.def("scene_of_pulse", &scene_of_pulse);
+    module.def("scene_of_record", &scene_of_record);
+    module.def("numerics", &numerics_of);
+    module.def("evaluate", &evaluate_columns);
+    module.def("components_of", &components_of);
+    module.attr("safe_regions") = regions(&is_safe);
+    module.attr("unsafe_regions") = regions(&is_unsafe);
+
+    // ListError(row, column, message)
+    static py::exception<ListError> list_error(module, "ListError", PyExc_ValueError);
+    py::register_exception<RecordError>(module, "RecordError", PyExc_ValueError);
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const ListError& error) {
+            const py::tuple arguments =
+                py::make_tuple(error.row(), error.column(), std::string(error.what()));
+            PyErr_SetObject(list_error.ptr(), arguments.ptr());
+        }
+    });
+}
+
+} // namespace
+
+} // namespace overturn

@@ -1,0 +1,169 @@
+"""overturn.evaluate() compared with `overturn run`, and its arrays. Requires OVERTURN (the binary) in the
+environment and the package on PYTHONPATH."""
+
+import concurrent.futures
+import pathlib
+import signal
+import time
+import unittest
+
+import numpy as np
+import overturn
+
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+FIELDS = ["region", "status", "peak", "margin"]
+BLOCK = {"width": 0.6, "height": 2.4, "restitution": 0.87}
+PULSE = {"period": 0.9, "pga": 0.4}
+
+
+def random_blocks(count, seed=1):
+    random = np.random.default_rng(seed)
+    return {"width": random.uniform(0.2, 1, count), "height": random.uniform(1, 4, count),
+            "restitution_of_maximum": random.uniform(0.7, 1, count),
+            "period": random.uniform(0.2, 2, count), "pga": random.uniform(0.05, 1.2, count)}
+
+
+class WithTheSameBits(unittest.TestCase):
+    def assert_same(self, outcome, spectrum, kinds=2):
+        """Compares all fields bit by bit; a comparison of one region only would show little."""
+        for field in FIELDS:
+            stored = spectrum[field].values
+            self.assertEqual(outcome[field].reshape(stored.shape).tobytes(), stored.tobytes(), field)
+        self.assertGreaterEqual(len(np.unique(outcome["region"])), kinds)
+
+
+class TheBitsOfAPlane(WithTheSameBits):
+    def test_without_units(self):
+        for scene, numerics in (({"pulse": "one_sine"}, {"tolerance": 1e-9}),
+                                ({"pulse": "symmetric_ricker", "window": 1.5}, {"resolve": True}),
+                                ({"pulse": "sine", "cycles": 1.5, "theory": "linear"}, {"method": "rk45"})):
+            numerics = {"method": "taylor", **numerics}
+            spectrum = overturn.run({
+                "scene": scene, "numerics": numerics, "output": {"fields": FIELDS},
+                "plane": {"frequency": {"first": 0.7, "last": 8, "count": 15},
+                          "amplitude": {"first": 0.5, "last": 12, "count": 13},
+                          "restitution": {"values": [0.7, 0.8]}, "slenderness": 0.2}})
+            outcome = overturn.evaluate(
+                slenderness=spectrum.slenderness.values[:, None, None, None],
+                restitution=spectrum.restitution.values[:, None, None],
+                amplitude=spectrum.amplitude.values[:, None], frequency=spectrum.frequency.values, **scene,
+                **numerics)
+            self.assertEqual(outcome["region"].shape, spectrum.region.shape)
+            self.assert_same(outcome, spectrum, kinds=4)
+
+    def test_in_metres_seconds_and_g(self):
+        spectrum = overturn.run({
+            "scene": {"pulse": "one_cosine"}, "block": {"width": BLOCK["width"], "height": BLOCK["height"]},
+            "numerics": {"method": "taylor"}, "output": {"fields": FIELDS},
+            "plane": {"pulse_period": {"first": 0.3, "last": 2, "count": 12},
+                      "pga": {"first": 0.1, "last": 1, "count": 11},
+                      "restitution": {"values": [0.9], "of": "maximum"}}})
+        outcome = overturn.evaluate(width=BLOCK["width"], height=BLOCK["height"], restitution_of_maximum=0.9,
+                                    period=spectrum.pulse_period.values, pga=spectrum.pga.values[:, None],
+                                    pulse="one_cosine")
+        self.assert_same(outcome, spectrum, kinds=4)
+
+
+class TheBitsUnderARecord(WithTheSameBits):
+    def test_of_a_plane(self):
+        for numerics in ({"tolerance": 1e-6}, {"resolve": True}):
+            spectrum = overturn.run(JOBS / "synthetic.toml", overrides={
+                "numerics": numerics, "output.fields": FIELDS,
+                "plane.scale": {"first": 0.5, "last": 2.5, "count": 9},
+                "plane.size": {"first": 0.2, "last": 3, "count": 11}})
+            record = overturn.read_record(JOBS / "synthetic.AT2")
+            outcome = overturn.evaluate(
+                record=record.acceleration, time_step=record.time_step,
+                slenderness=spectrum.slenderness.values, restitution_of_maximum=1,
+                scale=spectrum["scale"].values[:, None], size=spectrum["size"].values, **numerics)
+            self.assert_same(outcome, spectrum)
+
+    def test_pga_scales_the_record(self):
+        record = overturn.read_record(JOBS / "synthetic.AT2")
+        motion = {**BLOCK, "record": record.acceleration, "time_step": record.time_step}
+        peak = abs(record.acceleration).max()
+        by_pga = overturn.evaluate(**motion, pga=np.array([1, 2]) * peak)
+        by_scale = overturn.evaluate(**motion, scale=[1, 2])
+        np.testing.assert_array_equal(by_pga["peak"], by_scale["peak"])
+
+    def test_where_gravity_vanishes_points_are_undecided(self):
+        motion = {"record": [0, 0.5, 0], "vertical": [0, -0.5, 0], "time_step": 0.1}
+        outcome = overturn.evaluate(**BLOCK, **motion, scale=[1, 2])
+        self.assertEqual(outcome["verdict"].tolist(), [overturn.Verdict.SAFE, overturn.Verdict.UNDECIDED])
+        self.assertEqual(outcome["region"][1], 254)
+        self.assertTrue(np.isnan(outcome["peak"][1]))
+
+
+class TheShape(unittest.TestCase):
+    def test_of_numbers_is_that_of_a_number(self):
+        outcome = overturn.evaluate(**BLOCK, **PULSE)
+        for values in outcome.values():
+            self.assertEqual(values.shape, ())
+        self.assertEqual({name: values.dtype.name for name, values in outcome.items()},
+                         {"verdict": "uint8", "region": "uint8", "status": "uint8", "peak": "float64",
+                          "margin": "float64"})
+
+    def test_is_that_of_numpys_rules(self):
+        width, pga = np.array([0.4, 0.5, 0.6]), np.array([[0.1], [0.9]])
+        outcome = overturn.evaluate(**{**BLOCK, **PULSE, "width": width, "pga": pga})
+        self.assertEqual(outcome["peak"].shape, (2, 3))
+        one = overturn.evaluate(**{**BLOCK, **PULSE, "width": 0.5, "pga": 0.9})
+        self.assertEqual(outcome["margin"][1, 1], one["margin"])
+
+    def test_may_be_empty(self):
+        outcome = overturn.evaluate(**{**BLOCK, **PULSE, "pga": np.empty((0, 3))})
+        for values in outcome.values():
+            self.assertEqual(values.shape, (0, 3))
+
+    def test_integers_lists_and_slices_are_accepted(self):
+        pga = np.arange(12, dtype=np.float32)[::3] / 10
+        outcome = overturn.evaluate(**{**BLOCK, "height": 2, "period": [1, 2, 1, 2], "pga": pga})
+        self.assertEqual(outcome["verdict"].shape, (4,))
+
+    def test_verdicts_follow_from_the_regions(self):
+        outcome = overturn.evaluate(**random_blocks(300))
+        np.testing.assert_array_equal(outcome["verdict"] == overturn.Verdict.SAFE, outcome["region"] <= 2)
+        np.testing.assert_array_equal(outcome["verdict"] == overturn.Verdict.OVERTURNS,
+                                      np.isinf(outcome["peak"]))
+
+    def test_alternative_descriptions_of_a_block_and_a_pulse_agree(self):
+        p = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 1.2)))
+        slenderness = np.arctan(0.25)
+        first = overturn.evaluate(**BLOCK, **PULSE)
+        for other in ({"half_width": 0.3, "half_height": 1.2, "period": 0.9, "pga": 0.4},
+                      {"slenderness": slenderness, "size": np.hypot(0.3, 1.2), "pulse_frequency": 1 / 0.9,
+                       "pga": 0.4},
+                      {"slenderness": slenderness, "frequency_parameter": p, "period": 0.9, "amplitude": 1.6},
+                      {"slenderness": slenderness, "frequency": 2 * np.pi / (0.9 * p), "amplitude": 1.6}):
+            outcome = overturn.evaluate(restitution=0.87, **other)
+            # A few roundings of the arguments; they grow by less than a thousand.
+            np.testing.assert_allclose(outcome["margin"], first["margin"], rtol=1e-12)
+
+
+class Threads(unittest.TestCase):
+    def test_compute_the_same_values(self):
+        blocks = random_blocks(20_000)
+        whole = overturn.evaluate(**blocks)
+        parts = [{name: values[part::2] for name, values in blocks.items()} for part in range(2)]
+        with concurrent.futures.ThreadPoolExecutor(2) as threads:
+            for part, outcome in enumerate(threads.map(lambda given: overturn.evaluate(**given), parts)):
+                for name, values in outcome.items():
+                    self.assertEqual(values.tobytes(), whole[name][part::2].tobytes(), name)
+
+
+class AnInterruption(unittest.TestCase):
+    def test_ends_a_long_evaluation(self):
+        def interrupt(number, frame):
+            raise KeyboardInterrupt
+
+        before = signal.signal(signal.SIGALRM, interrupt)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        began = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            overturn.evaluate(**random_blocks(1_000_000), method="rk45", tolerance=1e-14)  # half a minute
+        self.assertLess(time.monotonic() - began, 4)
+
+
+if __name__ == "__main__":
+    unittest.main()

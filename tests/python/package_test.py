@@ -1,0 +1,43 @@
+"""The package before it is used. Requires OVERTURN (the binary) in the environment and the package on
+PYTHONPATH."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+
+def run_python(text, **environment):
+    return subprocess.run([sys.executable, "-c", text], env={**os.environ, **environment}, capture_output=True,
+                          text=True)
+
+
+class ThePackage(unittest.TestCase):
+    def test_imports_nothing_before_it_is_used(self):
+        done = run_python("import overturn, sys; print({'numpy', 'h5py', 'matplotlib', 'xarray', 'overturn._core'}"
+                          " & set(sys.modules))")
+        self.assertEqual(done.stdout, "set()\n", done.stderr)
+
+    def test_lists_its_functions(self):
+        done = run_python("import overturn; print([name for name in overturn.__all__ if not getattr(overturn, name)"
+                          " or name not in dir(overturn)])")
+        self.assertEqual(done.stdout, "[]\n", done.stderr)
+
+    def test_tells_what_to_do_if_its_module_is_missing(self):
+        done = run_python("import overturn; overturn.evaluate()", OVERTURN="/nowhere/overturn")
+        self.assertIn("ImportError: the compiled module of overturn is not in", done.stderr)
+        self.assertIn("/nowhere/python", done.stderr)
+
+    def test_tells_if_the_program_is_missing(self):
+        done = run_python("import overturn; overturn.check('job.toml')", OVERTURN="/nowhere/overturn")
+        self.assertIn('ProgramError: there is no program "/nowhere/overturn"', done.stderr)
+
+    def test_needs_no_mpi_and_no_hdf5(self):
+        done = run_python("import overturn; overturn.evaluate; print(open('/proc/self/maps').read())")
+        self.assertIn("_core", done.stdout)
+        for library in ("libmpi", "libhdf5"):
+            self.assertNotIn(library, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

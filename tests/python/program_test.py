@@ -1,0 +1,132 @@
+"""overturn.run(), check() and open(). Requires OVERTURN (the binary) and MPIEXEC in the environment and the
+package on PYTHONPATH."""
+
+import os
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+import overturn
+
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+JOB = {"title": 'Both "quotes" and \\ and ä', "scene": {"pulse": "one_sine"},
+       "plane": {"frequency": {"first": 0.5, "last": 8, "count": 70}, "amplitude": {"values": np.linspace(1, 9, 80)},
+                 "restitution": 0.9, "slenderness": {"values": (0.1, 0.2)}},
+       "numerics": {"resolve": False}, "output": {"fields": ["region", "margin"]}}
+TEXT = """[scene]
+pulse = "half_sine"
+[plane]
+frequency = 3
+amplitude = { first = 1, last = 9, count = 5 }
+restitution = 0.9
+slenderness = 0.2
+"""
+
+
+class InAFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+
+    def assert_fails(self, exit_code, phrase, call, *arguments, **options):
+        with self.assertRaises(overturn.ProgramError) as raised:
+            call(*arguments, **options)
+        self.assertIn(phrase, str(raised.exception))
+        self.assertEqual(raised.exception.exit_code, exit_code)
+
+
+class AJob(InAFolder):
+    def test_as_a_dictionary_is_the_same_as_its_file(self):
+        spectrum = overturn.run(JOB)
+        self.assertEqual(spectrum.title, JOB["title"])
+        self.assertEqual(spectrum.region.shape, (2, 1, 80, 70))
+        np.testing.assert_array_equal(spectrum.amplitude, np.linspace(1, 9, 80))
+        self.assertEqual(os.listdir(), [])  # neither a job nor a result remains
+
+    def test_as_a_text_or_a_path(self):
+        by_text = overturn.run(TEXT)
+        pathlib.Path("job.toml").write_text(TEXT)
+        by_path = overturn.run("job.toml")
+        self.assertEqual(by_text.region.values.tobytes(), by_path.region.values.tobytes())
+        self.assertIn("points       5 in 1 tile", overturn.check(TEXT))
+        self.assertEqual(overturn.check(TEXT).split("time ")[0],
+                         overturn.check(pathlib.Path("job.toml")).split("time ")[0])
+
+    def test_on_two_ranks_into_a_file(self):
+        one = overturn.run(JOB, output="one.h5")
+        two = overturn.run(JOB, ranks=2, output="two.h5")
+        np.testing.assert_array_equal(one.margin, two.margin)
+        self.assertEqual(sorted(os.listdir()), ["one.h5", "one.h5.json", "two.h5", "two.h5.json"])
+
+    def test_with_overrides(self):
+        spectrum = overturn.run(JOB, overrides={"scene.pulse": "triangular", "plane.slenderness": 0.3,
+                                                "plane.amplitude": {"values": [2.0, 3.0]}})
+        self.assertEqual((spectrum.pulse, spectrum.sizes["amplitude"]), ("triangular", 2))
+
+    def test_finds_records_in_the_working_folder(self):
+        shutil.copy(JOBS / "synthetic.AT2", "here.AT2")
+        text = overturn.check({"scene": {"record": "here.AT2"},
+                               "plane": {"scale": 1, "size": 1, "slenderness": 0.2, "restitution": 0.9}})
+        self.assertIn("here.AT2", text)
+
+
+class ARunThatFails(InAFolder):
+    def test_raises_the_message_and_the_exit_code(self):
+        wrong = {**JOB, "plane": {**JOB["plane"], "restitution": 1.2}}
+        for call in (overturn.check, overturn.run):
+            self.assert_fails(65, "plane.restitution = 1.2 is outside (0, 1]", call, wrong)
+        self.assert_fails(65, "plane.restitution = 1.2 is outside (0, 1]", overturn.run, wrong, ranks=2)
+        self.assert_fails(65, 'job:1:1: unknown key "a"', overturn.check, "a = 1\nb = 2\n")
+        self.assert_fails(65, "missing.toml: cannot be read", overturn.check, "missing.toml")
+        pathlib.Path("other.h5").write_text("not a result")
+        self.assert_fails(74, "other.h5", overturn.run, JOB, output="other.h5")
+
+    def test_refuses_values_that_no_job_has(self):
+        with self.assertRaisesRegex(TypeError, "scene.pulse = None cannot be part of a job"):
+            overturn.check({"scene": {"pulse": None}})
+
+
+class AResultFile(InAFolder):
+    def test_has_only_coordinates_and_fields(self):
+        overturn.run(JOB, output="spectrum.h5").close()
+        with overturn.open("spectrum.h5") as spectrum:
+            self.assertEqual(set(spectrum.data_vars), {"region", "margin"})
+            self.assertEqual(set(spectrum.coords), {"slenderness", "restitution", "amplitude", "frequency",
+                                                    "restitution_ratio"})
+            self.assertEqual(spectrum.region.dtype, np.uint8)
+            self.assertFalse(spectrum.margin.variable._in_memory)
+
+    def test_of_a_record_names_its_motions(self):
+        suite = overturn.run(JOBS / "synthetic.toml", overrides={"plane.scale": 1, "plane.size": 1})
+        self.assertEqual(suite.motion_name.values.tolist(), ["synthetic.AT2"])
+        self.assertIn("motion_name", suite.coords)
+
+    def test_that_is_unfinished_has_no_values_of_unmarked_tiles(self):
+        with overturn.run(JOB, output="spectrum.h5") as spectrum:
+            whole = spectrum.load()
+        with h5py.File("spectrum.h5", "r+") as file:
+            self.assertEqual(len(file["checksum"]), 2 * 4)  # tiles of 64 x 64 points
+            file["checksum"][6] = 0  # the second slenderness, rows from 64 on, columns up to 64
+        part = overturn.open("spectrum.h5")
+        self.assertTrue((part.region[1, 0, 64:, :64] == 255).all())
+        self.assertTrue(np.isnan(part.margin[1, 0, 64:, :64]).all())
+        part.region[1, 0, 64:, :64] = whole.region[1, 0, 64:, :64]
+        np.testing.assert_array_equal(part.region, whole.region)
+        self.assertEqual(part.region.dtype, np.uint8)
+
+    def test_of_another_program_is_refused(self):
+        with h5py.File("other.h5", "w") as file:
+            file["x"] = [1.0]
+        with self.assertRaisesRegex(ValueError, "was not written by overturn"):
+            overturn.open("other.h5")
+        with self.assertRaises(OSError):
+            overturn.open("missing.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()

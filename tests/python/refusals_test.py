@@ -1,0 +1,83 @@
+"""Messages of overturn.evaluate() if its arguments are wrong. Requires the package on PYTHONPATH."""
+
+import unittest
+
+import numpy as np
+import overturn
+
+GOOD = {"width": 0.6, "height": 2.4, "restitution": 0.87, "period": 0.9, "pga": 0.4}
+RECORD = {"width": 0.6, "height": 2.4, "restitution": 0.87, "record": [0.0, 0.3, 0.0], "time_step": 0.1, "scale": 1}
+
+
+class Refused(unittest.TestCase):
+    def assert_refused(self, error, phrase, given=GOOD, **changes):
+        arguments = {name: value for name, value in {**given, **changes}.items() if value is not None}
+        with self.assertRaises(error) as raised:
+            overturn.evaluate(**arguments)
+        self.assertIn(phrase, str(raised.exception))
+        self.assertNotIn("column", str(raised.exception))
+
+
+class ARefusal(Refused):
+    def test_names_the_argument_and_its_index(self):
+        self.assert_refused(ValueError, "at index (1,): width = -1 is outside (0, inf)", width=[1, -1])
+        self.assert_refused(ValueError, "at index (1, 2): pga = nan is outside [0, inf)",
+                            pga=[[0, 0, 0], [0, 0, np.nan]])
+        self.assert_refused(ValueError, "at index (1, 0): period = inf is outside (0, inf)",
+                            period=[[1], [np.inf]], pga=[0.1, 0.2, 0.3])
+        self.assert_refused(ValueError, "at index (0, 1): scale = -1 is outside", RECORD, scale=[[1, -1]])
+
+    def test_names_no_index_of_a_number(self):
+        for name, value, phrase in (("restitution", 1.2, "restitution = 1.2 is outside (0, 1]"),
+                                    ("height", np.nan, "height = nan is outside"),
+                                    ("tolerance", 1, "tolerance = 1 is outside [1e-14, 0.01]"),
+                                    ("gravity", np.nan, "gravity = nan is outside (0, inf)"),
+                                    ("pulse", "square", 'pulse = "square" is not one of one_sine'),
+                                    ("theory", "quantum", 'theory = "quantum" is not one of nonlinear, linear'),
+                                    ("cycles", 2, "cycles has no meaning for the pulse"),
+                                    ("gravity", [1, 2], "gravity has the shape (2,)"),
+                                    ("width", "wide", "width is not a number")):
+            with self.assertRaises(ValueError) as raised:
+                overturn.evaluate(**{**GOOD, name: value})
+            self.assertTrue(str(raised.exception).startswith(phrase), str(raised.exception))
+
+    def test_of_shapes_that_do_not_broadcast(self):
+        self.assert_refused(ValueError, "do not broadcast: width (3,), pga (2,)", width=[1, 2, 3], pga=[1, 2])
+
+    def test_of_a_restitution_that_no_slenderness_allows(self):
+        self.assert_refused(ValueError, "r_max is defined below", restitution=None, restitution_of_maximum=1, width=6)
+
+    def test_of_samples(self):
+        self.assert_refused(ValueError, "record[1] = nan is not finite", RECORD, record=[0, np.nan])
+        self.assert_refused(ValueError, "vertical has 2 samples, but record has 3", RECORD, vertical=[0, 0])
+        self.assert_refused(ValueError, "two or more samples", RECORD, record=[0, 0])
+        self.assert_refused(ValueError, "record has 2 dimensions", RECORD, record=[[1, 2]])
+        self.assert_refused(ValueError, "time_step = 0 is outside", RECORD, time_step=0)
+        self.assert_refused(ValueError, 'method = "rk45" is for pulses only', RECORD, method="rk45")
+
+    def test_of_a_tolerance_at_which_errors_are_not_known(self):
+        self.assert_refused(ValueError, "too loose for resolve", resolve=True, method="rk45", tolerance=1e-3)
+
+
+class AnArgumentError(Refused):
+    def test_of_missing_arguments(self):
+        self.assert_refused(TypeError, "Give width and height", width=None)
+        self.assert_refused(TypeError, "the restitution is missing", restitution=None)
+        self.assert_refused(TypeError, "the ground motion is incomplete", pga=None)
+        self.assert_refused(TypeError, "the ground motion is incomplete", period=None)
+        self.assert_refused(TypeError, "period needs the size of the blocks", width=None, height=None,
+                            slenderness=0.2)
+        self.assert_refused(TypeError, "a record needs time_step", RECORD, time_step=None)
+        self.assert_refused(TypeError, "either scale or pga", RECORD, scale=None)
+
+    def test_of_arguments_that_contradict_each_other(self):
+        self.assert_refused(TypeError, "half_width cannot be combined with width", half_width=1)
+        self.assert_refused(TypeError, "pga cannot be combined with amplitude", amplitude=1)
+        self.assert_refused(TypeError, "period cannot be combined with frequency", frequency=1)
+        self.assert_refused(TypeError, "period cannot be combined with record", RECORD, period=1)
+        self.assert_refused(TypeError, "scale has no meaning without record", scale=1)
+        self.assert_refused(TypeError, "either scale or pga", RECORD, pga=1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,79 @@
+// bench_blocks COUNT: reads five columns of COUNT doubles from stdin (width, height,
+// restitution_of_maximum, pga, pulse_period) and prints the seconds that all blocks take under
+// one-sine pulses, with the method taylor at 1e-9: in the kernel, and in sweep_tile(). `tools/bench
+// python` compares them with overturn.evaluate().
+#include "point_run.hpp"
+
+#include "overturn/sweep/block_list.hpp"
+#include "overturn/sweep/sweep_tile.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+using namespace overturn;
+using Clock = std::chrono::steady_clock;
+
+constexpr int rounds = 5;
+
+Columns read_columns(std::size_t count)
+{
+    Columns columns;
+    for (const char* name : {"width", "height", "restitution_of_maximum", "pga", "pulse_period"}) {
+        std::vector<double>& column = columns[name];
+        column.resize(count);
+        if (std::fread(column.data(), sizeof(double), count, stdin) != count) {
+            std::fputs("bench_blocks: stdin ended too early\n", stderr);
+            std::exit(2);
+        }
+    }
+    return columns;
+}
+
+/// The shortest of several rounds over all tiles [s]; seconds_of(tile): what counts.
+template <class SecondsOf>
+double shortest(const Tiling& tiling, const SecondsOf& seconds_of)
+{
+    double least = 1e300;
+    for (int round = 0; round < rounds; ++round) {
+        double seconds = 0;
+        for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            seconds += seconds_of(tiling[number]);
+        }
+        least = std::min(least, seconds);
+    }
+    return least;
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    const Scene scene;
+    const Numerics numerics{.method = Method::taylor};
+    const Kernel kernel = widest_kernel();
+    Plane plane;
+    plane.list = std::make_shared<const BlockList>(
+        block_list(scene, read_columns(std::size_t(count > 1 ? std::atoll(words[1]) : 0))));
+    const Tiling tiling(plane);
+    const auto since = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    const double in_kernel = shortest(tiling, [&](const Tile& tile) {
+        const PointRun points(scene, points_of(scene, plane, tile), kernel);
+        Ends ends(std::size_t(tile.points()), {.peak = true, .region = true, .margin = true});
+        const auto start = Clock::now();
+        points.run(numerics, ends);
+        return since(start);
+    });
+    const double in_sweep = shortest(tiling, [&](const Tile& tile) {
+        const auto start = Clock::now();
+        sweep_tile(scene, numerics, plane, tile,
+                   {Field::region, Field::status, Field::peak, Field::margin}, kernel);
+        return since(start);
+    });
+    std::printf("%.6f %.6f\n", in_kernel, in_sweep);
+}

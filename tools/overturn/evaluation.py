@@ -1,0 +1,178 @@
+"""What becomes of single blocks, computed in this process."""
+
+from __future__ import annotations
+
+import enum
+from typing import TYPE_CHECKING, TypedDict
+
+import numpy as np
+
+from overturn import core
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+
+class Verdict(enum.IntEnum):
+    """The codes of `verdict`. An undecided point is neither safe nor does it overturn."""
+
+    SAFE = 0
+    OVERTURNS = 1
+    UNDECIDED = 2
+
+
+class Outcome(TypedDict):
+    """What becomes of every block; all arrays have the broadcast shape of the arguments."""
+
+    verdict: NDArray[np.uint8]  #: codes of Verdict
+    region: NDArray[np.uint8]  #: region codes, as in result files
+    peak: NDArray[np.float64]  #: largest |theta| / alpha [1]; infinite: overturns; NaN: undecided
+    margin: NDArray[np.float64]  #: distance from the other verdict [1], positive: safe
+    status: NDArray[np.uint8]  #: status flags, as in result files
+
+
+_VERDICT_OF_REGION = np.full(256, Verdict.UNDECIDED, np.uint8)
+_VERDICT_OF_REGION[list(core.safe_regions.values())] = Verdict.SAFE
+_VERDICT_OF_REGION[list(core.unsafe_regions.values())] = Verdict.OVERTURNS
+
+# Arguments whose names in lists and result files differ.
+_COLUMN_OF = {"period": "pulse_period"}
+
+
+def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
+             half_width: ArrayLike | None = None, half_height: ArrayLike | None = None,
+             slenderness: ArrayLike | None = None, size: ArrayLike | None = None,
+             frequency_parameter: ArrayLike | None = None,
+             restitution: ArrayLike | None = None, restitution_of_maximum: ArrayLike | None = None,
+             period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
+             frequency: ArrayLike | None = None,
+             pga: ArrayLike | None = None, amplitude: ArrayLike | None = None,
+             pulse: str = "one_sine", window: float | None = None, cycles: float | None = None,
+             gamma: float | None = None, nu: float | None = None,
+             record: ArrayLike | None = None, vertical: ArrayLike | None = None,
+             time_step: float | None = None, scale: ArrayLike | None = None,
+             theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
+             resolve: bool = False, gravity: float = 9.81) -> Outcome:
+    """Computes what becomes of blocks, each under its own ground motion.
+
+    The arguments marked with * are numbers or arrays and broadcast by the rules of NumPy. The values
+    are those of `overturn run`, bit for bit. Threads may call this function at the same time: it does
+    not hold the interpreter's lock.
+
+    The block:
+        width*, height*: of the whole block [m]; or half_width*, half_height* [m]; or slenderness*
+            [rad] with size* (half diagonal R [m]) or frequency_parameter* (p [1/s]); or slenderness*
+            alone under a pulse given by frequency.
+        restitution*: energy ratio r at an impact [1]; or restitution_of_maximum*, r / r_max [1].
+    A pulse:
+        period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
+        pga*: peak ground acceleration over g [1]; or amplitude*, over that which lifts the block [1].
+        pulse: its kind; window, cycles, gamma, nu: numbers that complete some kinds, see docs/jobs.md.
+    Or a record:
+        record: horizontal accelerations over g [1], one-dimensional, linear between samples.
+        vertical: vertical accelerations over g [1] at the same times, positive upwards.
+        time_step: between two samples [s].
+        scale*: factor on both accelerations [1]; or pga*, the peak of the scaled record over g [1].
+    The computation:
+        theory: "nonlinear" or "linear".
+        method: "taylor", or "rk45" under pulses.
+        tolerance: local error per step [1]; by default 1e-9, with resolve 1e-4.
+        resolve: settle verdicts in doubt with up to 50 digits.
+        gravity: g [m/s2].
+
+    Raises ValueError if a value is not allowed, with its index in the broadcast shape, or if arrays do not
+    broadcast; TypeError if arguments are missing or contradict each other.
+    """
+    columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
+                     slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
+                     restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
+    of_pulse = _given(period=period, pulse_frequency=pulse_frequency, frequency=frequency, amplitude=amplitude)
+    shape_numbers = _given(window=window, cycles=cycles, gamma=gamma, nu=nu)
+    numbers = {name: _number(name, value) for name, value in _given(
+        **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
+    of_record = _given(vertical=vertical, time_step=time_step, scale=scale)
+    if record is None:
+        _refuse(of_record, "has no meaning without record")
+        if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
+            raise TypeError("the ground motion is incomplete. Give period (or pulse_frequency or frequency) and "
+                            "pga (or amplitude), or a record.")
+        columns |= of_pulse
+        scene = core.scene_of_pulse(pulse, theory, numbers["gravity"], {name: numbers[name] for name in shape_numbers})
+    else:
+        _refuse({**of_pulse, **shape_numbers}, "cannot be combined with record")
+        if time_step is None or (scale is None) == (pga is None):
+            raise TypeError("a record needs time_step, and either scale or pga.")
+        columns |= _given(scale=scale)
+        horizontal, upwards = _accelerations(record, vertical)
+        scene = core.scene_of_record(horizontal, upwards, numbers["time_step"], theory, numbers["gravity"])
+    numerics = core.numerics(scene, method, numbers.get("tolerance"), bool(resolve))
+    return _evaluated(scene, numerics, columns)
+
+
+def _given(**arguments):
+    return {name: value for name, value in arguments.items() if value is not None}
+
+
+def _number(name, value):
+    array = _numbers(name, value)
+    if array.ndim:
+        raise ValueError(f"{name} has the shape {array.shape}. Give one number for all blocks.")
+    return float(array)
+
+
+def _numbers(name, value):
+    try:
+        return np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is not a number or an array of numbers.") from None
+
+
+def _refuse(arguments, reason):
+    if arguments:
+        raise TypeError(f"{next(iter(arguments))} {reason}. Remove it.")
+
+
+def _accelerations(record, vertical):
+    """Returns checked samples; none if there is no vertical motion."""
+    horizontal = _numbers("record", record)
+    upwards = _numbers("vertical", [] if vertical is None else vertical)
+    for name, samples in (("record", horizontal), ("vertical", upwards)):
+        if samples.ndim != 1:
+            raise ValueError(f"{name} has {samples.ndim} dimensions. Give a one-dimensional array of samples.")
+        infinite = np.flatnonzero(~np.isfinite(samples))
+        if infinite.size:
+            raise ValueError(f"{name}[{infinite[0]}] = {samples[infinite[0]]} is not finite. Give accelerations over g.")
+    if horizontal.size < 2 or not horizontal.any():
+        raise ValueError("record needs two or more samples, not all of them zero.")
+    if vertical is not None and upwards.size != horizontal.size:
+        raise ValueError(f"vertical has {upwards.size} samples, but record has {horizontal.size}. Give both at the "
+                         "same times.")
+    return horizontal, upwards
+
+
+def _evaluated(scene, numerics, columns):
+    arrays = {_COLUMN_OF.get(name, name): _numbers(name, value) for name, value in columns.items()}
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {np.shape(value)}" for name, value in columns.items() if np.ndim(value))
+        raise ValueError(f"these shapes do not broadcast: {shapes}. Give arrays of one shape, or of lengths that "
+                         "are equal or 1 in every dimension.") from None
+    flat = {name: np.broadcast_to(array, shape).ravel() for name, array in arrays.items()}
+    try:
+        computed = core.evaluate(scene, numerics, flat)
+    except core.ListError as error:
+        raise _error_of(*error.args, shape) from None
+    fields = {name: values.reshape(shape) for name, values in computed.items()}
+    return Outcome(verdict=np.asarray(_VERDICT_OF_REGION[fields["region"]]), **fields)
+
+
+def _error_of(row, column, message, shape):
+    """Returns the error of a list with the names of the arguments and the index of the point."""
+    for argument, name in _COLUMN_OF.items():
+        message = message.replace(name, argument)
+        column = argument if column == name else column
+    if row < 0:
+        return TypeError(f"{column} {message}".lstrip())
+    index = tuple(map(int, np.unravel_index(row, shape)))
+    return ValueError(f"at index {index}: {message}" if shape else message)

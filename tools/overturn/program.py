@@ -1,0 +1,130 @@
+"""The program overturn, called from Python."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Union
+
+from overturn import datasets
+from overturn.checkout import is_program, overturn_path
+
+if TYPE_CHECKING:
+    import xarray
+
+Job = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+class ProgramError(RuntimeError):
+    """The program failed. The text is its message."""
+
+    def __init__(self, message: str, exit_code: int):
+        super().__init__(message)
+        self.exit_code = exit_code  #: of the program; negative: the signal that ended it
+
+
+def check(job: Job, *, overrides: Mapping[str, Any] = {}) -> str:
+    """Returns what `overturn check` prints: points, bytes and time of a job.
+
+    job: the path of a job file; or a job as a TOML text of several lines, or as a dictionary of the
+        same structure. Paths of records in a text or a dictionary are relative to the working folder.
+    overrides: keys of the job and their new values, such as {"scene.pulse": "half_sine"}.
+
+    Raises ProgramError if the job is not valid.
+    """
+    with _job_file(job) as path:
+        return _output_of([overturn_path(), "check", path, *_set_arguments(overrides)], path, job)
+
+
+def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = None,
+        overrides: Mapping[str, Any] = {}) -> xarray.Dataset:
+    """Runs a job and returns its result, see open().
+
+    job, overrides: as in check().
+    ranks: number of processes; above 1 they are started by mpirun, or by $MPIEXEC.
+    output: path of the result file, from which the data set is read when it is used. Running the same
+        job again resumes a run that was stopped. Without it, the data set is in memory and no file
+        remains.
+
+    Raises ProgramError if the program fails.
+    """
+    launcher = [os.environ.get("MPIEXEC", "mpirun"), "-n", str(ranks)] if ranks != 1 else []
+    with contextlib.ExitStack() as stack:
+        path = stack.enter_context(_job_file(job))
+        if output is None:
+            folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="overturn-"))
+            result = pathlib.Path(folder) / "result.h5"
+        else:
+            result = pathlib.Path(output)
+        _output_of([*launcher, overturn_path(), "run", path, "-o", result, *_set_arguments(overrides)], path, job)
+        dataset = datasets.open(result)
+        if output is not None:
+            return dataset
+        with dataset:
+            return dataset.load()
+
+
+def _output_of(command, path, job):
+    program = overturn_path()
+    if not is_program(program):
+        raise ProgramError(f"there is no program \"{program}\". Build it (tools/quickstart does), or set OVERTURN "
+                           "to the path of another one.", 2)
+    try:
+        done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, errors="replace")
+    except FileNotFoundError:
+        raise ProgramError(f"there is no launcher \"{command[0]}\". Install an MPI, or set MPIEXEC.", 2) from None
+    if done.returncode == 0:
+        return done.stdout
+    message = done.stderr.split("overturn: ", 1)[-1].split("\n----", 1)[0].strip("-\n ") or done.stdout.strip()
+    if not _is_path(job):
+        message = message.replace(str(path), "job")
+    raise ProgramError(message, done.returncode)
+
+
+def _is_path(job):
+    return not isinstance(job, Mapping) and "\n" not in os.fspath(job)
+
+
+@contextlib.contextmanager
+def _job_file(job):
+    """Yields the path of a job file. A text or a dictionary is written to a file in the working folder,
+    because paths of records are relative to the file."""
+    if _is_path(job):
+        yield os.fspath(job)
+        return
+    text = "".join(f"{json.dumps(key)} = {_toml(value, key)}\n" for key, value in job.items()) if isinstance(
+        job, Mapping) else job
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=os.curdir, prefix="overturn-",
+                                     suffix=".toml") as file:
+        file.write(text)
+        file.flush()
+        yield os.path.basename(file.name)
+
+
+def _set_arguments(overrides):
+    return [word for key, value in overrides.items() for word in ("--set", f"{key}={_toml(value, key)}")]
+
+
+def _toml(value, key):
+    """Returns a value of a job in TOML, in one line."""
+    if hasattr(value, "tolist"):  # of NumPy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(name)} = {_toml(part, f'{key}.{name}')}"
+                               for name, part in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(part, key) for part in value) + "]"
+    raise TypeError(f"{key} = {value!r} cannot be part of a job. Give strings, numbers, booleans, lists and "
+                    "dictionaries.")

@@ -1,0 +1,45 @@
+"""Files of recorded ground motions."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from typing import TYPE_CHECKING
+
+from overturn import core
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+RecordError = core.RecordError  #: a ValueError with the place, what was found and what is allowed
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Record:
+    """One component of a recorded ground motion."""
+
+    acceleration: NDArray[np.float64]  #: over g [1]
+    time_step: float  #: between two samples [s]
+    name: str  #: of the component, as in the file; may be empty
+    format: str  #: "AT2", "V2A", "SMC" or "text"
+    header: list[str]  #: lines of the file before the samples
+
+
+def read_record(path: str | os.PathLike, component: int | str = 1, *, time_step: float | None = None,
+                units: str | None = None, gravity: float = 9.81) -> Record:
+    """Reads one component of a recorded ground motion, as jobs do (docs/records.md).
+
+    component: its number, counted from 1, or its name.
+    time_step [s] and units ("g", "m/s2", "cm/s2" or "mm/s2"): of files of text, which do not state them.
+    gravity: g [m/s2], by which accelerations that are not in g are divided.
+
+    Raises RecordError if the file cannot be read; ValueError if an argument is not allowed.
+    """
+    components = core.components_of(os.fspath(path), time_step, units, gravity)
+    for number, found in enumerate(components, 1):
+        if component in (number, found["name"]):
+            return Record(**found)
+    names = ", ".join(f"{number} ({found['name']})" if found["name"] else str(number)
+                      for number, found in enumerate(components, 1))
+    raise ValueError(f"component = {component!r} is not a component of {path}. It has the components {names}.")
