@@ -136,10 +136,6 @@ private:
 py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
                           const std::map<std::string, Values>& columns)
 {
-    Columns given;
-    for (const auto& [name, values] : columns) {
-        given[name] = vector_of(values);
-    }
     const py::ssize_t size = columns.empty() ? 0 : columns.begin()->second.size();
     py::array_t<std::uint8_t> region(size), status(size);
     py::array_t<double> peak(size), margin(size);
@@ -147,6 +143,10 @@ py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
                          margin.mutable_data()};
     if (size > 0) {
         const py::gil_scoped_release released;
+        Columns given;
+        for (const auto& [name, values] : columns) {
+            given[name] = vector_of(values);
+        }
         evaluate(scene, numerics, given, to, SignalCheck());
     }
     using namespace py::literals;

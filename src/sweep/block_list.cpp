@@ -180,9 +180,9 @@ void read_pulses(const Scene& scene, const ColumnReader& columns, BlockList& lis
                                                         : "pulse_period (or frequency)"));
     }
     const std::vector<double>& strengths = columns.values(strength);
+    const bool is_pga = columns.has("pga");
     list.amplitude = for_each_row(strengths.size(), [&](std::size_t row) {
-        const double unit =
-            columns.has("pga") ? pga_of_unit_amplitude(scene, 0, list.slenderness[row]) : 1;
+        const double unit = is_pga ? pga_of_unit_amplitude(scene, 0, list.slenderness[row]) : 1;
         return strengths[row] / unit;
     });
     const std::vector<double>& rates = columns.values(rate);
@@ -219,9 +219,9 @@ void read_scales(const Scene& scene, const ColumnReader& columns,
     }
     list.motion = motion.empty() ? std::vector<std::int64_t>(p.size()) : motion;
     const std::vector<double>& strengths = columns.values(strength);
+    const bool is_pga = columns.has("pga");
     list.amplitude = for_each_row(strengths.size(), [&](std::size_t row) {
-        const double unit =
-            columns.has("pga") ? pga_of_unit_amplitude(scene, list.motion[row], 0) : 1;
+        const double unit = is_pga ? pga_of_unit_amplitude(scene, list.motion[row], 0) : 1;
         return strengths[row] / unit;
     });
     list.frequency = for_each_row(p.size(), [&](std::size_t row) {

@@ -139,9 +139,8 @@ def _accelerations(record, vertical):
     for name, samples in (("record", horizontal), ("vertical", upwards)):
         if samples.ndim != 1:
             raise ValueError(f"{name} has {samples.ndim} dimensions. Give a one-dimensional array of samples.")
-        infinite = np.flatnonzero(~np.isfinite(samples))
-        if infinite.size:
-            raise ValueError(f"{name}[{infinite[0]}] = {samples[infinite[0]]} is not finite. Give accelerations over g.")
+        for index in np.flatnonzero(~np.isfinite(samples))[:1]:
+            raise ValueError(f"{name}[{index}] = {samples[index]} is not finite. Give accelerations over g.")
     if horizontal.size < 2 or not horizontal.any():
         raise ValueError("record needs two or more samples, not all of them zero.")
     if vertical is not None and upwards.size != horizontal.size:
