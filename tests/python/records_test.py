@@ -33,7 +33,7 @@ class ARecord(unittest.TestCase):
     def test_refusals(self):
         path = self.text_file("0\n1\n")
         for error, phrase, arguments in (
-                (overturn.RecordError, "does not state the unit", {"time_step": 0.5}),
+                (overturn.RecordError, "not state the unit", {"time_step": 0.5}),
                 (overturn.RecordError, "time_step", {"units": "g"}),
                 (ValueError, 'units = "feet" is not one of g, m/s2', {"time_step": 0.5, "units": "feet"}),
                 (ValueError, "component = 2 is not a component", {"time_step": 0.5, "units": "g", "component": 2})):
