@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import (ENVIRONMENT, JOB, OVERTURN, PATIENCE, Scratch, checksum, is_mpich, ranks_of,
+from program import (ENVIRONMENT, JOB, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, is_mpich, ranks_of,
                      under_mpi, words)
 
 
@@ -46,15 +46,20 @@ class ScratchWithRuns(Scratch):
             self.assertLess(time.monotonic(), deadline, "ranks outlived their launcher")
             time.sleep(0.05)
 
-    def assert_resumes(self, ranks):
-        """Resumes with this number of ranks; the file must equal that of an uninterrupted run."""
+    def assert_can_be_resumed(self):
+        """Returns the number of tiles that are done: some, but not all."""
         done = self.tiles_done()
         self.assertGreaterEqual(done, 3)
-        self.assertLess(done, 98, "the run was interrupted too late")
+        self.assertLess(done, LONG_TILES, "the run was interrupted too late")
         info = self.overturn("info", "long.h5")
-        self.assert_exit(info, 0, f"{done} of 98 done", "overturn run JOB.toml -o long.h5")
+        self.assert_exit(info, 0, f"{done} of {LONG_TILES} done", "overturn run JOB.toml -o long.h5")
+        return done
+
+    def assert_resumes(self, ranks):
+        """Resumes with this number of ranks; the file must equal that of an uninterrupted run."""
+        done = self.assert_can_be_resumed()
         result = self.overturn("run", "long.toml", ranks=ranks)
-        self.assert_exit(result, 0, f"resuming: {done} of 98 tiles done")
+        self.assert_exit(result, 0, f"resuming: {done} of {LONG_TILES} tiles done")
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
 
 
@@ -70,21 +75,53 @@ class AnInterruptedRun(ScratchWithRuns):
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
         self.assertNotIn("long.h5.lock", self.files())
 
-    def test_resumes_after_sigusr1_to_mpirun(self):
+    def test_resumes_after_one_interruption_after_the_other(self):
+        for interrupt in (self.send_sigusr1_to_mpirun, self.send_sigusr1_to_one_rank, self.kill_mpirun,
+                          self.kill_a_rank, self.fail_to_write):
+            with self.subTest(interrupt.__name__):
+                interrupt()
+                self.assert_can_be_resumed()
+        self.assert_resumes(ranks=2)
+
+    def send_sigusr1_to_mpirun(self):
         process = self.start(ranks=3)
         process.send_signal(signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
         self.assert_stopped(process.returncode, output, ranks=3)
         self.assertIn("stopped by a signal", output)
         self.assertIn("Run the same command again to resume", output)
-        self.assert_resumes(ranks=2)
 
-    def test_resumes_after_a_signal_to_one_rank_only(self):
-        process = self.start(ranks=3)
+    def send_sigusr1_to_one_rank(self):
+        process = self.start(ranks=5)
         os.kill(ranks_of(process.pid)[-1], signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
-        self.assert_stopped(process.returncode, output, ranks=3)
-        self.assert_resumes(ranks=5)
+        self.assert_stopped(process.returncode, output, ranks=5)
+        self.assertIn("resuming: ", output)
+
+    def kill_mpirun(self):
+        process = self.start(ranks=2)
+        ranks = ranks_of(process.pid)
+        process.kill()
+        process.communicate(timeout=PATIENCE)
+        self.wait_for_end(ranks)
+
+    def kill_a_rank(self):
+        process = self.start(ranks=3)
+        ranks = ranks_of(process.pid)
+        os.kill(ranks[1], signal.SIGKILL)
+        process.communicate(timeout=PATIENCE)
+        self.assertNotEqual(process.returncode, 0)
+        self.wait_for_end(ranks)
+
+    def fail_to_write(self):
+        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
+        for ranks in (None, 3):
+            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
+            if ranks is not None and is_mpich() and result.returncode == 9:
+                result.returncode = 74  # its launcher killed the rank that had not failed
+            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
+            if ranks is not None:
+                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
 
     def test_stops_without_mpirun_on_each_handled_signal(self):
         signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may have been started by nohup
@@ -111,37 +148,6 @@ class AnInterruptedRun(ScratchWithRuns):
             (self.folder / "small.h5.json").unlink()
             self.assert_exit(self.overturn("verify", "small.h5"), 0)
             (self.folder / "small.h5").unlink()
-
-    def test_resumes_after_the_death_of_mpirun(self):
-        process = self.start(ranks=2)
-        ranks = ranks_of(process.pid)
-        process.kill()
-        process.communicate(timeout=PATIENCE)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=3)
-
-    def test_resumes_after_the_death_of_a_rank(self):
-        process = self.start(ranks=3)
-        ranks = ranks_of(process.pid)
-        os.kill(ranks[1], signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        self.assertNotEqual(process.returncode, 0)
-        self.wait_for_end(ranks)
-        self.assert_resumes(ranks=None)
-
-    def test_resumes_after_a_rank_could_not_write(self):
-        process = self.start(ranks=2)
-        process.send_signal(signal.SIGUSR1)
-        process.communicate(timeout=PATIENCE)
-        # In blocks of 512 bytes: less than the size of the file, so that its end cannot be written.
-        for ranks in (None, 3):
-            result = self.overturn("run", "long.toml", ranks=ranks, shell_setup="ulimit -f 12000")
-            if ranks is not None and is_mpich() and result.returncode == 9:
-                result.returncode = 74  # its launcher killed the rank that had not failed
-            self.assert_exit(result, 74, "cannot write tile", "Run the same command again")
-            if ranks is not None:
-                self.assertRegex(result.stderr, r"rank [0-2]: cannot write tile")
-        self.assert_resumes(ranks=2)
 
 
 class AStopInTime(ScratchWithRuns):

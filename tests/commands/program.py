@@ -49,10 +49,10 @@ fields = ["region", "angle", "velocity", "margin", "impacts", "status"]
 
 # 2 x 3 x 4 tiles, some of them cut off at the upper edges: computed at once.
 SMALL = JOB.format(columns=200, rows=150, restitutions="[0.7, 1.0]", tolerance="1e-6")
-# 2 x 7 x 7 tiles: a second or more on two ranks with AVX-512, so that a signal arrives during
-# it.
+# 2 x 7 x 7 tiles: a second or more on two ranks with AVX-512, so that a signal arrives during it.
 LONG = JOB.format(columns=448, rows=448, restitutions="[0.7, 1.0]",
                   tolerance="1e-14").replace('"status"]', '"status", "error"]')
+LONG_TILES = 98
 
 
 def checksum(path):
