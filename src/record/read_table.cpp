@@ -164,9 +164,10 @@ void for_each_value_of_row(Values& values, std::size_t columns, const Visit& vis
         }
         if (values.ends_row()) {
             if (i + 1 != columns) {
-                throw TableError(fmt::format("{}:{}: the row has {} values, but the first line "
-                                             "names {} columns. Separate values by commas; put a "
-                                             "value that contains one in quotes.",
+                throw TableError(fmt::format("{}:{}: the number of values, {}, is not that of "
+                                             "the columns that the first line names, {}. Separate "
+                                             "values by commas; put a value that contains one in "
+                                             "quotes.",
                                              values.name(), line, i + 1, columns));
             }
             return;
