@@ -119,7 +119,13 @@ class AnInstallation(unittest.TestCase):
                                ("overturn run --kernel avx", ["avx2", "avx512"]),
                                ("overturn check j", ["job.toml"]), ("overturn info sp", ["spectrum.h5"]),
                                ("overturn run job.toml -o sp", ["spectrum.h5"]),
-                               ("overturn run --set p", [])):
+                               ("overturn run --set scene.p", ["scene.pulse="]),
+                               ("overturn boundary --set plane.size.", ["plane.size.values=", "plane.size.first=",
+                                                                        "plane.size.last=", "plane.size.count=",
+                                                                        "plane.size.spacing="]),
+                               ("overturn topple --set plane", []),
+                               ("overturn history --at pulse_p", ["pulse_period="]),
+                               ("overturn run --set scene.pulse = o", [])):
             self.assertEqual(self.completions_of(line), expected, line)
 
     def completions_of(self, line):
