@@ -69,13 +69,66 @@ double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample
     return seconds * (double(items) / double(computed));
 }
 
-std::string spectrum_time(const Job& job, Kernel kernel)
+double direct_seconds(const Job& job, Kernel kernel)
 {
-    return "about " + human_duration(estimated_seconds(job.plane.points(), [&](std::int64_t i) {
-               const Tile tile = sample_tile(job.plane, i);
-               sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
-               return tile.points();
-           }));
+    Numerics numerics = job.numerics;
+    numerics.fill = false;
+    std::vector<Field> fields = job.fields;
+    std::erase(fields, Field::evaluated);
+    return estimated_seconds(job.plane.points(), [&](std::int64_t i) {
+        const Tile tile = sample_tile(job.plane, i);
+        sweep_tile(job.scene, numerics, job.plane, tile, fields, kernel);
+        return tile.points();
+    });
+}
+
+/// The time to fill a spectrum, and the share of its points that are integrated.
+struct FillEstimate {
+    double seconds;
+    double share;
+};
+
+FillEstimate fill_estimate(const Job& job, Kernel kernel)
+{
+    const Tiling tiling = filled_tiling(job.plane);
+    std::int64_t points = 0;
+    std::int64_t integrated = 0;
+    const double seconds = estimated_seconds(tiling.size(), [&](std::int64_t i) {
+        const Tile tile = tiling[spread_index(i, 0, tiling.size())];
+        const TileFields fields =
+            sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
+        const auto& evaluated = std::get<std::vector<std::uint8_t>>(fields.values.back());
+        points += tile.points();
+        integrated += std::count(evaluated.begin(), evaluated.end(), point_origin::integrated);
+        return std::int64_t(1);
+    });
+    return {seconds, double(integrated) / double(points)};
+}
+
+void print_time(const Job& job, Kernel kernel)
+{
+    const double direct = direct_seconds(job, kernel);
+    const auto print = [&](double seconds) {
+        print_row("time", fmt::format("about {} on one rank with kernel {}; n ranks on n cores "
+                                      "need 1/n of it",
+                                      human_duration(seconds), name_of(kernel)));
+    };
+    if (job.numerics.fill) {
+        const FillEstimate fill = fill_estimate(job, kernel);
+        print(fill.seconds);
+        print_row("fill", fmt::format("about {:.2g} % of the points are integrated; all of them "
+                                      "would take {}",
+                                      100 * fill.share, human_duration(direct)));
+        return;
+    }
+    print(direct);
+    if (reason_not_to_fill(job).empty()) {
+        Job filled = job;
+        filled.numerics.fill = true;
+        filled.fields.push_back(Field::evaluated);
+        print_row("fill", fmt::format("about {} with numerics.fill = true",
+                                      human_duration(fill_estimate(filled, kernel).seconds)));
+    }
 }
 
 std::string boundary_time(const Job& spectrum, Kernel kernel)
@@ -153,7 +206,7 @@ void print_plane(const Plane& plane)
 
 void print_size(const Job& job)
 {
-    const Tiling tiling(job.plane);
+    const Tiling tiling = tiling_of(job);
     const auto points = double(job.plane.points());
     print_row("points", fmt::format("{} in {} {}", human_count(points), tiling.size(),
                                     noun_of(double(tiling.size()), "tiles")));
@@ -185,10 +238,8 @@ int check(const JobSource& source)
         print_row("note", line);
     }
     print_size(job);
-    print_row("time",
-              fmt::format("{} on one rank with kernel {}; n ranks on n cores need 1/n of it",
-                          spectrum_time(job, kernel), name_of(kernel)));
-    if (!job.blocks && job.plane.amplitude.size() > 1) {
+    print_time(job, kernel);
+    if (!job.blocks && !job.numerics.fill && job.plane.amplitude.size() > 1) {
         print_row("boundary",
                   fmt::format("{} if computed with overturn boundary", boundary_time(job, kernel)));
     }

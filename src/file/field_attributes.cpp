@@ -110,6 +110,13 @@ Description description_of(Field field, const Job& job)
         return {"share of the scanned interval in which the block overturns", "1",
                 "under a record, smaller steps find more flips; this share hardly depends on the "
                 "step. Flips beyond the last stored flip are included"};
+    case Field::evaluated:
+        return {"whether the point was integrated", "",
+                "filled: all nodes of a cell around the point have its region, and none of the "
+                "functions that change it is near zero; by numerical evidence, not by proof",
+                std::vector<std::uint8_t>{point_origin::filled, point_origin::integrated,
+                                          point_origin::not_computed},
+                "filled integrated not_computed"};
     case Field::undecided_share:
         return {"share of the scanned interval in which the verdict could not be settled", "1"};
     }

@@ -132,6 +132,10 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
         write_attribute(file, "method", name_of(job.numerics.method));
         write_attribute(file, "tolerance", job.numerics.tolerance);
         write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
+        if (job.numerics.fill) {
+            write_attribute(file, "fill", "true");
+            write_attribute(file, "audit", job.numerics.audit);
+        }
     }
     add_run_token(file); // first, so that it is within any limit of file sizes
     const std::vector<Coordinate> coordinates = coordinates_of(job);

@@ -145,6 +145,10 @@ Job read_any_job(std::string text, const std::string& name,
     }
     read_plane(entry, job.plane);
     expect_gravity(entry, job);
+    expect_fillable(entry, job);
+    if (job.numerics.fill) {
+        job.fields.push_back(Field::evaluated);
+    }
     if (const JobSize size = size_of(job); size.bytes > most_bytes) {
         refuse(*find(entry, "plane"),
                fmt::format(" has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are "
@@ -204,6 +208,10 @@ Job boundary_of(Job job)
                         "or scale.",
                         in_quotes(job.blocks->file)));
     }
+    if (job.numerics.fill) {
+        throw JobError("numerics.fill = true is for spectra; a boundary is found without filling. "
+                       "Remove it.");
+    }
     if (job.plane.amplitude.size() == 1) {
         throw JobError(fmt::format("plane.{} has one value, {}, but flips are found between the "
                                    "first and the last. Give two or more values.",
@@ -232,7 +240,8 @@ Tiling tiling_of(const Job& job)
     constexpr std::int64_t lines = 1;
     return job.product == Product::boundary
                ? Tiling(shape_of(job.plane), {most_crossings(job.scene), lines})
-               : Tiling(job.plane);
+           : job.numerics.fill ? filled_tiling(job.plane)
+                               : Tiling(job.plane);
 }
 
 } // namespace overturn

@@ -30,7 +30,8 @@ inline constexpr std::array<std::string_view, 6> restitution_keys{"values", "fir
 inline constexpr std::array<std::string_view, 4> block_keys{"width", "height", "half_width",
                                                             "half_height"};
 inline constexpr std::array<std::string_view, 1> blocks_keys{"table"};
-inline constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
+inline constexpr std::array<std::string_view, 5> numerics_keys{"method", "tolerance", "resolve",
+                                                               "fill", "audit"};
 inline constexpr std::array<std::string_view, 1> output_keys{"fields"};
 
 } // namespace overturn

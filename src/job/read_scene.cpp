@@ -97,7 +97,54 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
         numerics.tolerance = number_of(*tolerance);
         expect_allowed(*tolerance, quantity("tolerance"), numerics.tolerance);
     }
+    if (const auto fill = find(*entry, "fill")) {
+        numerics.fill = boolean_of(*fill);
+    }
+    if (const auto audit = find(*entry, "audit")) {
+        numerics.audit = number_of(*audit);
+        expect_allowed(*audit, quantity("audit"), numerics.audit);
+        if (!numerics.fill) {
+            refuse(*audit, " needs fill = true: without filling, every point is integrated.");
+        }
+    }
     return numerics;
+}
+
+std::string reason_not_to_fill(const Job& job)
+{
+    if (job.scene.is_recorded()) {
+        return "under a record regions have no simple boundaries";
+    }
+    if (job.blocks) {
+        return "the blocks of a list have no neighbours";
+    }
+    for (const auto& [name, axis] :
+         {std::pair{name_of(job.plane.amplitude_is), &job.plane.amplitude},
+          {name_of(job.plane.frequency_is), &job.plane.frequency}}) {
+        if (axis->size() > 1 && std::holds_alternative<AxisList>(axis->definition())) {
+            return fmt::format("plane.{} lists its values, which may have any distance; a filled "
+                               "axis has first, last and count",
+                               name);
+        }
+    }
+    for (const Field field : job.fields) {
+        if (field != Field::region && field != Field::impacts) {
+            return fmt::format("the field \"{}\" is different at every point; only \"region\" and "
+                               "\"impacts\" can be filled",
+                               name_of(field));
+        }
+    }
+    return "";
+}
+
+void expect_fillable(const Entry& entry, const Job& job)
+{
+    const std::string reason = job.numerics.fill ? reason_not_to_fill(job) : "";
+    if (!reason.empty()) {
+        refuse(*find(*find(entry, "numerics"), "fill"),
+               fmt::format(" = true is not possible: {}. Remove it to integrate every point.",
+                           reason));
+    }
 }
 
 void expect_known_errors(const Entry& job, const Numerics& numerics,

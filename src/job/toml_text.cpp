@@ -129,12 +129,17 @@ std::string resolved_text(const Job& job)
                     job.blocks ? blocks_text(*job.blocks, *job.plane.list) + axes_text(job.plane)
                                : plane_text(job.plane));
     if (job.product == Product::spectrum) { // a boundary ignores both
-        text += fmt::format(
-            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}\n"
-            "[output]\nfields = {}\n",
-            name_of(job.numerics.method), float_text(job.numerics.tolerance),
-            job.numerics.resolve ? "resolve = true\n" : "",
-            list_text(job.fields, [](Field field) { return in_quotes(name_of(field)); }));
+        std::vector<Field> fields = job.fields;
+        std::erase(fields, Field::evaluated);
+        text +=
+            fmt::format("\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n"
+                        "[output]\nfields = {}\n",
+                        name_of(job.numerics.method), float_text(job.numerics.tolerance),
+                        job.numerics.resolve ? "resolve = true\n" : "",
+                        job.numerics.fill ? fmt::format("fill = true\naudit = {}\n",
+                                                        float_text(job.numerics.audit))
+                                          : "",
+                        list_text(fields, [](Field field) { return in_quotes(name_of(field)); }));
     }
     return text;
 }

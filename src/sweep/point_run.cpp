@@ -3,6 +3,7 @@
 #include "overturn/integrate/more_digits.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
+#include "overturn/sweep/fields.hpp"
 
 #include <algorithm>
 
@@ -20,13 +21,14 @@ Ends::Ends(std::size_t points, const Records& recorded)
       region(records.region ? points : 0), margin(records.margin ? points : 0),
       impacts(records.impacts ? points : 0), error(records.error ? points : 0),
       steps(records.steps ? points : 0), phase(records.phase ? points : 0),
-      peak(records.peak ? points : 0)
+      peak(records.peak ? points : 0), lowest_turn(records.lowest_turn ? points : 0)
 {}
 
 PointEnds Ends::pointers()
 {
-    return {tilt.data(),    rate.data(),  side.data(),  flags.data(), region.data(), margin.data(),
-            impacts.data(), error.data(), steps.data(), phase.data(), peak.data()};
+    return {tilt.data(),   rate.data(),   side.data(),    flags.data(),
+            region.data(), margin.data(), impacts.data(), error.data(),
+            steps.data(),  phase.data(),  peak.data(),    lowest_turn.data()};
 }
 
 void Ends::set_free_fall(int point)
@@ -42,6 +44,13 @@ void Ends::set_free_fall(int point)
     if (records.error) {
         error[i] = infinity;
     }
+}
+
+std::uint16_t Ends::stored_impacts(std::size_t point, bool recorded) const
+{
+    return !recorded && (flags[point] & end_flag::rested)
+               ? impact_count::bounce_series
+               : std::uint16_t(std::min(impacts[point], double(impact_count::largest)));
 }
 
 namespace {
@@ -93,27 +102,35 @@ std::int64_t motion_of(const Scene& scene, const Tile& tile)
     return scene.is_recorded() ? tile.begin.front() : 0;
 }
 
+TileAxes::TileAxes(const Scene& scene, const Plane& plane, const Tile& tile)
+{
+    const std::int64_t* begin = &tile.begin[tile.begin.size() - 4]; // of the last four dimensions
+    const std::int64_t* count = &tile.count[tile.count.size() - 4];
+    const std::int64_t motion = motion_of(scene, tile);
+    slenderness = plane.slenderness[begin[0]];
+    restitution = plane.restitution_ratio(begin[0], begin[1]);
+    amplitudes = plane.amplitude.values(begin[2], begin[2] + count[2]);
+    frequencies = plane.frequency.values(begin[3], begin[3] + count[3]);
+    const double unit = amplitude_unit(scene, plane, motion, slenderness);
+    for (double& amplitude : amplitudes) {
+        amplitude /= unit;
+    }
+    for (double& frequency : frequencies) {
+        frequency = frequency_of_point(scene, plane, motion, frequency);
+    }
+}
+
 std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile)
 {
     if (plane.list) {
         return points_of_list(scene, plane, tile);
     }
-    const std::int64_t* begin = &tile.begin[tile.begin.size() - 4]; // of the last four dimensions
-    const std::int64_t* count = &tile.count[tile.count.size() - 4];
-    const double slenderness = plane.slenderness[begin[0]];
-    const double restitution = plane.restitution_ratio(begin[0], begin[1]);
-    const std::int64_t motion = motion_of(scene, tile);
-    std::vector<double> frequencies;
-    for (const double value : plane.frequency.values(begin[3], begin[3] + count[3])) {
-        frequencies.push_back(frequency_of_point(scene, plane, motion, value));
-    }
-    const double unit = amplitude_unit(scene, plane, motion, slenderness);
-    std::vector<PlanePoint> points(std::size_t(tile.points()));
-    auto point = points.begin();
-    for (const double value : plane.amplitude.values(begin[2], begin[2] + count[2])) {
-        const double amplitude = value / unit;
-        for (const double frequency : frequencies) {
-            *point++ = {slenderness, restitution, amplitude, frequency};
+    const TileAxes axes(scene, plane, tile);
+    std::vector<PlanePoint> points;
+    points.reserve(std::size_t(tile.points()));
+    for (std::size_t row = 0; row < axes.amplitudes.size(); ++row) {
+        for (std::size_t column = 0; column < axes.frequencies.size(); ++column) {
+            points.push_back(axes(row, column));
         }
     }
     return points;
@@ -147,6 +164,14 @@ PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel ke
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
       pushes_(record_ ? Pushes() : Pushes(motion_, scene.theory, points_))
 {}
+
+PointRun PointRun::with_points(std::vector<PlanePoint> points) const
+{
+    PointRun run = *this;
+    run.points_ = std::move(points);
+    run.pushes_ = Pushes(motion_, scene_.theory, run.points_);
+    return run;
+}
 
 bool PointRun::falls_freely(int point) const
 {

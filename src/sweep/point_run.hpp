@@ -18,13 +18,32 @@ struct Ends {
     PointEnds pointers();
     int size() const { return int(tilt.size()); }
 
+    /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
+    /// which a block may be lifted again after a bounce series.
+    std::uint16_t stored_impacts(std::size_t point, bool recorded) const;
+
     /// The end of a point that cannot be integrated because gravity vanishes.
     void set_free_fall(int point);
 
     Records records;
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
-    std::vector<double> margin, impacts, error, steps, phase, peak;
+    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn;
+};
+
+/// The points of a tile of a plane: one per amplitude and frequency.
+struct TileAxes {
+    TileAxes(const Scene& scene, const Plane& plane, const Tile& tile);
+
+    PlanePoint operator()(std::size_t row, std::size_t column) const
+    {
+        return {slenderness, restitution, amplitudes[row], frequencies[column]};
+    }
+
+    double slenderness;
+    double restitution;
+    std::vector<double> amplitudes;
+    std::vector<double> frequencies;
 };
 
 /// The points of a tile, the last dimension fastest.
@@ -55,10 +74,20 @@ public:
     PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
              DropRequested drop_requested = nullptr, std::int64_t motion = 0);
 
+    /// The same scene and kernel with other points.
+    PointRun with_points(std::vector<PlanePoint> points) const;
+
     int size() const { return int(points_.size()); }
+    const PlanePoint& point(int i) const { return points_[std::size_t(i)]; }
+
+    /// The phase at the end of the pulse [rad].
+    double end_of_pulse() const { return motion_.end; }
 
     /// The number of intervals of the record; 0 under a pulse.
     std::int64_t intervals() const { return record_ ? record_->samples() - 1 : 0; }
+
+    /// The pulse that lifts a point.
+    const Push& push_of(int point) const { return pushes_[point]; }
 
     /// Integrates every point, or the chosen ones, which must be in ascending order. Points where
     /// the ground falls as fast as the block are not integrated and get end_flag::free_fall.

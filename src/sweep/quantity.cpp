@@ -51,6 +51,11 @@ bool is_gamma(double value)
     return value > 1 && value <= largest_gamma;
 }
 
+bool is_share(double value)
+{
+    return value >= 0 && value <= 1;
+}
+
 bool is_phase(double value)
 {
     return std::abs(value) <= 2 * std::numbers::pi;
@@ -100,6 +105,8 @@ constexpr std::array quantities{
     Quantity{"gravity", "m s-2", positive, is_positive, "It is g in m/s2."},
     Quantity{"time_step", "s", positive, is_positive,
              "It is the time between two samples in seconds."},
+    Quantity{"audit", "1", "[0, 1]", is_share,
+             "It is the share of the filled points that are integrated as well."},
     Quantity{"tolerance", "1", "[1e-14, 0.01]", is_tolerance,
              "It is the local error per step, relative to the size of the motion."},
 };

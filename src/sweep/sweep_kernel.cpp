@@ -53,6 +53,9 @@ template <Theory theory, Records records>
     put(flags, to.flags);
     if constexpr (records.peak) {
         put(end.peak, to.peak);
+        if (task.records.lowest_turn) {
+            put(end.lowest_turn, to.lowest_turn);
+        }
     }
     if (task.records.impacts) {
         put(end.impacts, to.impacts);

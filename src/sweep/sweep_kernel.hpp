@@ -65,6 +65,7 @@ struct PointEnds {
     double* steps;        ///< tried
     double* phase;        ///< end of the pulse, or phase of the fall [rad]
     double* peak;         ///< the largest |theta| [rad]
+    double* lowest_turn;  ///< see ForcedEnd [rad]
 };
 
 using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);

@@ -36,8 +36,7 @@ std::vector<double> with_sign(const std::vector<double>& values, const Ends& end
     });
 }
 
-/// recorded: whether the ground motion is a record, under which a block may be lifted again after a
-/// bounce series.
+/// recorded: whether the ground motion is a record.
 FieldValues values_of(Field field, const PointRun& points, const Ends& ends, bool recorded)
 {
     switch (field) {
@@ -46,11 +45,8 @@ FieldValues values_of(Field field, const PointRun& points, const Ends& ends, boo
     case Field::peak: return points.peaks(ends);
     case Field::fall_time: return points.fall_times(ends);
     case Field::impacts:
-        return for_each_of<std::uint16_t>(ends, [&](std::size_t i) {
-            return !recorded && (ends.flags[i] & end_flag::rested)
-                       ? impact_count::bounce_series
-                       : std::min(ends.impacts[i], double(impact_count::largest));
-        });
+        return for_each_of<std::uint16_t>(
+            ends, [&](std::size_t i) { return ends.stored_impacts(i, recorded); });
     case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
     case Field::status:
         return for_each_of<std::uint8_t>(ends, [&](std::size_t i) {
@@ -111,12 +107,33 @@ void place(const FieldValues& from, const std::vector<std::size_t>& places, Fiel
         from);
 }
 
+TileFields fields_of(FilledTile tile, const std::vector<Field>& fields)
+{
+    TileFields result{.values = {}, .audit = tile.audit};
+    for (const Field field : fields) {
+        if (field == Field::impacts) {
+            result.values.emplace_back(std::move(tile.impacts));
+        } else {
+            result.values.emplace_back(
+                std::move(field == Field::evaluated ? tile.evaluated : tile.region));
+        }
+    }
+    return result;
+}
+
 } // namespace
 
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested)
 {
+    if (numerics.fill) {
+        const bool with_impacts =
+            std::find(fields.begin(), fields.end(), Field::impacts) != fields.end();
+        return fields_of(fill_tile(scene, numerics, plane, tile, with_impacts, kernel,
+                                   std::move(drop_requested)),
+                         fields);
+    }
     std::vector<PlanePoint> points = points_of(scene, plane, tile);
     const bool recorded = scene.is_recorded();
     if (!(recorded && plane.list && plane.list->has_own_motions)) {

@@ -82,6 +82,15 @@ Shape tile_of(const Plane& plane)
 
 Tiling::Tiling(const Plane& plane) : Tiling(shape_of(plane), tile_of(plane)) {}
 
+// Large cells need large tiles: 256 x 256 points take a few milliseconds, few of which are needed
+// inside the regions of fine spectra.
+Tiling filled_tiling(const Plane& plane)
+{
+    const std::int64_t side =
+        std::max(plane.amplitude.size(), plane.frequency.size()) < 1024 ? 128 : 256;
+    return Tiling(shape_of(plane), {side, side});
+}
+
 Tile Tiling::operator[](std::int64_t number) const
 {
     Tile tile{number, Shape(shape_.size()), Shape(shape_.size())};

@@ -99,7 +99,8 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                          .error = nullptr,
                          .steps = nullptr,
                          .phase = nullptr,
-                         .peak = nullptr};
+                         .peak = nullptr,
+                         .lowest_turn = nullptr};
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
     sweep_kernel(work.kernel, integrator, Theory::nonlinear, records, false)(task, ends);

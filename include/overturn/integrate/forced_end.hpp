@@ -22,6 +22,8 @@ struct ForcedEnd {
     T error;            ///< bound of the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
     T peak;             ///< the largest tilt [rad]
+    T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
+                        ///< recorded with the peak, infinite if there is none [rad]
 
     mask_t<T> is_stopped() const { return capped || not_finite; }
 };

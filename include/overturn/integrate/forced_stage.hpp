@@ -58,7 +58,8 @@ public:
                        .phase = end_,
                        .error = zero_,
                        .in_doubt = none,
-                       .peak = zero_};
+                       .peak = zero_,
+                       .lowest_turn = T(std::numeric_limits<S>::infinity())};
         wait_for_uplift(active_);
     }
 
@@ -73,7 +74,8 @@ public:
     /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
-        const auto step = straight_line<T>([&] { return stepper_.step(now_, active_); });
+        const auto step =
+            straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_); });
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
         if constexpr (records.error) {
@@ -82,6 +84,8 @@ public:
         if constexpr (records.peak) {
             T& peak = end_of_run_.peak;
             peak = select<T>(moved, greater<T>(step.peak, peak), peak);
+            T& turn = end_of_run_.lowest_turn;
+            turn = select<T>(moved, lesser<T>(step.lowest_turn, turn), turn);
         }
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);

@@ -8,14 +8,15 @@ struct Records {
     // Recorded in every step. Chosen at compile time, so that they cost nothing if not recorded.
     bool impacts = false;
     bool error = false;  ///< of the margin
-    bool peak = false;   ///< the largest tilt; not together with the error
+    bool peak = false;   ///< the largest tilt and the lowest turn; not together with the error
     bool events = false; ///< for a single block only
 
     // Computed from the end of a run.
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false; ///< at the end of the pulse, or at the fall
+    bool phase = false;       ///< at the end of the pulse, or at the fall
+    bool lowest_turn = false; ///< only together with the peak
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

@@ -4,6 +4,7 @@
 
 #include "overturn/integrate/error_growth.hpp"
 #include "overturn/integrate/records.hpp"
+#include "overturn/integrate/step.hpp"
 
 namespace overturn {
 
@@ -34,10 +35,12 @@ struct StepEndWithErrors : StepEnd<T> {
     StepErrors<T> errors;
 };
 
-/// A step whose peak is recorded.
+/// A step whose extreme tilts are recorded.
 template <Number T>
 struct StepEndWithPeak : StepEnd<T> {
-    T peak; ///< the largest tilt within the step [rad]
+    T peak;        ///< the largest tilt within the step [rad]
+    T lowest_turn; ///< the tilt at which the block turns outward without an impact; infinite if
+                   ///< it does not turn [rad]
 };
 
 /// The motion at one point of a step, as a function of the share of the step.
@@ -48,17 +51,39 @@ struct MotionSample {
     T acceleration; ///< [rad per step^2]
 };
 
-/// The largest tilt within a step [rad]. most: an upper bound of it; sample_at(share) returns a
-/// MotionSample. Newton's method starts from the highest of the samples that divide the step into
-/// eight parts and finds the zero of the rate.
+/// The motion at a share of a step whose tilt is this polynomial, by de Casteljau's scheme.
+template <Number T>
+MotionSample<T> sample_of(Quintic<T> c, const T& share)
+{
+    using arithmetic::fma;
+    const auto reduce = [&](std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            c[i] = fma(share, c[i + 1] - c[i], c[i]);
+        }
+    };
+    reduce(5);
+    reduce(4);
+    reduce(3);
+    const T bend = (c[2] - c[1]) - (c[1] - c[0]);
+    reduce(2);
+    const T slope = c[1] - c[0];
+    reduce(1);
+    using S = scalar_t<T>;
+    return {c[0], T(S(5)) * slope, T(S(20)) * bend};
+}
+
+/// The largest tilt within a step, or a smaller one if it is not above `so_far` [rad]. most: an
+/// upper bound of it; sample_at(share) returns a MotionSample. Newton's method starts from the
+/// highest of the samples that divide the step into eight parts and finds the zero of the rate.
 template <Number T, class SampleAt>
-T highest_tilt(const T& start, const T& end, const T& most, const SampleAt& sample_at)
+T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
+               const SampleAt& sample_at)
 {
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));
     T highest = greater<T>(start, end);
-    if (!any<T>(most > highest)) {
+    if (!any<T>(most > highest && most > so_far)) {
         return highest;
     }
     T best = select<T>(start > end, zero, one);
@@ -89,6 +114,69 @@ struct StepPoint {
     T acceleration;
 };
 
+/// Where the rate may change its sign within a step of length h.
+template <Number T>
+struct TurnsInStep {
+    using S = scalar_t<T>;
+
+    TurnsInStep(const StepPoint<T>& start, const StepPoint<T>& end, const T& h)
+        : start_rate(start.rate), end_rate(end.rate), inward(start.rate < T(S(0))),
+          once(start.rate * end.rate < T(S(0))), speed(select<T>(inward, -start.rate, end.rate)),
+          stop(select<T>(inward, start.acceleration, end.acceleration) * h),
+          twice(start.rate * end.rate > T(S(0)) && speed < stop)
+    {}
+
+    /// An estimate of the turn, of the lower one of two.
+    T share() const
+    {
+        const T one(S(1));
+        const T stopped = speed / select<T>(twice, stop, one);
+        return select<T>(once, start_rate / select<T>(once, start_rate - end_rate, one),
+                         select<T>(inward, stopped, one - stopped));
+    }
+
+    T start_rate;
+    T end_rate;
+    mask_t<T> inward; ///< at the start
+    mask_t<T> once;
+    T speed;
+    T stop; ///< the change of the rate over the step by the acceleration below
+    /// The rate has the same sign at both ends, and may change it after the start of a step that
+    /// begins inward, or before the end of one that ends outward, where an outward acceleration
+    /// would stop the block.
+    mask_t<T> twice;
+};
+
+/// The tilt at which the block turns outward within a step; infinite if it does not, or above
+/// `so_far` [rad]. start, end: per step; least: a lower bound of the tilt. See highest_tilt().
+template <Number T, class SampleAt>
+T lowest_turn(const StepPoint<T>& start, const StepPoint<T>& end, const T& least, const T& so_far,
+              const mask_t<T>& lanes, const SampleAt& sample_at)
+{
+    using std::abs;
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const T one(S(1));
+    const T none(std::numeric_limits<S>::infinity());
+    const TurnsInStep<T> turns(start, end, one);
+    const mask_t<T> suspect =
+        lanes && ((turns.once && turns.inward) || turns.twice) && least < so_far;
+    if (!any<T>(suspect)) {
+        return none;
+    }
+    T share = select<T>(suspect, turns.share(), zero);
+    MotionSample<T> here = sample_at(share);
+    for (int i = 0; i < 4; ++i) { // Newton's method: the last digits of the tilt are correct
+        const mask_t<T> bends = here.acceleration > zero;
+        const T newton = share - here.rate / select<T>(bends, here.acceleration, one);
+        share = lesser<T>(greater<T>(newton, zero), one);
+        here = sample_at(share);
+    }
+    // If the block does not turn twice, there is no zero to be found.
+    const mask_t<T> found = turns.once || abs(here.rate) < turns.speed * T(S(0x1p-10));
+    return select<T>(suspect && found && here.acceleration > zero, here.tilt, none);
+}
+
 /// The tilt where the rate changes its sign within a step of length h, if it may be near the ground
 /// or pi/2; otherwise a tilt nearer to the ground or to pi/2 than the turn, as a conservative
 /// substitute [rad]. If the rate has the same sign at both ends, the block may have turned twice:
@@ -100,27 +188,16 @@ T turning_tilt(const T& slenderness, const StepPoint<T>& start, const StepPoint<
                const T& lowest, const T& highest, const Find& tilt_at_turn)
 {
     using S = scalar_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
     const T near_ground = slenderness * T(S(1) / 16);
     const T near_flat(pi<S>() / 2 - S(1) / 16);
-    const mask_t<T> inward = start.rate < zero;
-    const mask_t<T> turns = start.rate * end.rate < zero;
-    // A second turn, after the start of a step that begins inward or before the end of one that
-    // ends outward, where an outward acceleration would stop the block.
-    const T speed = select<T>(inward, -start.rate, end.rate);
-    const T stop = select<T>(inward, start.acceleration, end.acceleration) * h;
-    const mask_t<T> dips = start.rate * end.rate > zero && speed < stop;
-    const mask_t<T> suspect =
-        (turns && (lowest < near_ground || highest > near_flat)) || (dips && lowest < near_ground);
-    const T nearer = select<T>(turns && inward, near_ground, near_flat);
+    const TurnsInStep<T> turns(start, end, h);
+    const mask_t<T> suspect = (turns.once && (lowest < near_ground || highest > near_flat)) ||
+                              (turns.twice && lowest < near_ground);
+    const T nearer = select<T>(turns.once && turns.inward, near_ground, near_flat);
     if (!any<T>(suspect)) {
         return nearer;
     }
-    const T stopped = speed / select<T>(dips, stop, one);
-    const T share = select<T>(turns, start.rate / select<T>(turns, start.rate - end.rate, one),
-                              select<T>(inward, stopped, one - stopped));
-    return select<T>(suspect, tilt_at_turn(suspect, share), nearer);
+    return select<T>(suspect, tilt_at_turn(suspect, turns.share()), nearer);
 }
 
 } // namespace overturn

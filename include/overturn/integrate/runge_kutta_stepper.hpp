@@ -66,8 +66,9 @@ public:
         }
     }
 
-    /// One trial step in every lane; the results of inactive lanes are meaningless.
-    auto step(const Rocking<T>& now, const Mask& active)
+    /// One trial step in every lane; the results of inactive lanes are meaningless. so_far: peak
+    /// and lowest turn of the previous steps, if recorded.
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far)
     {
         const Motion<T> start{now.tilt, now.rate, acceleration_};
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
@@ -127,18 +128,13 @@ public:
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (records.peak) {
             const Quintic<T> tilt = dense_output(start, step.end, h);
-            const T one(S(1));
-            const auto sample_at = [&](const T& share) -> MotionSample<T> {
-                const Quintic<T> before = restricted(tilt, zero_, share);
-                const Mask at_start = share == zero_; // of the whole step, as nothing is before
-                const T slope = select<T>(at_start, tilt[1] - tilt[0], before[5] - before[4]);
-                const T bend = select<T>(at_start, (tilt[2] - tilt[1]) - slope,
-                                         slope - (before[4] - before[3]));
-                const T part = one / select<T>(share > zero_, share, one);
-                return {before[5], T(S(5)) * slope * part, T(S(20)) * bend * part * part};
-            };
+            const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
+            const StepPoint<T> first{start.rate * h, start.acceleration * h * h};
+            const StepPoint<T> after{step.end.rate * h, step.end.acceleration * h * h};
             return StepEndWithPeak<T>{
-                end, highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), sample_at)};
+                end, highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
+                lowest_turn<T>(first, after, lower_bound(tilt), so_far.lowest_turn,
+                               moved && !arrived, sample_at)};
         } else {
             return end;
         }

@@ -78,8 +78,9 @@ public:
     void lift(const Rocking<T>&, const Mask&) {}
     void turn(const Rocking<T>&, const Mask&) {}
 
-    /// One step in every lane; the results of inactive lanes are meaningless.
-    auto step(const Rocking<T>& now, const Mask& active) const
+    /// One step in every lane; the results of inactive lanes are meaningless. so_far: peak and
+    /// lowest turn of the previous steps, if recorded.
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
@@ -127,7 +128,13 @@ public:
                         slope_of_series(series.rate, time) * h * h};
             };
             const T most = upper_bound(bounds.upper());
-            return StepEndWithPeak<T>{end, highest_tilt<T>(now.tilt, end.tilt, most, sample_at)};
+            const T per_step = h * unit_;
+            const StepPoint<T> first{now.rate * per_step, series.rate[1] * h * h};
+            const StepPoint<T> after{end.rate * per_step, slope_of_series(series.rate, h) * h * h};
+            return StepEndWithPeak<T>{
+                end, highest_tilt<T>(now.tilt, end.tilt, most, so_far.peak, sample_at),
+                lowest_turn<T>(first, after, lower_bound(bounds.lower()), so_far.lowest_turn,
+                               active && !end.strikes, sample_at)};
         } else {
             return end;
         }

@@ -68,7 +68,8 @@ struct Job {
     std::optional<BlockTable> blocks; ///< that of plane.list
     Plane plane;
     Numerics numerics;
-    std::vector<Field> fields; ///< in the job's order, without duplicates
+    std::vector<Field> fields; ///< in the job's order, without duplicates; of a filled spectrum,
+                               ///< `evaluated` is the last one
     Axis scan;                 ///< of a boundary: the amplitudes that are computed first [1]
 
     std::string given;                  ///< the job file, byte for byte
@@ -118,6 +119,9 @@ void restore_blocks(Job& job, Table table);
 /// from 0.
 /// Throws JobError if there is only one amplitude, or if the result would be too large.
 Job boundary_of(Job spectrum);
+
+/// Why the spectrum of this job cannot be filled, as a clause; empty if it can.
+std::string reason_not_to_fill(const Job& job);
 
 /// The division of a job into tiles.
 Tiling tiling_of(const Job& job);

@@ -30,14 +30,16 @@ enum class Field {
     flip_pga,
     // Fields of a line of a boundary under a record:
     unsafe_share,
-    undecided_share
+    undecided_share,
+    // Added to a filled spectrum:
+    evaluated
 };
 
 /// Names in job files and result files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 16> field_names{
-    "region",       "angle",    "velocity",     "margin",         "error",          "peak",
-    "fall_time",    "impacts",  "steps",        "status",         "flip_amplitude", "region_below",
-    "region_above", "flip_pga", "unsafe_share", "undecided_share"};
+inline constexpr std::array<std::string_view, 17> field_names{
+    "region",       "angle",    "velocity",     "margin",          "error",          "peak",
+    "fall_time",    "impacts",  "steps",        "status",          "flip_amplitude", "region_below",
+    "region_above", "flip_pga", "unsafe_share", "undecided_share", "evaluated"};
 
 /// The fields that a job can request: all except those of a boundary.
 inline constexpr auto spectrum_field_names = [] {
@@ -72,7 +74,8 @@ inline FieldValues make_field_values(Field field, std::size_t points)
     case Field::region:
     case Field::status:
     case Field::region_below:
-    case Field::region_above: return std::vector<std::uint8_t>(points);
+    case Field::region_above:
+    case Field::evaluated: return std::vector<std::uint8_t>(points);
     case Field::impacts: return std::vector<std::uint16_t>(points);
     case Field::steps: return std::vector<std::uint32_t>(points);
     default: return std::vector<double>(points);
@@ -95,6 +98,13 @@ inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle 
 inline constexpr std::uint8_t free_fall = 16; ///< the ground falls as fast as the block: undecided
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
+
+/// Values of the field evaluated.
+namespace point_origin {
+inline constexpr std::uint8_t filled = 0;
+inline constexpr std::uint8_t integrated = 1;
+inline constexpr std::uint8_t not_computed = 255;
+} // namespace point_origin
 
 /// Values of the field impacts that are not plain counts.
 namespace impact_count {

@@ -73,6 +73,8 @@ struct Numerics {
     /// record of 8192 samples. Of 256 points under the GeoNet record WTMC, at most 5 need them
     /// if r = r_max, and 26 if r = 1.
     int most_in_50_digits = 32;
+    bool fill = false;   ///< integrate only points near the boundaries of regions, see fill.hpp
+    double audit = 1e-3; ///< share of the filled points that are integrated as well
 };
 
 /// The default tolerance if verdicts are resolved: about one in a thousand needs more digits; at

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/fill.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/scene.hpp"
@@ -14,10 +15,12 @@ namespace overturn {
 /// The requested fields of one tile, in the order in which they were requested.
 struct TileFields {
     std::vector<FieldValues> values;
+    AuditCount audit{}; ///< of a filled tile
 };
 
-/// Computes every point of a tile. The values of a point depend only on the point, the scene and
-/// the numerics, not on the shape of the tile, the other points, or the kernel.
+/// Computes every point of a tile, or fills it, see fill.hpp. Without filling, the values of a
+/// point depend only on the point, the scene and the numerics, not on the shape of the tile, the
+/// other points, or the kernel.
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested = nullptr);

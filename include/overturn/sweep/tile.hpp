@@ -61,4 +61,7 @@ private:
     Shape tiles_; ///< along each dimension
 };
 
+/// The tiling of a filled spectrum.
+Tiling filled_tiling(const Plane& plane);
+
 } // namespace overturn

@@ -1,0 +1,48 @@
+// The regions of a tile at the cost of their boundaries: cells of a quad-tree in which nothing
+// changes are filled. That a cell is uniform is concluded from nine of its points; this rests on
+// numerical evidence, not on a proof. See docs/filling.md.
+#pragma once
+
+#include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/kernel.hpp"
+#include "overturn/sweep/plane.hpp"
+#include "overturn/sweep/scene.hpp"
+#include "overturn/sweep/tile.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace overturn {
+
+/// When a cell is filled. Tests weaken it.
+struct FillRule {
+    /// Each switch function exceeds kappa/2 times its second differences between the nodes of a
+    /// cell; kappa = 0.25 is the nominal error of an interpolation [1].
+    double kappa = 4;
+    /// In a cell of region S, impacts of blocks that stay below this tilt are ignored, unless they
+    /// are stored [alpha].
+    double low = 0.1;
+    bool grazes = true; ///< whether impacts that could appear or vanish are considered
+    int longest = 64;   ///< the longest side of a cell [points]
+};
+
+/// Filled points that were integrated as well.
+struct AuditCount {
+    std::int64_t checked = 0;
+    std::int64_t wrong = 0;
+};
+
+struct FilledTile {
+    std::vector<std::uint8_t> region;
+    std::vector<std::uint16_t> impacts;  ///< only if requested
+    std::vector<std::uint8_t> evaluated; ///< 1: integrated, 0: filled
+    AuditCount audit;
+};
+
+/// Fills a tile of a plane under a pulse. If the audit finds a wrong point, every point is
+/// integrated. The result depends on the plane and the tile, not on the kernel.
+FilledTile fill_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
+                     const Tile& tile, bool with_impacts, Kernel kernel,
+                     DropRequested drop_requested = nullptr, const FillRule& rule = {});
+
+} // namespace overturn

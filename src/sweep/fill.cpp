@@ -1,0 +1,285 @@
+#include "overturn/sweep/fill.hpp"
+
+#include "fill_cell.hpp"
+
+#include "overturn/mechanics/theory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace overturn {
+
+namespace {
+
+/// The points from `begin` to `end` on both axes of a tile, ends included.
+struct Cell {
+    std::array<int, 2> begin;
+    std::array<int, 2> end;
+
+    std::array<int, 3> places(std::size_t axis) const
+    {
+        return {begin[axis], (begin[axis] + end[axis]) / 2, end[axis]};
+    }
+    int length(std::size_t axis) const { return end[axis] - begin[axis]; }
+    bool is_smallest() const { return length(0) <= 2 && length(1) <= 2; }
+};
+
+/// Calls visit(begin, end) for the parts of a range; neighbours share an end.
+template <class Visitor>
+void split(int begin, int end, int parts, const Visitor& visit)
+{
+    for (int i = 0; i < parts; ++i) {
+        visit(begin + (end - begin) * i / parts, begin + (end - begin) * (i + 1) / parts);
+    }
+}
+
+/// A share of 2^64.
+std::uint64_t threshold(double share)
+{
+    return share < 1 ? std::uint64_t(std::ldexp(share, 64)) : ~std::uint64_t(0);
+}
+
+/// The finalizer of SplitMix64: every bit of the result depends on every bit of the number.
+std::uint64_t hashed(std::uint64_t number)
+{
+    number += 0x9e3779b97f4a7c15U;
+    number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9U;
+    number = (number ^ (number >> 27)) * 0x94d049bb133111ebU;
+    return number ^ (number >> 31);
+}
+
+/// Calls visit(column) for the columns from `begin` to before `end` that a row's audit may check.
+/// Each column is among them with the probability `share`, by a hash of its index and that of the
+/// row: at most one in a block of columns, as hashing every point would take as long as the rest.
+template <class Visitor>
+void for_each_audited(double share, std::int64_t row, std::int64_t begin, std::int64_t end,
+                      const Visitor& visit)
+{
+    if (!(share > 0)) {
+        return;
+    }
+    std::int64_t length = 1;
+    while (length < 64 && 2 * double(length) * share <= 1) {
+        length *= 2;
+    }
+    const std::uint64_t limit = threshold(share * double(length));
+    for (std::int64_t block = begin / length; block * length < end; ++block) {
+        const std::uint64_t hash = hashed(hashed(std::uint64_t(row)) + std::uint64_t(block));
+        const std::int64_t column =
+            block * length + std::int64_t(hashed(hash) % std::uint64_t(length));
+        if (hash <= limit && column >= begin && column < end) {
+            visit(column);
+        }
+    }
+}
+
+/// The points of a tile, filled cell by cell.
+class Filler {
+public:
+    Filler(const Scene& scene, const Numerics& numerics, const Plane& plane, const Tile& tile,
+           bool with_impacts, Kernel kernel, DropRequested drop_requested, const FillRule& rule)
+        : theory_(scene.theory), numerics_(numerics), axes_(scene, plane, tile), rule_(rule),
+          run_(scene, {}, kernel, std::move(drop_requested)),
+          node_at_(new int[std::size_t(tile.points())])
+    {
+        const auto count = std::size_t(tile.points());
+        filled_.region.resize(count);
+        filled_.evaluated.resize(count);
+        filled_.impacts.resize(with_impacts ? count : 0);
+    }
+
+    void fill()
+    {
+        std::vector<Cell> cells = largest_cells();
+        while (!cells.empty()) {
+            cells = pass(cells);
+        }
+    }
+
+    /// first: the row and the column of the first point among all points of the plane.
+    void audit(std::array<std::int64_t, 2> first)
+    {
+        std::vector<int> checked;
+        for (int row = 0; row < rows(); ++row) {
+            for_each_audited(numerics_.audit, first[0] + row, first[1], first[1] + columns(),
+                             [&](std::int64_t column) {
+                                 const int at = place(row, int(column - first[1]));
+                                 if (!filled_.evaluated[std::size_t(at)]) {
+                                     checked.push_back(at);
+                                 }
+                             });
+        }
+        filled_.audit = {std::int64_t(checked.size()), integrate(checked, {.impacts = true})};
+        if (filled_.audit.wrong > 0) {
+            std::vector<int> others;
+            for (std::size_t i = 0; i < filled_.evaluated.size(); ++i) {
+                if (!filled_.evaluated[i]) {
+                    others.push_back(int(i));
+                }
+            }
+            integrate(others, {.impacts = true});
+        }
+    }
+
+    FilledTile result() { return std::move(filled_); }
+
+private:
+    int rows() const { return int(axes_.amplitudes.size()); }
+    int columns() const { return int(axes_.frequencies.size()); }
+    int place(int row, int column) const { return row * columns() + column; }
+    bool with_impacts() const { return !filled_.impacts.empty(); }
+
+    std::vector<Cell> largest_cells() const
+    {
+        std::vector<Cell> cells;
+        const auto parts = [&](int points) {
+            return std::max(1, (points - 2 + rule_.longest) / rule_.longest);
+        };
+        split(0, rows() - 1, parts(rows()), [&](int top, int bottom) {
+            split(0, columns() - 1, parts(columns()), [&](int left, int right) {
+                cells.push_back({{top, left}, {bottom, right}});
+            });
+        });
+        return cells;
+    }
+
+    /// Integrates the nodes of the cells, fills the uniform cells and returns the parts of the
+    /// others.
+    std::vector<Cell> pass(const std::vector<Cell>& cells)
+    {
+        integrate(places_of_nodes(cells), node_records);
+        std::vector<Cell> parts;
+        for (const Cell& cell : cells) {
+            if (cell.is_smallest()) { // all of its points are nodes
+                continue;
+            }
+            const CellNodes nodes = nodes_of(cell);
+            if (is_uniform(nodes, rule_, with_impacts())) {
+                fill(cell);
+                continue;
+            }
+            const auto halves = [&](std::size_t axis) { return cell.length(axis) > 2 ? 2 : 1; };
+            split(cell.begin[0], cell.end[0], halves(0), [&](int top, int bottom) {
+                split(cell.begin[1], cell.end[1], halves(1), [&](int left, int right) {
+                    parts.push_back({{top, left}, {bottom, right}});
+                });
+            });
+        }
+        return parts;
+    }
+
+    /// The nodes that have not been integrated yet, row by row: points of a row share their push.
+    std::vector<int> places_of_nodes(const std::vector<Cell>& cells)
+    {
+        std::vector<int> places;
+        for (const Cell& cell : cells) {
+            for (const int row : cell.places(0)) {
+                for (const int column : cell.places(1)) {
+                    std::uint8_t& evaluated = filled_.evaluated[std::size_t(place(row, column))];
+                    if (!evaluated) {
+                        places.push_back(place(row, column));
+                    }
+                    evaluated = 1;
+                }
+            }
+        }
+        std::sort(places.begin(), places.end());
+        return places;
+    }
+
+    /// Integrates points and stores them; nodes, if all of their records are requested. Returns how
+    /// many were stored with another value before.
+    std::int64_t integrate(const std::vector<int>& places, Records records)
+    {
+        records.region = true;
+        std::vector<PlanePoint> points;
+        points.reserve(places.size());
+        for (const int place : places) {
+            points.push_back(axes_(std::size_t(place / columns()), std::size_t(place % columns())));
+        }
+        const PointRun run = run_.with_points(std::move(points));
+        const Ends ends = ends_of(run, numerics_, records);
+        std::int64_t changed = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            changed += store(std::size_t(places[i]), ends, i);
+        }
+        if (records.lowest_turn) {
+            with_theory(theory_, [&]<Theory theory>() {
+                for (std::size_t i = 0; i < places.size(); ++i) {
+                    node_at_[std::size_t(places[i])] = int(nodes_.size());
+                    nodes_.push_back(node_of<theory>(run, ends, int(i)));
+                }
+            });
+        }
+        return changed;
+    }
+
+    bool store(std::size_t place, const Ends& ends, std::size_t i)
+    {
+        bool changed = ends.region[i] != std::exchange(filled_.region[place], ends.region[i]);
+        if (with_impacts()) {
+            const std::uint16_t impacts = ends.stored_impacts(i, false);
+            changed = impacts != std::exchange(filled_.impacts[place], impacts) || changed;
+        }
+        filled_.evaluated[place] = 1;
+        return changed;
+    }
+
+    CellNodes nodes_of(const Cell& cell) const
+    {
+        CellNodes nodes{{}, cell.places(0), cell.places(1)};
+        for (std::size_t i = 0; i < 9; ++i) {
+            const int at = place(nodes.rows[i / 3], nodes.columns[i % 3]);
+            nodes.nodes[i] = &nodes_[std::size_t(node_at_[std::size_t(at)])];
+        }
+        return nodes;
+    }
+
+    void fill(const Cell& cell)
+    {
+        const auto corner = std::size_t(place(cell.begin[0], cell.begin[1]));
+        for (int row = cell.begin[0]; row <= cell.end[0]; ++row) {
+            for (int column = cell.begin[1]; column <= cell.end[1]; ++column) {
+                const auto at = std::size_t(place(row, column));
+                if (!filled_.evaluated[at]) {
+                    filled_.region[at] = filled_.region[corner];
+                    if (with_impacts()) {
+                        filled_.impacts[at] = filled_.impacts[corner];
+                    }
+                }
+            }
+        }
+    }
+
+    const Theory theory_;
+    const Numerics numerics_;
+    const TileAxes axes_;
+    const FillRule rule_;
+    const PointRun run_; // without points
+    FilledTile filled_;
+    std::vector<Node> nodes_;
+    std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is
+};
+
+} // namespace
+
+FilledTile fill_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
+                     const Tile& tile, bool with_impacts, Kernel kernel,
+                     DropRequested drop_requested, const FillRule& rule)
+{
+    Filler filler(scene, numerics, plane, tile, with_impacts, kernel, std::move(drop_requested),
+                  rule);
+    filler.fill();
+    // The rows of the whole plane are numbered from the first one of the first spectrum.
+    std::int64_t row = 0;
+    const Shape shape = shape_of(plane);
+    for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
+        row = row * shape[i] + tile.begin[i];
+    }
+    filler.audit({row, tile.begin.back()});
+    return filler.result();
+}
+
+} // namespace overturn

@@ -1,0 +1,143 @@
+#include "fill_cell.hpp"
+
+#include "overturn/mechanics/energy_criteria.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+template <Theory theory>
+Node node_of(const PointRun& run, const Ends& ends, int point)
+{
+    const auto i = std::size_t(point);
+    const PlanePoint& at = run.point(point);
+    const Block<double> block{at.slenderness, at.restitution};
+    const SafeRates<double> safe = safe_rates<theory>(ends.tilt[i], block);
+    const double u = ends.rate[i];
+    Node node{ends.region[i],
+              ends.flags[i],
+              0,
+              ends.impacts[i],
+              ends.peak[i] / at.slenderness * std::exp(pi<double>() / at.frequency),
+              {}};
+    const PerLobe<double>& uplifts = run.push_of(point).uplifts;
+    for (int lobe = 0; lobe < uplifts.count; ++lobe) {
+        node.lobes |= std::uint32_t(std::isfinite(uplifts.values[std::size_t(lobe)])) << lobe;
+    }
+    const auto put = [&](Switch f, double value) { node.values[std::size_t(f)] = value; };
+    put(Switch::outward, safe.outward - u);
+    put(Switch::inward, u + safe.inward);
+    put(Switch::impact, u + safe.outward);
+    put(Switch::end_tilt, ends.tilt[i]);
+    put(Switch::room, pi<double>() / 2 - ends.tilt[i]);
+    put(Switch::time_left, run.end_of_pulse() - ends.phase[i]);
+    put(Switch::fall_speed, u);
+    put(Switch::turn, ends.lowest_turn[i]);
+    put(Switch::rebound, std::sqrt(at.restitution) * safe.outward - u);
+    return node;
+}
+
+template Node node_of<Theory::nonlinear>(const PointRun&, const Ends&, int);
+template Node node_of<Theory::linear>(const PointRun&, const Ends&, int);
+
+namespace {
+
+/// Twice the distance of the middle of three values from the straight line through the others,
+/// f0 - 2 f1 + f2 if the middle is in the middle.
+double bend(const std::array<int, 3>& places, double first, double middle, double last)
+{
+    if (places[0] == places[2]) {
+        return 0;
+    }
+    const double share = double(places[1] - places[0]) / (places[2] - places[0]);
+    return 2 * std::abs(first + share * (last - first) - middle);
+}
+
+/// The largest differences of f between the nodes: Mx + My + Mxy of second and mixed differences.
+double differences(const CellNodes& cell, const std::array<double, 9>& f)
+{
+    double along_rows = 0;
+    double along_columns = 0;
+    double mixed = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t row = 3 * i;
+        along_rows = std::max(along_rows, bend(cell.columns, f[row], f[row + 1], f[row + 2]));
+        along_columns = std::max(along_columns, bend(cell.rows, f[i], f[i + 3], f[i + 6]));
+    }
+    for (const std::size_t i : {0, 1, 3, 4}) {
+        mixed = std::max(mixed, std::abs(f[i] - f[i + 1] - f[i + 3] + f[i + 4]));
+    }
+    return along_rows + along_columns + mixed;
+}
+
+/// Whether a switch function has no zero in the cell.
+bool is_clear(const CellNodes& cell, Switch which, const FillRule& rule)
+{
+    std::array<double, 9> f{};
+    double least = std::numeric_limits<double>::infinity();
+    int infinite = 0;
+    int positive = 0;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+        f[i] = cell.nodes[i]->values[std::size_t(which)];
+        least = std::min(least, std::abs(f[i]));
+        infinite += std::isinf(f[i]);
+        positive += f[i] > 0;
+    }
+    if (infinite > 0) { // at a node where the block did not turn
+        return infinite == 9;
+    }
+    return (positive == 0 || positive == 9) && least > rule.kappa / 2 * differences(cell, f);
+}
+
+/// The switch functions that matter for a code, apart from `turn`.
+std::vector<Switch> switches_of(Region region)
+{
+    switch (region) {
+    case Region::S: return {Switch::outward, Switch::impact};
+    case Region::S_plus:
+    case Region::S_minus:
+        return {Switch::outward, Switch::inward, Switch::impact, Switch::end_tilt};
+    case Region::U0_plus:
+    case Region::U0_minus: return {Switch::outward, Switch::room, Switch::end_tilt};
+    case Region::U1_plus:
+    case Region::U1_minus: return {Switch::inward, Switch::end_tilt};
+    default: return {Switch::time_left, Switch::fall_speed};
+    }
+}
+
+} // namespace
+
+bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
+{
+    const Node& first = *cell.nodes[0];
+    const auto all = [&](const auto& holds) {
+        return std::all_of(cell.nodes.begin(), cell.nodes.end(),
+                           [&](const Node* node) { return holds(*node); });
+    };
+    const auto clear = [&](Switch which) { return is_clear(cell, which, rule); };
+    const auto region = Region(first.region);
+    if (region == Region::undecided || !all([&](const Node& node) {
+            return node.region == first.region && node.lobes == first.lobes;
+        })) {
+        return false;
+    }
+    const std::vector<Switch> relevant = switches_of(region);
+    if (!std::all_of(relevant.begin(), relevant.end(), clear)) {
+        return false;
+    }
+    const bool is_safe = region == Region::S;
+    if (is_safe && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; }) &&
+        clear(Switch::rebound)) {
+        return true;
+    }
+    const bool one_path = all([&](const Node& node) {
+        return node.impacts == first.impacts && node.flags == first.flags;
+    });
+    const bool end_is_clear =
+        !is_safe || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);
+    return one_path && end_is_clear && (!rule.grazes || clear(Switch::turn));
+}
+
+} // namespace overturn

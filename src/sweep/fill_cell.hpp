@@ -1,0 +1,56 @@
+// Whether a cell of a spectrum is uniform, as far as nine of its points show. The nodes of a cell
+// are its corners, the middles of its sides and its middle.
+#pragma once
+
+#include "point_run.hpp"
+
+#include "overturn/sweep/fill.hpp"
+
+namespace overturn {
+
+/// The switch functions: a code or a number of impacts changes only where one of them is zero.
+/// Only their ratios to their own differences matter. c, u, q_min: see energy_criteria.hpp.
+enum class Switch {
+    outward,    ///< c - u: overturning on the side of the tilt
+    inward,     ///< u + sqrt(c^2 - q_min): overturning after an impact
+    impact,     ///< u + c: an impact after the pulse
+    end_tilt,   ///< tilt at the end of the pulse: an impact just before or after the end
+    room,       ///< pi/2 - tilt at the end of the pulse: a fall just before the end
+    time_left,  ///< phase from the fall to the end of the pulse
+    fall_speed, ///< rate at the fall
+    turn,       ///< lowest tilt at which the block turned outward: two impacts more or less
+    rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
+                ///< block in region S
+};
+inline constexpr std::size_t switches = 9;
+
+/// An integrated point, as far as the test of a cell needs it.
+struct Node {
+    std::uint8_t region;
+    std::uint8_t flags;  ///< see end_flag
+    std::uint32_t lobes; ///< bit set of those that lift a block at rest
+    double impacts;      ///< counted
+    double peak;         ///< largest tilt [alpha]
+    std::array<double, switches> values;
+};
+
+/// The records of the ends from which nodes are made.
+inline constexpr Records node_records{
+    .impacts = true, .peak = true, .region = true, .phase = true, .lowest_turn = true};
+
+/// The node at a point of a run with these ends.
+template <Theory theory>
+Node node_of(const PointRun& run, const Ends& ends, int point);
+
+/// The nodes of a cell, row by row, with their places on both axes.
+struct CellNodes {
+    std::array<const Node*, 9> nodes;
+    std::array<int, 3> rows;
+    std::array<int, 3> columns;
+};
+
+/// Whether all points of a cell have the code of its nodes, and their number of impacts if it is
+/// stored.
+bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts);
+
+} // namespace overturn
