@@ -65,7 +65,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
             np.testing.assert_allclose(history.values["angle"], file["angle"][:] / 0.2)
             np.testing.assert_array_equal(history.values["ground"], file["ground"][:])
             self.assertAlmostEqual(history.end_of_ground_motion, file.attrs["end_of_pulse"] / p)
-            impacts = file["event_time"][:][file["event_kind"][:] == IMPACT]
+            impacts = file["events/time"][:][file["events/kind"][:] == IMPACT]
             np.testing.assert_allclose(history.impacts(), impacts / p)
         self.assertEqual(history.limits("angle"), (-1, 1))
 
@@ -83,7 +83,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         for words in ("A job", "uplift", "at rest", "time since the start of the record  [s]"):
             self.assertIn(f">{words}<", picture)
         with h5py.File(self.folder / "history.h5") as file:
-            count = np.count_nonzero(file["event_kind"][:] == IMPACT)
+            count = np.count_nonzero(file["events/kind"][:] == IMPACT)
         self.assertRegex(picture, f">{count} impacts?<")
         self.assertNotIn("velocity", picture)
 

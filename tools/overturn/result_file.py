@@ -8,7 +8,7 @@ import h5py
 
 USAGE, FILE = 2, 74  # exit codes, equal to those of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-NEWEST_FORMAT = 2
+NEWEST_FORMAT = 3
 PICTURES = (".png", ".pdf", ".svg")
 PANELS = "overturn:panels"  # the PNG text chunk with the positions of the panels
 
@@ -26,6 +26,27 @@ def text_attribute(holder, name):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def run_data(file):
+    """Returns the group of what is neither a coordinate nor a field: checksums, the job and the scan of a
+    boundary. Before format 3, it was the root group."""
+    return file["run"] if "run" in file else file
+
+
+def job_text(file, name):
+    """Returns a text about the job; empty if there is none."""
+    texts = run_data(file)
+    return texts[name][:].tobytes().decode(errors="replace") if name in texts else ""
+
+
+def events_of(file):
+    """Returns the variables of the events of a history, by name. Before format 3, their names began
+    with event_."""
+    if "events" in file:
+        return file["events"]
+    return {name.removeprefix("event_"): values for name, values in file.items()
+            if name.startswith("event_")}
+
+
 def shortened(text, width):
     """Returns the text in one line of at most `width` characters; may cut within a word."""
     line = " ".join(text.split())
@@ -36,8 +57,8 @@ def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
     title and of the tables in `shown`, whose values the picture shows elsewhere."""
     title = text_attribute(file, "title")
-    if title and "job_overrides" in file:
-        overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
+    if title:
+        overrides = job_text(file, "job_overrides").splitlines()
         others = [shortened(words, 48) for words in overrides
                   if words.split("=")[0].split(".")[0].strip() not in ("title", *shown)]
         title += (", with " + ", ".join(others)) * bool(others)
