@@ -104,7 +104,7 @@ class AHistory(Scratch):
         picture = (self.folder / "history.svg").read_text()
         for words in ("A small plane", "uplift", "at rest"):
             self.assertIn(f">{words}<", picture)
-        self.assertIn("safe (S)", picture)
+        self.assertIn("safe, no more impacts needed (S)", picture)
 
     def test_is_plotted_with_the_settings_not_shown_below_the_title(self):
         self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")

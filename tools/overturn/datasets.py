@@ -32,6 +32,7 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
                  if not variable.dims or name in ("checksum", "tile") or name.startswith("scan_")]
     dataset = dataset.drop_vars(strangers)
     dataset = dataset.set_coords([name for name in ("motion_name",) if name in dataset])
+    dataset.encoding["source"] = os.path.abspath(path)
     dataset.set_close(file.close)
     return dataset
 

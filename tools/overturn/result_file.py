@@ -1,6 +1,8 @@
 """Reading of result files by the tools, and their error messages."""
 
+import contextlib
 import json
+import os
 import pathlib
 import sys
 
@@ -94,6 +96,32 @@ def open_result(path, kind, wanted):
     return file
 
 
+def path_of(result):
+    """Returns the path of a result file, given by its path or by the data set that overturn.open() made
+    of it. Raises ValueError for a part of a data set: its picture would be that of the whole file."""
+    if not hasattr(result, "encoding"):
+        return os.fspath(result)
+    path = result.encoding.get("source")
+    if path is None:
+        raise ValueError("the data set was not made by overturn.open(). Pass the path of the file.")
+    with h5py.File(path) as file:
+        dimensions = {name: len(data) for name, data in file.items() if isinstance(data, h5py.Dataset)
+                      and h5py.h5ds.is_scale(data.id) and not name.endswith("_length")}
+        if dimensions != dict(result.sizes):
+            raise ValueError(f"the data set is not all of \"{path}\". Pass the path of the file, and select "
+                             "with motion, slenderness and restitution.")
+    return path
+
+
+@contextlib.contextmanager
+def damage_reported(path, *also):
+    """Reports what is missing or malformed in a file, also errors of the given types, as its damage."""
+    try:
+        yield
+    except (OSError, KeyError, *also) as error:
+        raise PlotError(f"\"{path}\" is damaged: {error}.") from error
+
+
 def add_picture_argument(parser, default="FILE.png"):
     parser.add_argument("-o", "--output", metavar="OUT",
                         help=f"picture: .png, .pdf or .svg (default: {default} in the working directory)")
@@ -118,13 +146,17 @@ def place_of(panel, shows):
 
 
 def save(figure, path, places=(), **how):
-    """Saves a figure; a PNG includes the positions of its panels."""
+    """Saves and closes a figure; a PNG includes the positions of its panels."""
+    import matplotlib
+    from matplotlib import pyplot
     if places and pathlib.Path(path).suffix == ".png":
         how["metadata"] = {PANELS: json.dumps(places)}
     try:
-        figure.savefig(path, **how)
+        with matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
+            figure.savefig(path, **how)
     except OSError as error:
         raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    pyplot.close(figure)
     print(path)
 
 
