@@ -57,11 +57,15 @@ class TestPicturesFromPython(unittest.TestCase):
         self.assertIs(axes[0].figure, axes[1].figure)
 
     def test_fit_into_axes_of_the_caller(self):
-        figure, panels = pyplot.subplots(1, 3, figsize=(12, 4), dpi=50)
+        figure, panels = pyplot.subplots(1, 3, figsize=(12, 4), dpi=50, layout="constrained")
         self.assertIs(overturn.plot.spectrum(self.path("spectrum"), restitution=0, ax=panels[0]), panels[0])
         self.assertIs(overturn.plot.boundary(self.path("boundary"), ax=panels[1]), panels[1])
         self.assertIs(overturn.plot.history(self.path("history"), ax=panels[2]), panels[2])
         self.assertEqual(len(figure.axes), 3)
+        figure.canvas.draw()
+        widths = [panel.get_position().width for panel in panels]
+        self.assertAlmostEqual(widths[0], 0.28, delta=0.04)  # a third, less the numbers beside it
+        self.assertAlmostEqual(min(widths), max(widths), delta=1e-3)
         self.assertEqual(panels[0].get_xlabel(), panels[1].get_xlabel())
         self.assertIn("time since the start of the pulse", panels[2].get_xlabel())
         with self.assertRaisesRegex(overturn.PlotError, "limited to 1"):

@@ -89,8 +89,9 @@ def shade(panel, lines):
     # Columns are as wide as the cells of their frequencies, which may be unequal.
     columns = across.cells(ROWS)
     set_axes(panel, across, up)
-    panel.imshow(picture[:, columns], extent=(0, 1, 0, 1), transform=panel.transAxes,
-                 origin="lower", aspect="auto", interpolation="nearest", zorder=0)
+    image = panel.imshow(picture[:, columns], extent=(0, 1, 0, 1), transform=panel.transAxes,
+                         origin="lower", aspect="auto", interpolation="nearest", zorder=0)
+    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
 
 
 def draw_flips(panel, lines):
@@ -103,8 +104,9 @@ def draw_flips(panel, lines):
     bottom, top = panel.get_ylim()
     for which, edge, marker, colour in ((lines.overturns_at_once, bottom, "^", FIRST),
                                         (lines.has_undecided, top, "v", DOUBTFUL)):
-        panel.plot(lines.frequency[which], np.full(which.sum(), edge), linestyle="none",
-                   marker=marker, markersize=5, color=colour, clip_on=False, zorder=4)
+        if which.any():  # an empty line not clipped would count in the layout
+            panel.plot(lines.frequency[which], np.full(which.sum(), edge), linestyle="none",
+                       marker=marker, markersize=5, color=colour, clip_on=False, zorder=4)
 
 
 def legend_entries(lines):

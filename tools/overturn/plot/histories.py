@@ -126,12 +126,11 @@ def draw_panel(axes, history, name, label):
     axes.tick_params(labelsize=8)
     axes.ticklabel_format(axis="y", scilimits=(-2, 3))
     axes.yaxis.get_offset_text().set_fontsize(8)
-    axes.yaxis.set_label_coords(-0.075, 0.5)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
 
 
-def mark_events(axes, history):
+def mark_events(axes, history, **place_of_legend):
     """Marks uplift, rest and overturning on the curve of the angle. Under a record, impacts are
     ticks below it, because they are often too many for lines."""
     handles = []
@@ -156,8 +155,7 @@ def mark_events(axes, history):
         handles.append(Line2D([], [], **style, label=f"{count} impact{'s' * (count > 1)}"
                                                      f"{', too many to mark' * many}"))
     if handles:
-        axes.legend(handles=handles, fontsize=8, frameon=False, ncols=len(handles),
-                    loc="lower right", bbox_to_anchor=(1, 0.98), handletextpad=0.4, borderpad=0)
+        axes.legend(handles=handles, fontsize=8, handletextpad=0.4, **place_of_legend)
 
 
 def point_of(file, units):
@@ -207,8 +205,10 @@ def draw_figure(file, history, units):
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):
         draw_panel(axes, history, name, label)
+        axes.yaxis.set_label_coords(-0.075, 0.5)
         if name == "angle":
-            mark_events(axes, history)
+            mark_events(axes, history, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0,
+                        frameon=False, ncols=len(MARKS) + 1)
     name_time(panels[-1], file, history)
     title = title_of(file, ("plane", "block")) or ground_text(file)
     figure.suptitle(plain(title), fontsize=11, x=0.02, ha="left", y=1 - 0.092 / height)

@@ -107,8 +107,9 @@ def layout(choices):
 
 
 def cover(panel, picture):
-    panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
-                 aspect="auto", interpolation="nearest")
+    image = panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
+                         aspect="auto", interpolation="nearest")
+    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
 
 
 def draw_panel(panel, codes, across, up):
