@@ -77,11 +77,21 @@ class AnInstallation(unittest.TestCase):
             self.assertIn(tool.name.replace("-", "\\-"), manual)
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 
-    def test_a_tool_plots_results_of_the_program(self):
-        history, picture = self.folder / "history.h5", self.folder / "history.png"
+    def test_every_tool_works(self):
+        history, boundary, accuracy = (self.folder / f"{name}.h5" for name in ("history", "boundary", "accuracy"))
         run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
-        run(self.prefix / "bin/overturn-plot-history", history, "-o", picture)
-        self.assertGreater(picture.stat().st_size, 1000)
+        run(self.overturn, "boundary", self.folder / "job.toml", "-o", boundary)
+        run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
+        outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
+                   "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
+                   "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
+                   "to-csv": (self.spectrum, "spectrum.csv"), "to-xdmf": (self.spectrum, "spectrum.xdmf2")}
+        for tool, (argument, output) in outputs.items():
+            run(self.prefix / f"bin/overturn-{tool}", argument, "-o", self.folder / output)
+            self.assertGreater((self.folder / output).stat().st_size, 100, tool)
+        tested = {f"overturn-{tool}" for tool in (*outputs, "join-spectra", "synthetic-record")}  # below, and a record
+        run(self.prefix / "bin/overturn-synthetic-record", "-o", self.folder / "record.AT2")
+        self.assertEqual({path.name for path in (self.prefix / "bin").glob("overturn-*")}, tested)
 
     def test_a_tool_finds_the_program(self):
         for name, slenderness in (("one", 0.1), ("two", 0.2)):
