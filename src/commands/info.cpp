@@ -1,4 +1,5 @@
 // Prints a summary of a result file, and how to resume it if it is unfinished.
+#include "audit_text.hpp"
 #include "child_process.hpp"
 #include "commands.hpp"
 #include "human_units.hpp"
@@ -64,6 +65,9 @@ void print_plane_and_tiles(const std::string& path)
     if (const std::string lines = is_boundary ? lines_text(count_lines(path)) : "";
         !lines.empty()) {
         print_row("lines", lines);
+    }
+    if (summary.audit) {
+        print_row("audit", audit_text(*summary.audit));
     }
     if (summary.tiles_done < summary.tiles) {
         print_row("unfinished", fmt::format("Resume with overturn {} JOB.toml -o {}, with the "

@@ -1,5 +1,6 @@
 // The map of the code: open a session, read the job, open the file, hand out the missing tiles,
 // compute and write each of them.
+#include "audit_text.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
@@ -283,6 +284,8 @@ int compute_missing_tiles(const Task& task)
             if (const std::string lines = lines_text(count_lines(task.path)); !lines.empty()) {
                 say(fmt::format("{}: {}", task.path, lines));
             }
+        } else if (const auto audit = summarize(task.path).audit) {
+            say(fmt::format("{}: {}", task.path, audit_text(*audit)));
         }
     }
     return task.session.from_rank_0(code);

@@ -43,6 +43,8 @@ inline constexpr char scan_prefix[] = "scan_"; ///< followed by amplitude, scale
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
+inline constexpr char audit_checked[] = "audit_checked"; ///< of a filled spectrum, as the next
+inline constexpr char audit_wrong[] = "audit_wrong";
 inline constexpr char job_resolved[] = "job_resolved";
 
 // Attributes of the checksums.

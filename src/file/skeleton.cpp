@@ -138,17 +138,27 @@ void add_run_token(hid_t file)
                     "by it, the ranks check at the start that they share the file");
 }
 
+/// A number per tile, along the dimension of the checksums.
+Handle add_numbers(hid_t file, const char* name, const Tiling& tiling, const char* long_name)
+{
+    using layout::in_run_group;
+    Handle dataset = create_dataset(file, in_run_group(name), H5T_STD_U64LE,
+                                    {hsize_t(tiling.size())}, early_allocated());
+    attach_dimensions(file, dataset, {in_run_group(layout::tile)});
+    write_attribute(dataset, "long_name", long_name);
+    return dataset;
+}
+
 void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
 {
     using layout::in_run_group;
     add_bare_dimension(file, in_run_group(layout::tile), tiling.size());
-    const Handle dataset = create_dataset(file, in_run_group(layout::checksum), H5T_STD_U64LE,
-                                          {hsize_t(tiling.size())}, early_allocated());
-    attach_dimensions(file, dataset, {in_run_group(layout::tile)});
-    write_attribute(dataset, "long_name", "checksum of the tile, 0 if not computed");
+    const Handle dataset =
+        add_numbers(file, layout::checksum, tiling, "checksum of the tile, 0 if not computed");
     write_attribute(dataset, "algorithm",
-                    "xxHash64, seed 0, over the stored values of the tile, field by field in the "
-                    "order of the variables; a hash of 0 is stored as 1");
+                    fmt::format("xxHash64, seed 0, over the stored values of the tile, field by "
+                                "field in the order of the variables{}; a hash of 0 is stored as 1",
+                                job.numerics.fill ? ", audit_checked and audit_wrong" : ""));
     write_attribute(dataset, "numbering",
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the "
@@ -156,6 +166,13 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
     write_attribute(dataset, layout::dimensions,
                     fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
     write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
+    if (job.numerics.fill) {
+        add_numbers(file, layout::audit_checked, tiling,
+                    "number of filled points of the tile that were integrated as well");
+        add_numbers(file, layout::audit_wrong, tiling,
+                    "number of them with another value; if there is one, all points of the tile "
+                    "were integrated");
+    }
 }
 
 void write_skeleton(hid_t file, const std::string& path, const Job& job, const Tiling& tiling,
@@ -219,7 +236,7 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     const auto tiles = Count(tiling.size());
     // Tiles at the far edges occupy whole chunks.
     const Count points = tiles * Count(tiling.points_of_tile());
-    Count numbers = tiles;
+    Count numbers = job.numerics.fill ? 3 * tiles : tiles;
     if (!plane.list) {
         numbers += Count(plane.slenderness.size() * plane.restitution.size());
     }
@@ -228,6 +245,9 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     }
 
     Count bytes = 20480 + numbers * sizeof(double);
+    if (job.numerics.fill) {
+        bytes += 1200;
+    }
     if (plane.motions > 0) {
         const Count motions(plane.motions);
         bytes +=

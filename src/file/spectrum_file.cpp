@@ -30,12 +30,17 @@ struct SpectrumFile::Open {
     Handle file;
     std::vector<Handle> datasets; ///< in the order of `fields`
     Handle checksums;
+    Handle audit_checked; ///< only if the spectrum is filled
+    Handle audit_wrong;
+    bool is_filled;
     Durability durability;
     struct stat as_opened = {};
     std::chrono::steady_clock::time_point last_seen;
 
     /// Syncs the file if it is to survive a power failure.
     void sync_if_durable() const;
+    /// Stores the counts of a filled tile.
+    void write_audit(const Tile& tile, const AuditCount& audit);
     /// Throws FileError if the path no longer names the opened file, or the file was truncated:
     /// writing to a removed or truncated file reports no error.
     void expect_in_place();
@@ -90,6 +95,14 @@ void SpectrumFile::Open::expect_in_place_now_and_then()
     }
 }
 
+void SpectrumFile::Open::write_audit(const Tile& tile, const AuditCount& audit)
+{
+    if (is_filled) {
+        write_number(audit_checked, tile.number, std::uint64_t(audit.checked));
+        write_number(audit_wrong, tile.number, std::uint64_t(audit.wrong));
+    }
+}
+
 void SpectrumFile::Open::sync_if_durable() const
 {
     // A write by MPI-IO has been passed to the system when it returns. The sync of MPI-IO would be
@@ -126,6 +139,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     open_->path = path;
     open_->durability = durability;
     open_->fields = job.fields;
+    open_->is_filled = job.numerics.fill;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
         throw FileError(
@@ -139,6 +153,13 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
             open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
         }
         open_->checksums = hdf5::open_dataset(open_->file, layout::in_run_group(layout::checksum));
+        if (open_->is_filled) {
+            const auto open = [&](const char* name) {
+                return hdf5::open_dataset(open_->file, layout::in_run_group(name));
+            };
+            open_->audit_checked = open(layout::audit_checked);
+            open_->audit_wrong = open(layout::audit_wrong);
+        }
         if (stat(path.c_str(), &open_->as_opened) != 0) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
@@ -157,7 +178,7 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
 {
     try {
         std::vector<std::int64_t> missing;
-        const std::vector<std::uint64_t> checksums = read_checksums(open_->checksums);
+        const std::vector<std::uint64_t> checksums = read_numbers(open_->checksums);
         for (std::size_t tile = 0; tile < checksums.size(); ++tile) {
             if (checksums[tile] == not_computed_checksum) {
                 missing.push_back(std::int64_t(tile));
@@ -178,7 +199,8 @@ void SpectrumFile::forget(const Tile& tile)
             write_tile(open_->datasets[i], tile, field,
                        not_computed(field, count_values(field, tile)));
         }
-        write_checksum(open_->checksums, tile.number, not_computed_checksum);
+        open_->write_audit(tile, {});
+        write_number(open_->checksums, tile.number, not_computed_checksum);
     } catch (const hdf5::Hdf5Error& error) {
         throw FileError(fmt::format("cannot clear the damaged tile {} of \"{}\": {}.", tile.number,
                                     open_->path, error.what()));
@@ -196,9 +218,12 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
             dataset = name_of(open_->fields[i]);
             write_tile(open_->datasets[i], tile, open_->fields[i], fields.values[i]);
         }
+        dataset = layout::audit_checked;
+        open_->write_audit(tile, fields.audit);
         open_->sync_if_durable();
         dataset = layout::checksum;
-        write_checksum(open_->checksums, tile.number, tile_checksum(fields.values));
+        const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
+        write_number(open_->checksums, tile.number, tile_checksum(fields.values, audit));
     } catch (const hdf5::Hdf5Error& error) {
         const FileError failure = open_->cannot_write(tile, dataset, error);
         open_->expect_in_place(); // throws if this is the reason
@@ -212,6 +237,8 @@ void SpectrumFile::close()
     try {
         open_->datasets.clear();
         open_->checksums.close();
+        open_->audit_checked.close();
+        open_->audit_wrong.close();
         check(H5Fflush(open_->file, H5F_SCOPE_GLOBAL));
         open_->file.close();
         open_->sync_if_durable();

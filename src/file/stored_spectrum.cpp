@@ -139,10 +139,37 @@ void read_checksums_of_tiles(StoredSpectrum& spectrum)
     demand(length_of_list(dataset, H5T_STD_U64LE, spectrum.bytes, foreign) ==
                hsize_t(spectrum.tiles),
            foreign);
-    spectrum.checksums = read_checksums(dataset);
+    spectrum.checksums = read_numbers(dataset);
     spectrum.tiles_done =
         spectrum.tiles -
         std::count(spectrum.checksums.begin(), spectrum.checksums.end(), not_computed_checksum);
+}
+
+/// Of a filled spectrum, whose tiles have been read.
+void read_audits_of_tiles(StoredSpectrum& spectrum)
+{
+    if (std::ranges::find(spectrum.fields, Field::evaluated, &FieldSummary::field) ==
+        spectrum.fields.end()) {
+        return;
+    }
+    const auto read = [&](const char* name) {
+        constexpr const char* foreign = "the counts of the audit do not fit the tiles";
+        const Handle dataset = open_own_dataset(spectrum.file, layout::in_run_group(name));
+        demand(length_of_list(dataset, H5T_STD_U64LE, spectrum.bytes, foreign) ==
+                   hsize_t(spectrum.tiles),
+               foreign);
+        return read_numbers(dataset);
+    };
+    const std::vector<std::uint64_t> checked = read(layout::audit_checked);
+    const std::vector<std::uint64_t> wrong = read(layout::audit_wrong);
+    spectrum.audit = AuditCount{};
+    for (std::size_t tile = 0; tile < checked.size(); ++tile) {
+        spectrum.audits.push_back({std::int64_t(checked[tile]), std::int64_t(wrong[tile])});
+        if (spectrum.checksums[tile] != not_computed_checksum) {
+            spectrum.audit->checked += spectrum.audits.back().checked;
+            spectrum.audit->wrong += spectrum.audits.back().wrong;
+        }
+    }
 }
 
 /// The metadata of a file whose kind is at most `last`; `wanted` names the kind in the message.
@@ -189,6 +216,7 @@ StoredSpectrum read_spectrum(Handle file, const std::string& path)
         check_field(spectrum, field.field);
     }
     read_checksums_of_tiles(spectrum);
+    read_audits_of_tiles(spectrum);
     return spectrum;
 }
 

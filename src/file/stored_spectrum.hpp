@@ -18,6 +18,7 @@ struct StoredSpectrum : SpectrumSummary {
     std::string path;
     hdf5::Handle file;
     std::vector<std::uint64_t> checksums; ///< by tile number
+    std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
 
     Tiling tiling() const;
 };

@@ -112,8 +112,11 @@ std::vector<std::int64_t> damaged_tiles(const std::string& path,
     std::vector<std::int64_t> damaged;
     for_each_computed_tile(stored, fields, between_tiles,
                            [&](const Tile& tile, const std::vector<FieldValues>& values) {
-                               if (tile_checksum(values) !=
-                                   stored.checksums[std::size_t(tile.number)]) {
+                               const auto number = std::size_t(tile.number);
+                               const auto audit = stored.audit
+                                                      ? std::optional(stored.audits[number])
+                                                      : std::nullopt;
+                               if (tile_checksum(values, audit) != stored.checksums[number]) {
                                    damaged.push_back(tile.number);
                                }
                            });

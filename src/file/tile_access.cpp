@@ -96,7 +96,8 @@ FieldValues read_tile(hid_t dataset, const Tile& tile, Field field)
 
 static_assert(std::endian::native == std::endian::little, "values are hashed as they are stored");
 
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields)
+std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
+                            const std::optional<AuditCount>& audit)
 {
     const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
                                                                            XXH64_freeState);
@@ -108,26 +109,30 @@ std::uint64_t tile_checksum(const std::vector<FieldValues>& fields)
             },
             field);
     }
+    if (audit) {
+        const std::int64_t counts[] = {audit->checked, audit->wrong};
+        XXH64_update(state.get(), counts, sizeof counts);
+    }
     const std::uint64_t hash = XXH64_digest(state.get());
     return hash == not_computed_checksum ? 1 : hash;
 }
 
-void write_checksum(hid_t dataset, std::int64_t tile, std::uint64_t checksum)
+void write_number(hid_t dataset, std::int64_t tile, std::uint64_t number)
 {
     const hsize_t position = hsize_t(tile);
     const Handle place(H5Dget_space(dataset), H5Sclose);
     check(H5Sselect_elements(place, H5S_SELECT_SET, 1, &position));
     const hsize_t one = 1;
     const Handle memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
-    check(H5Dwrite(dataset, H5T_NATIVE_UINT64, memory, place, H5P_DEFAULT, &checksum));
+    check(H5Dwrite(dataset, H5T_NATIVE_UINT64, memory, place, H5P_DEFAULT, &number));
 }
 
-std::vector<std::uint64_t> read_checksums(hid_t dataset)
+std::vector<std::uint64_t> read_numbers(hid_t dataset)
 {
     const Handle space(H5Dget_space(dataset), H5Sclose);
-    std::vector<std::uint64_t> checksums(std::size_t(check(H5Sget_simple_extent_npoints(space))));
-    check(H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, checksums.data()));
-    return checksums;
+    std::vector<std::uint64_t> numbers(std::size_t(check(H5Sget_simple_extent_npoints(space))));
+    check(H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()));
+    return numbers;
 }
 
 } // namespace overturn

@@ -1,13 +1,15 @@
-// Access to the values of one tile in a dataset, and to the checksums of all tiles, which mark
-// tiles as done.
+// Access to the values of one tile in a dataset, and to the numbers of all tiles: checksums, which
+// mark tiles as done, and counts of the audit of filled tiles.
 #pragma once
 
 #include "hdf5_handles.hpp"
 
 #include "overturn/sweep/fields.hpp"
+#include "overturn/sweep/fill.hpp"
 #include "overturn/sweep/tile.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace overturn {
@@ -41,10 +43,13 @@ FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
 inline constexpr std::uint64_t not_computed_checksum = 0;
 
 /// xxHash64, seed 0, over the values of the tile as stored (little endian), field by field in the
-/// given order. A hash of 0 becomes 1, since 0 means "not computed".
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields);
+/// given order, and over the counts of the audit if the tile is filled. A hash of 0 becomes 1,
+/// since 0 means "not computed".
+std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
+                            const std::optional<AuditCount>& audit = std::nullopt);
 
-void write_checksum(hid_t dataset, std::int64_t tile, std::uint64_t checksum);
-std::vector<std::uint64_t> read_checksums(hid_t dataset);
+/// Access to a dataset of one number per tile, such as the checksums.
+void write_number(hid_t dataset, std::int64_t tile, std::uint64_t number);
+std::vector<std::uint64_t> read_numbers(hid_t dataset);
 
 } // namespace overturn

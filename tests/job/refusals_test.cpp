@@ -55,6 +55,12 @@ TEST_P(ReadingAJobRefuses, AndLocates)
         [](const testing::TestParamInfo<Mistake>& mistake) { return mistake.param.name; })
 
 // clang-format off
+MISTAKES(Filling,
+    {"ListedValues", 10, "fill = true", "10:8", {"plane.amplitude lists its values", "first, last and count"}},
+    {"AuditWithoutFill", 10, "audit = 0.1", "10:9", {"needs fill = true"}},
+    {"AuditOutOfRange", 10, "fill = true\naudit = 1.5", "11:9", {"outside [0, 1]", "share"}},
+    {"FillThatIsNoBoolean", 10, "fill = 1", "10:8", {"true or false"}});
+
 MISTAKES(Form,
     {"BrokenToml", 3, "pulse = \"one_sine", "3:18", {"not TOML", "Fix"}},
     {"ATruncatedWord", 1, "title = i", "1:10", {"not TOML", "'inf'"}},
@@ -77,7 +83,7 @@ MISTAKES(UnknownKeys,
     {"InTheNumerics", 10, "tolerence = 1e-9", "10:1", {"\"numerics.tolerance\"?"}},
     {"InTheOutput", 12, "field = [\"region\"]", "12:1", {"\"output.fields\"?"}},
     {"ADeepTable", 12, "[plane.more.and.more]", "12:8", {"unknown key \"plane.more\""}},
-    {"WithoutAFarFetchedGuess", 10, "quux = 1", "10:1", {"\"numerics.quux\". Allowed here: method, tolerance, resolve."}});
+    {"WithoutAFarFetchedGuess", 10, "quux = 1", "10:1", {"\"numerics.quux\". Allowed here: method, tolerance, resolve, fill, audit."}});
 
 MISTAKES(WrongTypes,
     {"ANumberAsTitle", 1, "title = 3", "1:9", {"title is the integer 3", "must be a string"}},

@@ -100,7 +100,7 @@ TEST(Fill, EveryKernelFillsTheSamePoints)
 
 TEST(Fill, WorksOnTilesOfAnyShape)
 {
-    for (const auto [rows, columns] : {std::pair{1, 1}, {1, 100}, {100, 1}, {2, 3}, {37, 5}}) {
+    for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 100}, {100, 1}, {2, 3}, {37, 5}}) {
         const Plane plane = some_plane(rows, columns);
         const FilledTile tile = filled({}, without_audit, plane);
         EXPECT_EQ(tile.region, regions_of(integrated({}, without_audit, plane)))

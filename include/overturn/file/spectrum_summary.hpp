@@ -3,9 +3,11 @@
 
 #include "overturn/file/file_error.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/fill.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,7 @@ struct SpectrumSummary : FileOrigin {
     Shape tile_shape;                 ///< of a tile [points]
     std::int64_t tiles = 0;
     std::int64_t tiles_done = 0;
+    std::optional<AuditCount> audit; ///< of all tiles, if the spectrum is filled
 };
 
 /// Throws FileError if the file is missing, not a spectrum or boundary of overturn, or damaged.
