@@ -205,7 +205,7 @@ private:
         for (std::size_t i = 0; i < places.size(); ++i) {
             changed += store(std::size_t(places[i]), ends, i);
         }
-        if (records.lowest_turn) {
+        if (records.grazes) {
             with_theory(theory_, [&]<Theory theory>() {
                 for (std::size_t i = 0; i < places.size(); ++i) {
                     node_at_[std::size_t(places[i])] = int(nodes_.size());

@@ -35,6 +35,7 @@ Node node_of(const PointRun& run, const Ends& ends, int point)
     put(Switch::time_left, run.end_of_pulse() - ends.phase[i]);
     put(Switch::fall_speed, u);
     put(Switch::turn, ends.lowest_turn[i]);
+    put(Switch::softest, ends.softest_impact[i]);
     put(Switch::rebound, std::sqrt(at.restitution) * safe.outward - u);
     return node;
 }
@@ -92,7 +93,7 @@ bool is_clear(const CellNodes& cell, Switch which, const FillRule& rule)
 }
 
 /// The switch functions that matter for a code, apart from `turn`.
-std::vector<Switch> switches_of(Region region)
+std::vector<Switch> relevant_to(Region region)
 {
     switch (region) {
     case Region::S: return {Switch::outward, Switch::impact};
@@ -123,7 +124,7 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         })) {
         return false;
     }
-    const std::vector<Switch> relevant = switches_of(region);
+    const std::vector<Switch> relevant = relevant_to(region);
     if (!std::all_of(relevant.begin(), relevant.end(), clear)) {
         return false;
     }
@@ -137,7 +138,8 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
     });
     const bool end_is_clear =
         !is_safe || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);
-    return one_path && end_is_clear && (!rule.grazes || clear(Switch::turn));
+    return one_path && end_is_clear &&
+           (!rule.grazes || (clear(Switch::turn) && clear(Switch::softest)));
 }
 
 } // namespace overturn

@@ -18,11 +18,12 @@ enum class Switch {
     room,       ///< pi/2 - tilt at the end of the pulse: a fall just before the end
     time_left,  ///< phase from the fall to the end of the pulse
     fall_speed, ///< rate at the fall
-    turn,       ///< lowest tilt at which the block turned outward: two impacts more or less
+    turn,       ///< lowest tilt at which the block turned outward: an impact could appear
+    softest,    ///< speed of the softest impact before which it could turn: one could vanish
     rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
                 ///< block in region S
 };
-inline constexpr std::size_t switches = 9;
+inline constexpr std::size_t switches = 10;
 
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {
@@ -36,7 +37,7 @@ struct Node {
 
 /// The records of the ends from which nodes are made.
 inline constexpr Records node_records{
-    .impacts = true, .peak = true, .region = true, .phase = true, .lowest_turn = true};
+    .impacts = true, .peak = true, .region = true, .phase = true, .grazes = true};
 
 /// The node at a point of a run with these ends.
 template <Theory theory>

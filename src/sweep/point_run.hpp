@@ -28,7 +28,7 @@ struct Ends {
     Records records;
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
-    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn;
+    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact;
 };
 
 /// The points of a tile of a plane: one per amplitude and frequency.

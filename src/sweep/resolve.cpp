@@ -87,10 +87,11 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
         resolve(points, numerics, ends);
     }
     if (records.peak && !recorded.peak) {
-        Ends with_peaks(ends.tilt.size(), {.peak = true, .lowest_turn = records.lowest_turn});
+        Ends with_peaks(ends.tilt.size(), {.peak = true, .grazes = records.grazes});
         points.run(numerics, with_peaks);
         ends.peak = std::move(with_peaks.peak);
         ends.lowest_turn = std::move(with_peaks.lowest_turn);
+        ends.softest_impact = std::move(with_peaks.softest_impact);
     }
     return ends;
 }

@@ -53,8 +53,9 @@ template <Theory theory, Records records>
     put(flags, to.flags);
     if constexpr (records.peak) {
         put(end.peak, to.peak);
-        if (task.records.lowest_turn) {
+        if (task.records.grazes) {
             put(end.lowest_turn, to.lowest_turn);
+            put(end.softest_impact, to.softest_impact);
         }
     }
     if (task.records.impacts) {

@@ -58,14 +58,15 @@ struct PointEnds {
     double* side;        ///< +1 or -1: the sign of theta
     std::uint8_t* flags; ///< see end_flag
 
-    std::uint8_t* region; ///< region code
-    double* margin;       ///< [1]
-    double* impacts;      ///< count
-    double* error;        ///< of the margin
-    double* steps;        ///< tried
-    double* phase;        ///< end of the pulse, or phase of the fall [rad]
-    double* peak;         ///< the largest |theta| [rad]
-    double* lowest_turn;  ///< see ForcedEnd [rad]
+    std::uint8_t* region;   ///< region code
+    double* margin;         ///< [1]
+    double* impacts;        ///< count
+    double* error;          ///< of the margin
+    double* steps;          ///< tried
+    double* phase;          ///< end of the pulse, or phase of the fall [rad]
+    double* peak;           ///< the largest |theta| [rad]
+    double* lowest_turn;    ///< see ForcedEnd [rad]
+    double* softest_impact; ///< see ForcedEnd [rad]
 };
 
 using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);

@@ -22,6 +22,9 @@ struct ForcedEnd {
     T error;            ///< bound of the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
     T peak;             ///< the largest tilt [rad]
+    T softest_impact;   ///< the smallest speed of an impact that a smaller speed would prevent,
+                        ///< because the block accelerates outward; under a pulse, as
+                        ///< lowest_turn [rad]
     T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
                         ///< recorded with the peak, infinite if there is none [rad]
 

@@ -59,6 +59,7 @@ public:
                        .error = zero_,
                        .in_doubt = none,
                        .peak = zero_,
+                       .softest_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
         wait_for_uplift(active_);
     }
@@ -175,6 +176,14 @@ private:
         }
         if constexpr (records.error) {
             margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
+        }
+        if constexpr (records.peak && std::same_as<GroundOf, Excitation<T>>) {
+            const T push = now_.side * excitation_.ground(now_.phase);
+            const Mask outward =
+                rocking_acceleration<theory>(zero_, block_.slenderness, push) > zero_;
+            T& softest = end_of_run_.softest_impact;
+            softest =
+                select<T>(lanes && !rests && outward && -now_.rate < softest, -now_.rate, softest);
         }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);

@@ -8,15 +8,16 @@ struct Records {
     // Recorded in every step. Chosen at compile time, so that they cost nothing if not recorded.
     bool impacts = false;
     bool error = false;  ///< of the margin
-    bool peak = false;   ///< the largest tilt and the lowest turn; not together with the error
+    bool peak = false;   ///< the largest tilt and how narrowly impacts were avoided; not together
+                         ///< with the error
     bool events = false; ///< for a single block only
 
     // Computed from the end of a run.
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false;       ///< at the end of the pulse, or at the fall
-    bool lowest_turn = false; ///< only together with the peak
+    bool phase = false;  ///< at the end of the pulse, or at the fall
+    bool grazes = false; ///< lowest turn and softest impact; only together with the peak
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.
