@@ -74,7 +74,7 @@ double differences(const CellNodes& cell, const std::array<double, 9>& f)
 }
 
 /// Whether a switch function has no zero in the cell.
-bool is_clear(const CellNodes& cell, Switch which, const FillRule& rule)
+bool is_clear(const CellNodes& cell, Switch which, double kappa)
 {
     std::array<double, 9> f{};
     double least = std::numeric_limits<double>::infinity();
@@ -89,7 +89,7 @@ bool is_clear(const CellNodes& cell, Switch which, const FillRule& rule)
     if (infinite > 0) { // at a node where the block did not turn
         return infinite == 9;
     }
-    return (positive == 0 || positive == 9) && least > rule.kappa / 2 * differences(cell, f);
+    return (positive == 0 || positive == 9) && least > kappa / 2 * differences(cell, f);
 }
 
 /// The switch functions that matter for a code, apart from `turn`.
@@ -117,20 +117,22 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         return std::all_of(cell.nodes.begin(), cell.nodes.end(),
                            [&](const Node* node) { return holds(*node); });
     };
-    const auto clear = [&](Switch which) { return is_clear(cell, which, rule); };
     const auto region = Region(first.region);
     if (region == Region::undecided || !all([&](const Node& node) {
             return node.region == first.region && node.lobes == first.lobes;
         })) {
         return false;
     }
+    const bool is_safe = region == Region::S;
+    const bool low =
+        is_safe && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; });
+    const double kappa = low ? rule.kappa : rule.kappa * std::max(1.0, first.impacts - 2);
+    const auto clear = [&](Switch which) { return is_clear(cell, which, kappa); };
     const std::vector<Switch> relevant = relevant_to(region);
     if (!std::all_of(relevant.begin(), relevant.end(), clear)) {
         return false;
     }
-    const bool is_safe = region == Region::S;
-    if (is_safe && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; }) &&
-        clear(Switch::rebound)) {
+    if (low && clear(Switch::rebound)) {
         return true;
     }
     const bool one_path = all([&](const Node& node) {
