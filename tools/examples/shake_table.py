@@ -27,8 +27,8 @@ because single verdicts change at tiny changes of r.
 The baseline is a logistic regression on ln PGA and ln(PGV/PGA). Cross-validation is by record.
 
 The file (HDF5): `acceleration` with the attributes dt [s] and units (g), all tests in a row; in the group `tests`
-`start` and `length` of each test [samples], `toppled_NAME` of each rock (1, 0, or another value if not known), and
-for the fit `record`. Other datasets are not used."""
+`start` and `length` of each test [samples]; for scores `toppled_NAME` of each rock (1, 0, or another value if not
+known); for the fit also `record`, the name of the record. Other datasets are not used."""
 
 FREQUENCY_PARAMETER = 4.5  # p [1/s]
 SLENDERNESS = np.geomspace(0.03, 0.6, 161)  # [rad]; steps of 1.9 %: 32 or more between -3 and 3 least scatters
@@ -37,7 +37,7 @@ RESTITUTION_RANGE = 0.12  # r varies by less, with triangular weights [1]
 BOUNDS = {"slenderness": (0.04, 0.5), "restitution": (0.5, 0.98), "scatter": (0.1, 0.6)}
 WRONG_FLAGS = 0.01  # probability that a flag is wrong: bounds the likelihood of a single test [1]
 CONVERGED = 1e-3  # difference of the mean log-likelihoods of two searches [1]
-LEAST_WEIGHT = 1e-7  # of a slenderness
+LEAST_WEIGHT = 1e-5  # of a slenderness in a prediction: beyond 4 scatters
 GRAVITY = 9.81  # [m/s2]
 COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#5e8c61", "#7d7d85"), "os^D"
 
@@ -79,7 +79,7 @@ class Tests:
                 raise TestsError(f"the accelerations of test {i} are not finite, or all zero.")
         self.toppled = {name.removeprefix("toppled_"): flags_of(tests[name][:], name, len(start))
                         for name in sorted(tests) if name.startswith("toppled_")}
-        self.record_names = tests["record"].asstr()[:] if "record" in tests else None
+        self.record_names = [str(name) for name in tests["record"]] if "record" in tests else None
 
     def measures(self):
         """Returns ln PGA and ln(PGV/PGA), PGV by the trapezoidal rule, of each test."""
@@ -168,13 +168,14 @@ def scores(probability, toppled, bins=5):
     known = ~np.isnan(toppled) & ~np.isnan(probability)
     p, y = probability[known], toppled[known] == 1
     if not p.size:
-        return {"accuracy": None, "brier": None, "tests": 0}
+        return {"accuracy": None, "brier": None, "tests": 0, "left_out": len(known)}
     predicted, place = p > 0.5, np.minimum((p * bins).astype(int), bins - 1)
     filled = [k for k in range(bins) if (place == k).any()]
     return {"accuracy": float(np.mean(predicted == y)), "brier": float(np.mean((p - y) ** 2)), "tests": int(p.size),
             "left_out": int((~known).sum()),
-            "confusion": {"toppled_and_predicted": int((y & predicted).sum()), "toppled_not_predicted": int((y & ~predicted).sum()),
-                          "predicted_not_toppled": int((~y & predicted).sum()), "neither": int((~y & ~predicted).sum())},
+            "confusion": {name: int(both.sum()) for name, both in (
+                ("toppled_and_predicted", y & predicted), ("toppled_not_predicted", y & ~predicted),
+                ("predicted_not_toppled", ~y & predicted), ("neither", ~y & ~predicted))},
             "reliability": [{"predicted": float(p[place == k].mean()), "toppled": float(y[place == k].mean()),
                              "tests": int((place == k).sum())} for k in filled]}
 
@@ -218,20 +219,15 @@ def fit(path, folds, seed):
 
 
 def predict(model, path):
-    """Returns the scores of each rock of the model that the file has, and the probabilities."""
+    """Returns the scores of each rock of the model, null for a rock without flags, and the probabilities."""
     tests, result, predictions = Tests(path), {}, {}
-    missing = [name for name in model["rocks"] if name not in tests.toppled]
-    if len(missing) == len(model["rocks"]):
-        raise TestsError(f"\"{path}\" has no dataset tests/toppled_{missing[0]}, the flags of a rock of the model.")
-    measures = tests.measures()
+    measures, unknown = tests.measures(), np.full(len(tests.records), np.nan)
     for name, rock in model["rocks"].items():
-        if name in missing:
-            continue
         by_slenderness, by_restitution = weights(rock)
         rows, columns = by_slenderness > LEAST_WEIGHT, by_restitution > 0
         verdicts = tests.verdicts(SLENDERNESS[rows], RESTITUTION[columns])
         block = verdicts.probability(by_slenderness[rows], by_restitution[columns])
-        toppled = tests.toppled[name]
+        toppled = tests.toppled.get(name, unknown)
         predictions[name] = block, toppled
         result[name] = {**scores(block, toppled),
                         "logistic_regression": scores(logistic(rock["logistic"], measures), toppled)}
@@ -261,13 +257,19 @@ def draw(predictions, path):
     figure.savefig(path, dpi=150)
 
 
+def write_csv(predictions, path):
+    """Writes the probability that each rock topples, one row per test in the order of the file."""
+    columns = np.column_stack([probability for probability, _ in predictions.values()])
+    np.savetxt(path, columns, fmt="%.4f", delimiter=",", header=",".join(predictions), comments="")
+
+
 def read_model(path):
     try:
         model = json.loads(pathlib.Path(path).read_text())
     except (OSError, ValueError) as error:
         raise TestsError(f"cannot read \"{path}\": {error}") from error
-    if not isinstance(model, dict) or "rocks" not in model or (
-            model["frequency_parameter"], model["restitution_range"]) != (FREQUENCY_PARAMETER, RESTITUTION_RANGE):
+    if not isinstance(model, dict) or "rocks" not in model or (model.get("frequency_parameter"), model.get(
+            "restitution_range")) != (FREQUENCY_PARAMETER, RESTITUTION_RANGE):
         raise TestsError(f"\"{path}\" is not a model of this program. Write one with fit.")
     return model
 
@@ -288,6 +290,7 @@ def read_arguments():
     predicting.add_argument("file", metavar="TESTS.h5")
     for command in (fitting, predicting):
         command.add_argument("--plot", metavar="OUT.png", help="draw the reliability curve")
+        command.add_argument("--csv", metavar="OUT.csv", help="write the probability of each test")
     return parser.parse_args()
 
 
@@ -300,10 +303,12 @@ def main():
             result = model["rocks"]
         else:
             result, predictions = predict(read_model(arguments.model), arguments.file)
+        if arguments.plot:
+            draw(predictions, arguments.plot)
+        if arguments.csv:
+            write_csv(predictions, arguments.csv)
     except (TestsError, OSError) as error:
         sys.exit(f"shake_table: {error}")
-    if arguments.plot:
-        draw(predictions, arguments.plot)
     print(json.dumps(result, indent=1))
 
 

@@ -151,9 +151,9 @@ def _cells(dataset, measure, limit):
     kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]
     kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
              "undecided": ~decided & ~not_computed}
-    like = region.isel({name: 0 for name in region.dims if name not in kept}, drop=True)
-    cells = {name: kind.sum([name for name in region.dims if name not in kept]).transpose(*kept).values.ravel()
-             for name, kind in kinds.items()}
+    others = [name for name in region.dims if name not in kept]
+    like = region.isel(dict.fromkeys(others, 0), drop=True)
+    cells = {name: kind.astype(np.int32).sum(others).transpose(*kept).values.ravel() for name, kind in kinds.items()}
     for name, values in (("measure", measure), ("motion", motion)):
         cells[name] = values.broadcast_like(like).transpose(*kept).values.ravel()
     return cells
@@ -243,6 +243,6 @@ def _fitted(fit, value):
         unknown, pair = np.full(len(value), np.nan), np.full(2, np.nan)
         return dict(median=np.nan, beta=np.nan, median_interval=pair, beta_interval=pair, value=value,
                     probability=unknown, band=np.stack([unknown, unknown]))
-    return dict(median=float(np.exp(fit.log_median)), beta=fit.beta, median_interval=np.exp(fit.log_median_interval),
+    return dict(median=fit.median, beta=fit.beta, median_interval=fit.median_interval,
                 beta_interval=fit.beta_interval, value=value, band=fit.band,
-                probability=ndtr((np.log(value) - fit.log_median) / fit.beta))
+                probability=ndtr(np.log(value / fit.median) / fit.beta))

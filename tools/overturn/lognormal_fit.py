@@ -39,9 +39,9 @@ class Counts:
 class Fit:
     """NaN where there is no fit or no interval."""
 
-    log_median: float
+    median: float  # in the units of x
     beta: float  # standard deviation of ln x [1]
-    log_median_interval: np.ndarray  # (2,)
+    median_interval: np.ndarray  # (2,)
     beta_interval: np.ndarray  # (2,)
     band: np.ndarray  # (2, values): of P at the requested values
     samples_without_fit: int = 0
@@ -68,8 +68,9 @@ def fit(counts, log_at, samples, seed):
         if without_fit <= MOST_WITHOUT_FIT * samples:
             ends = np.nanquantile(deviation, [(1 + LEVEL) / 2, (1 - LEVEL) / 2], axis=0)
             interval = estimate - ends * error
-    return Fit(estimate[0], math.exp(estimate[1]), interval[:, 0], np.exp(interval[:, 1]),
-               ndtr(interval[:, 2:]), without_fit)
+    with np.errstate(over="ignore"):  # few different motions may give an interval without an upper end
+        ends = np.exp(interval[:, :2])
+    return Fit(*map(float, np.exp(estimate[:2])), ends[:, 0], ends[:, 1], ndtr(interval[:, 2:]), without_fit)
 
 
 def estimates(counts, weights, center, width, log_at):

@@ -1,5 +1,5 @@
-"""Pictures of results, on the axes of Matplotlib."""
+"""Pictures of result files. Each function returns axes of Matplotlib."""
 
-from overturn.plot.fragility import fragility
+from overturn.plot.fragility_curves import fragility
 
 __all__ = ["fragility"]

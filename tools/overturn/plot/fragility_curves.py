@@ -1,9 +1,10 @@
-"""Picture of a fragility curve."""
+"""Pictures of fragility curves."""
 
 import textwrap
 
 import numpy as np
 from matplotlib import pyplot
+from overturn.ticks import name_ticks
 
 CURVE, BAND, POINT = "#0b3c5d", "#b9cfdd", "#b3541e"  # CIE L* 24, 82 and 44: distinct in greyscale
 NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
@@ -22,6 +23,7 @@ def fragility(curve, ax=None):
         draw_bins(ax, curve)
         ax.set_xscale("log")
         ax.set_xlim(curve.edges[0] / 1.05, curve.edges[-1] * 1.05)
+        name_ticks(ax.xaxis)
     if np.isfinite(curve.median):
         draw_fit(ax, curve)
     ax.set_ylim(-0.03, 1.03)
@@ -39,7 +41,8 @@ def fragility(curve, ax=None):
 def draw_bins(ax, curve):
     middle = np.sqrt(curve.edges[:-1] * curve.edges[1:])
     decided = curve.points > 0
-    ax.plot(middle[decided], curve.fraction[decided], "o", color=POINT, label="fraction of the points in a bin", zorder=3)
+    ax.plot(middle[decided], curve.fraction[decided], "o", color=POINT, zorder=3,
+            label="fraction of the points in a bin")
     unknown = curve.without_verdict > 0
     if unknown.any():
         total = (curve.points + curve.without_verdict)[unknown]
