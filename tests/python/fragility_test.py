@@ -52,8 +52,8 @@ class TheFit(unittest.TestCase):
             low, high = np.column_stack([found.median_interval, found.beta_interval, found.band])
             true = [MEDIAN, BETA, *truth]
             hits += (low <= true) & (true <= high)
-        # Three standard deviations of a binomial count around 380 of 400. If points counted as
-        # independent, the interval of the median would contain it 131 times.
+        # Three standard deviations of a binomial count around 380 of 400. Intervals of 90 % would contain the
+        # parameters 360 times, which is 4.6 deviations below.
         deviation = np.sqrt(repetitions * 0.95 * 0.05)
         np.testing.assert_array_less(abs(hits - 0.95 * repetitions), 3 * deviation, err_msg=f"{hits}")
 

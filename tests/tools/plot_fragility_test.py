@@ -48,8 +48,9 @@ class Curve(unittest.TestCase):
     def words(self, *arguments):
         done = self.plot(*arguments, "-o", "picture.svg")
         self.assertEqual(done.returncode, 0, done.stderr)
-        comments = re.findall(r"<!-- (.*?) -->", (self.folder / "picture.svg").read_text("utf-8"))  # texts drawn as paths
-        return done.stdout, " ".join(" ".join(comments).split())
+        picture = (self.folder / "picture.svg").read_text("utf-8")
+        texts = re.findall(r"<!-- (.*?) -->|<text[^>]*>([^<]+)", picture)  # drawn as paths, or as text
+        return done.stdout, " ".join("".join(text) for text in texts)
 
 
 class TestAPicture(Curve):
