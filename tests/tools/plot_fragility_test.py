@@ -73,13 +73,12 @@ class TestAPicture(Curve):
         self.assertLess(*counts)
 
     def test_without_a_fit_says_why_and_draws_no_curve(self):
-        for scale, reason in ((0.001, "no fit: no point overturns"), (100, "no fit: every point overturns")):
-            self.compute(f"{scale}.h5", f"plane.scale={{first={scale}, last={2 * scale}, count=2}}")
-            text, words = self.words(f"{scale}.h5")
-            self.assertIn(reason, text)
-            self.assertIn(reason, words)
-            self.assertNotIn("lognormal", words)
-            self.assertNotIn("confidence", words)
+        self.compute("safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")
+        text, words = self.words("safe.h5")
+        self.assertIn("no fit: no point overturns", text)
+        self.assertIn("no fit: no point overturns", words)
+        self.assertNotIn("lognormal", words)
+        self.assertNotIn("confidence", words)
 
     def test_of_an_unfinished_file_reports_what_is_not_computed(self):
         import h5py
