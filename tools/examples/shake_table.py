@@ -11,11 +11,16 @@ import typing
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
-import h5py
-import numpy as np
-import overturn
-from scipy.optimize import differential_evolution, minimize
-from scipy.special import expit, ndtr
+from overturn.interpreter import run_elsewhere
+
+try:
+    import h5py
+    import numpy as np
+    import overturn
+    from scipy.optimize import differential_evolution, minimize
+    from scipy.special import expit, ndtr
+except ImportError as error:
+    run_elsewhere(error)
 
 EPILOG = """\
 The model: a rock topples with the probability that a symmetric block overturns whose slenderness is
