@@ -9,6 +9,7 @@
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ namespace overturn {
 namespace {
 
 constexpr double sampling_time = 0.3; // [s]
+constexpr int longest_sampling = 3;   // of lines of a boundary, each of which may take seconds [s]
 
 /// Points of a sample: neighbours along frequency, which fill the lanes of a kernel.
 constexpr std::int64_t sample_length = 16;
@@ -48,27 +50,53 @@ Tile sample_tile(const Plane& plane, std::int64_t i)
     return tile;
 }
 
-/// Estimated time to compute the whole plane on one rank [s], without writing, from a measured
-/// sample. The order of the points is fixed; as many are computed as 0.3 s allow.
-double estimated_seconds(const Job& job, Kernel kernel)
+/// Estimated time [s] to compute so many points or lines on one rank, from samples:
+/// compute_sample(i) returns the size of sample i, whose order is fixed. As many are computed as
+/// 0.3 s allow.
+template <class ComputeSample>
+double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample)
 {
     using Clock = std::chrono::steady_clock;
-    const auto compute_sample = [&](std::int64_t i) {
-        const Tile tile = sample_tile(job.plane, i);
-        sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
-        return tile.points();
-    };
     compute_sample(0); // untimed: the caches are cold
 
-    const std::int64_t all_points = job.plane.points();
-    std::int64_t points = 0;
+    std::int64_t computed = 0;
     double seconds = 0;
     const auto start = Clock::now();
-    for (std::int64_t i = 0; seconds < sampling_time && points < all_points; ++i) {
-        points += compute_sample(i);
+    for (std::int64_t i = 0; seconds < sampling_time && computed < items; ++i) {
+        computed += compute_sample(i);
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
     }
-    return seconds * (double(all_points) / double(points));
+    return seconds * (double(items) / double(computed));
+}
+
+std::string spectrum_time(const Job& job, Kernel kernel)
+{
+    return "about " + human_duration(estimated_seconds(job.plane.points(), [&](std::int64_t i) {
+               const Tile tile = sample_tile(job.plane, i);
+               sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
+               return tile.points();
+           }));
+}
+
+std::string boundary_time(const Job& spectrum, Kernel kernel)
+{
+    const Job job = boundary_of(spectrum);
+    const Tiling tiling = tiling_of(job); // of one line each
+    const std::vector<double> scan = job.scan.values();
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(longest_sampling);
+    const auto overdue = [&] { return std::chrono::steady_clock::now() > limit; };
+    std::int64_t lines = 0;
+    try {
+        return "about " + human_duration(estimated_seconds(tiling.size(), [&](std::int64_t i) {
+                   const Tile tile = tiling[spread_index(i, 0, tiling.size())];
+                   ++lines;
+                   boundary_tile(job.scene, job.plane, scan, tile, kernel, overdue);
+                   return std::int64_t(1);
+               }));
+    } catch (const TileDropped&) {
+        return "more than " +
+               human_duration(double(longest_sampling) * double(tiling.size()) / double(lines));
+    }
 }
 
 void print_pulse(const Scene& scene)
@@ -157,9 +185,13 @@ int check(const JobSource& source)
         print_row("note", line);
     }
     print_size(job);
-    print_row("time", fmt::format("about {} on one rank with kernel {}; n ranks on n cores need "
-                                  "1/n of it",
-                                  human_duration(estimated_seconds(job, kernel)), name_of(kernel)));
+    print_row("time",
+              fmt::format("{} on one rank with kernel {}; n ranks on n cores need 1/n of it",
+                          spectrum_time(job, kernel), name_of(kernel)));
+    if (!job.blocks && job.plane.amplitude.size() > 1) {
+        print_row("boundary",
+                  fmt::format("{} if computed with overturn boundary", boundary_time(job, kernel)));
+    }
     return exit_code::complete;
 }
 

@@ -139,6 +139,7 @@ struct Arguments {
     ToppleOptions topple;
     std::string info;
     std::string verify;
+    std::string doctor = ".";
 };
 
 Command to_print(const std::string& text)
@@ -252,6 +253,10 @@ Command read_command_line(int argc, const char* const* argv)
     add_result_file(*add_command("verify", "Check a result file for damage", help::verify, verify,
                                  arguments->verify),
                     "FILE", arguments->verify);
+    add_command("doctor", "Print what a bug report should contain about this machine", help::doctor,
+                doctor, arguments->doctor)
+        ->add_option("FOLDER", arguments->doctor, "Folder of the result files")
+        ->capture_default_str();
 
     // For the build, which installs the output; hidden from --help.
     const std::string_view only = argc == 2 ? argv[1] : "";

@@ -67,6 +67,10 @@ struct ToppleOptions {
 };
 int topple(const ToppleOptions& options);
 
+/// Prints the versions, processor and file system that a bug report should contain. folder: of the
+/// result files.
+int doctor(const std::string& folder);
+
 /// Prints a summary of a result file.
 int info(const std::string& path);
 

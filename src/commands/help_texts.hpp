@@ -54,6 +54,10 @@ need a job file: see overturn run.)";
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
 
+inline constexpr const char* doctor = R"(Examples:
+  overturn doctor
+  overturn doctor /scratch/results > report.txt)";
+
 inline constexpr const char* accuracy = R"(Example:
   overturn accuracy jobs/figure_07a.toml -o accuracy.h5
   tools/plot_accuracy accuracy.h5

@@ -22,10 +22,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> axis_names{
-    "frequency", "pulse_period", "pulse_frequency",     "amplitude",   "pga",
-    "scale",     "size",         "frequency_parameter", "restitution", "slenderness"};
-
 std::string trimmed(std::string text)
 {
     text.erase(0, text.find_first_not_of(' '));

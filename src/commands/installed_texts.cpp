@@ -3,6 +3,7 @@
 #include "help_texts.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/job/job.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 #include <sstream>
 
 namespace overturn {
@@ -163,20 +163,33 @@ _overturn()
     local word=${{COMP_WORDS[COMP_CWORD]}} words='' ending=''
     case "$COMP_CWORD ${{COMP_WORDS[1]}} ${{COMP_WORDS[COMP_CWORD - 1]}}" in
         1\ *) words='{}--help --version' ;;
+        *\ =) ;; # the value of a key
 {}{}    esac
     if [[ -n $ending && $word != -* ]]; then
         compopt -o filenames
         mapfile -t COMPREPLY < <(compgen -f -X "!*.$ending" -- "$word"; compgen -d -- "$word")
     else
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+        [[ ${{COMPREPLY[*]}} != *= ]] || compopt -o nospace
     fi
 }}
 complete -F _overturn overturn
 )";
 
-/// "auto double" for "{auto,double}"; empty for any other value.
+/// "auto double" for "{auto,double}"; the keys, each with "=", for "KEY=VALUE"; otherwise empty.
 std::string choices_of(std::string value)
 {
+    if (value == "AXIS=VALUE,...") {
+        return fmt::format("{}=", fmt::join(axis_names, "= "));
+    }
+    if (value.ends_with("KEY=VALUE")) {
+        const std::string prefix = value.substr(0, value.size() - 9);
+        std::string keys;
+        for (const std::string& key : override_keys()) {
+            keys += key.starts_with(prefix) ? key + "= " : "";
+        }
+        return keys;
+    }
     if (!value.starts_with('{')) {
         return "";
     }
@@ -206,8 +219,7 @@ std::string manual_page(const CLI::App& program)
 
 std::string bash_completion(const CLI::App& program)
 {
-    std::string commands, by_command;
-    std::set<std::string> by_option; // an option has the same meaning in every subcommand
+    std::string commands, by_command, by_option;
     for (const CLI::App* command : program.get_subcommands({})) {
         std::string words, ending;
         for (const CLI::Option* option : command->get_options()) {
@@ -219,16 +231,17 @@ std::string bash_completion(const CLI::App& program)
             const std::vector<std::string> names = names_of(*option);
             words += fmt::format("{} ", fmt::join(names, " "));
             if (!value.empty()) {
-                by_option.insert(fmt::format("        *\\ {}) words='{}' ending='{}' ;;\n",
-                                             fmt::join(names, "|*\\ "), choices_of(value),
-                                             value.ends_with(".h5") ? "h5" : ""));
+                const std::string before = fmt::format("*\\ {}\\ ", command->get_name());
+                by_option += fmt::format("        {}{}) words='{}' ending='{}' ;;\n", before,
+                                         fmt::join(names, "|" + before), choices_of(value),
+                                         value.ends_with(".h5") ? "h5" : "");
             }
         }
         commands += command->get_name() + " ";
         by_command += fmt::format("        *\\ {}\\ *) words='{}' ending='{}' ;;\n",
                                   command->get_name(), words, ending);
     }
-    return fmt::format(completion_script, commands, fmt::join(by_option, ""), by_command);
+    return fmt::format(completion_script, commands, by_option, by_command);
 }
 
 } // namespace overturn

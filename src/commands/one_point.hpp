@@ -50,6 +50,7 @@ inline std::string peak_text(double peak, double slenderness)
 {
     return std::isnan(peak)   ? "undecided"
            : std::isinf(peak) ? "the block overturns"
+           : peak == 0        ? "0: the block is not lifted and stays at rest"
                               : fmt::format("{:.4g} degrees, {:.3g} % of alpha",
                                             in_degrees(peak * slenderness), 100 * peak);
 }

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double redraw_interval = 0.2; // [s]
 
-// A log line every 10 s at first, later after another tenth of the time, at least every 10 min.
+// A log line after 2 s, then every 10 s at first, later after another tenth of the time, at least
+// every 10 min.
+constexpr double first_log_line = 2; // [s]
 constexpr double shortest_log_interval = 10;
 constexpr double longest_log_interval = 600;
 
@@ -44,7 +46,7 @@ std::string progress_text(const Moment& moment)
 Progress::Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream,
                    bool terminal)
     : moment_{.before = before, .all = all, .items = items}, stream_(stream), terminal_(terminal),
-      next_(terminal ? redraw_interval : shortest_log_interval)
+      next_(terminal ? redraw_interval : first_log_line)
 {}
 
 Progress::~Progress()

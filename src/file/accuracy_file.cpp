@@ -29,12 +29,11 @@ void add_list(hid_t file, const char* name, const char* dimension, const Values&
 void add_coordinates(hid_t file, const std::vector<AccuracyRow>& rows)
 {
     add_bare_dimension(file, setting, std::int64_t(rows.size()));
-    add_list(file, "quantile", "quantile", error_quantiles,
-             "share of the points whose error is at most this");
+    add_list(file, "quantile", "quantile", error_quantiles, "share of points with smaller errors");
     std::vector<std::uint8_t> regions(region_names.size());
     std::iota(regions.begin(), regions.end(), std::uint8_t(0));
-    add_codes(file, "region", "region", regions,
-              "region of the block's state at the end of the pulse", region_names);
+    add_codes(file, "region", "region", regions, "region at the end of the ground motion",
+              region_names);
     add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
 }
 
@@ -78,33 +77,27 @@ void add_columns(const Table& table)
     using Row = AccuracyRow;
     table.add("method", "0 rk45, 1 taylor", "1",
               [](const Row& row) { return int(row.numerics.method); });
-    table.add("tolerance", "local error per step, relative to the size of the motion", "1",
+    table.add("tolerance", "tolerance of the local error", "1",
               [](const Row& row) { return row.numerics.tolerance; });
-    table.add("resolve", "1 if verdicts in doubt were resolved with more digits", "1",
+    table.add("resolve", "1 if verdicts were resolved", "1",
               [](const Row& row) { return row.numerics.resolve; });
-    table.add("seconds_per_point", "time per point on one core, computing regions only", "s",
-              &Row::seconds_per_point);
+    table.add("seconds_per_point", "time per point on one core", "s", &Row::seconds_per_point);
     table.add("steps", "steps tried per point", "1", &Row::steps);
-    table.add("evaluations", "evaluations of the acceleration or of its series, per point", "1",
-              &Row::evaluations);
+    table.add("evaluations", "evaluations of the equation, per point", "1", &Row::evaluations);
     table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
               &Row::angle);
     table.add("velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
               &Row::velocity);
     table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
               &Row::margin);
-    table.add("wrong_verdicts", "number of points with a wrong verdict", "1", &Row::wrong_verdicts);
-    table.add("wrong_verdicts_by_region", "region",
-              "number of points of the region with a wrong verdict", "1",
+    table.add("wrong_verdicts", "wrong verdicts", "1", &Row::wrong_verdicts);
+    table.add("wrong_verdicts_by_region", "region", "wrong verdicts in the region", "1",
               &Row::wrong_verdicts_by_region);
-    table.add("wrong_verdicts_by_distance", "distance",
-              "number of points of the class with a wrong verdict", "1",
+    table.add("wrong_verdicts_by_distance", "distance", "wrong verdicts in the class", "1",
               &Row::wrong_verdicts_by_distance);
-    table.add("undecided", "number of points without a verdict", "1", &Row::undecided);
-    table.add("bound_exceeded", "share of the points whose error of the margin exceeds its bound",
-              "1", &Row::bound_exceeded);
-    table.add("bound_over_error", "median of the ratio of bound and error of the margin", "1",
-              &Row::bound_over_error);
+    table.add("undecided", "points without a verdict", "1", &Row::undecided);
+    table.add("bound_exceeded", "share of errors above their bound", "1", &Row::bound_exceeded);
+    table.add("bound_over_error", "median of bound over error", "1", &Row::bound_over_error);
 }
 
 void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)

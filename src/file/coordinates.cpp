@@ -17,15 +17,17 @@ constexpr double exact = 0;
 constexpr double of_one_function = 4; // the error of each library is at most two
 constexpr double of_several = 100;    // largest_restitution amplifies those of its sine
 
-constexpr const char* long_name_of_frequency =
-    "angular frequency of the pulse, over the block's frequency parameter p";
+constexpr const char* long_name_of_frequency = "frequency of the pulse, omega_p / p";
+constexpr const char* long_name_of_period = "period of the pulse";
+constexpr const char* long_name_of_size = "half diagonal of the block, R";
+constexpr const char* long_name_of_parameter = "frequency parameter, p = sqrt(3g / 4R)";
 constexpr const char* long_name_of_pga = "peak ground acceleration, over g";
 
 /// Under a pulse.
 const char* long_name_of_amplitude(const Job& job)
 {
-    return job.scene.theory == Theory::linear ? "peak ground acceleration, over g alpha"
-                                              : "peak ground acceleration, over g tan(alpha)";
+    return job.scene.theory == Theory::linear ? "peak acceleration, over g alpha"
+                                              : "peak acceleration, over g tan(alpha)";
 }
 
 Coordinate coordinate_of(const Dimension& dimension)
@@ -54,14 +56,20 @@ Coordinate restitution_ratio(const Plane& plane)
             plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
 }
 
-/// A coordinate of the values of an axis, each computed by of_value(value).
+std::string with_gravity(double gravity)
+{
+    return fmt::format("with g = {} m/s2", gravity);
+}
+
+/// A coordinate of the values of an axis and of g, each computed by of_value(value).
 template <class OfValue>
-Coordinate along(const char* dimension, const Axis& axis, const char* name,
-                 const std::string& long_name, const char* units, const OfValue& of_value)
+Coordinate along(const char* dimension, const Axis& axis, const char* name, const char* long_name,
+                 const char* units, double gravity, const OfValue& of_value)
 {
     std::vector<double> values = axis.values();
     std::transform(values.begin(), values.end(), values.begin(), of_value);
-    return {{name, {dimension}, {values.size()}, values, long_name, units}, of_several};
+    return {{name, {dimension}, {values.size()}, values, long_name, units, with_gravity(gravity)},
+            of_several};
 }
 
 /// Under a pulse, for blocks of known size: the period of every Omega, or Omega of every period or
@@ -72,12 +80,12 @@ Coordinate other_frequency(const Job& job)
     const double gravity = job.scene.gravity;
     if (plane.frequency_is == FrequencyQuantity::frequency) {
         const double p = frequency_parameter(*plane.size, gravity);
-        return along("frequency", plane.frequency, "pulse_period",
-                     fmt::format("period of the pulse, 2 pi / omega_p, with g = {} m/s2", gravity),
-                     "s", [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
+        return along("frequency", plane.frequency, "pulse_period", long_name_of_period, "s",
+                     gravity,
+                     [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
     }
     return along(name_of(plane.frequency_is).data(), plane.frequency, "frequency",
-                 fmt::format("{}, with g = {} m/s2", long_name_of_frequency, gravity), "1",
+                 long_name_of_frequency, "1", gravity,
                  [&](double value) { return frequency_of_point(job.scene, plane, 0, value); });
 }
 
@@ -111,12 +119,10 @@ Coordinate other_size(const Job& job)
     const Plane& plane = job.plane;
     const double gravity = job.scene.gravity;
     if (plane.frequency_is == FrequencyQuantity::size) {
-        return along("size", plane.frequency, "frequency_parameter",
-                     fmt::format("p = sqrt(3g / 4R), with g = {} m/s2", gravity), "s-1",
-                     [&](double size) { return frequency_parameter(size, gravity); });
+        return along("size", plane.frequency, "frequency_parameter", long_name_of_parameter, "s-1",
+                     gravity, [&](double size) { return frequency_parameter(size, gravity); });
     }
-    return along("frequency_parameter", plane.frequency, "size",
-                 fmt::format("half diagonal R of the block, with g = {} m/s2", gravity), "m",
+    return along("frequency_parameter", plane.frequency, "size", long_name_of_size, "m", gravity,
                  [&](double p) { return 3 * gravity / (4 * p * p); });
 }
 
@@ -145,22 +151,23 @@ Coordinate other_strength(const Job& job)
 void add_measures(const Job& job, std::vector<Coordinate>& all)
 {
     const auto add = [&](const char* name, const char* long_name, const char* units,
-                         double IntensityMeasures::*measure) {
+                         double IntensityMeasures::*measure, const char* comment = "") {
         std::vector<double> values;
         for (const Motion& motion : job.motions) {
             values.push_back(motion.measures.*measure);
         }
-        all.push_back({{name, {"motion"}, {values.size()}, values, long_name, units}, exact});
+        all.push_back(
+            {{name, {"motion"}, {values.size()}, values, long_name, units, comment}, exact});
     };
     const bool is_pga = job.plane.amplitude_is == AmplitudeQuantity::pga ||
                         (job.blocks && std::ranges::count(job.blocks->columns, "pga") > 0);
-    add(is_pga ? "record_pga" : "pga", "peak ground acceleration of the record, over g", "1",
+    add(is_pga ? "record_pga" : "pga", "peak acceleration of the record, over g", "1",
         &IntensityMeasures::pga);
     add("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
     add("arias_intensity", "Arias intensity of the record", "m s-1",
         &IntensityMeasures::arias_intensity);
-    add("significant_duration", "time between 5 and 95 % of the Arias intensity of the record", "s",
-        &IntensityMeasures::significant_duration);
+    add("significant_duration", "significant duration of the record", "s",
+        &IntensityMeasures::significant_duration, "from 5 to 95 % of the Arias intensity");
 }
 
 /// 1 to count.
@@ -191,10 +198,10 @@ Dimension frequency_dimension(const Plane& plane)
                          units};
     };
     switch (plane.frequency_is) {
-    case FrequencyQuantity::pulse_period: return dimension("period of the pulse", "s");
+    case FrequencyQuantity::pulse_period: return dimension(long_name_of_period, "s");
     case FrequencyQuantity::pulse_frequency: return dimension("frequency of the pulse", "s-1");
-    case FrequencyQuantity::size: return dimension("half diagonal R of the block", "m");
-    case FrequencyQuantity::frequency_parameter: return dimension("p = sqrt(3g / 4R)", "s-1");
+    case FrequencyQuantity::size: return dimension(long_name_of_size, "m");
+    case FrequencyQuantity::frequency_parameter: return dimension(long_name_of_parameter, "s-1");
     case FrequencyQuantity::frequency: break;
     }
     return dimension(long_name_of_frequency, "1");
@@ -223,9 +230,11 @@ std::vector<Dimension> dimensions_of_list(const Job& job)
 void add_blocks(const Job& job, std::vector<Coordinate>& all)
 {
     const auto add = [&](const std::string& name, const std::vector<double>& values,
-                         const std::string& long_name, std::string_view units, double roundings) {
+                         const char* long_name, std::string_view units, double roundings,
+                         const std::string& comment = "") {
         all.push_back(
-            {{name, {"block"}, {values.size()}, values, long_name, std::string(units)}, roundings});
+            {{name, {"block"}, {values.size()}, values, long_name, std::string(units), comment},
+             roundings});
     };
     if (!job.blocks->table) {
         return;
@@ -239,17 +248,18 @@ void add_blocks(const Job& job, std::vector<Coordinate>& all)
         }
     }
     const auto add_derived = [&](const char* name, const std::vector<double>& values,
-                                 const std::string& long_name) {
+                                 const char* long_name, const std::string& comment = "") {
         if (!values.empty() && job.blocks->table->find(name) == nullptr) {
             const Quantity* quantity = find_quantity(name);
-            add(name, values, long_name, quantity == nullptr ? "1" : quantity->units, of_several);
+            add(name, values, long_name, quantity == nullptr ? "1" : quantity->units, of_several,
+                comment);
         }
     };
     const BlockList& list = *job.plane.list;
     add_derived("slenderness", list.slenderness, "slenderness of the block, arctan(b/h)");
     add_derived("restitution_ratio", list.restitution, "energy ratio at an impact, r");
-    add_derived("frequency_parameter", list.frequency_parameter,
-                fmt::format("p = sqrt(3g / 4R), with g = {} m/s2", job.scene.gravity));
+    add_derived("frequency_parameter", list.frequency_parameter, long_name_of_parameter,
+                with_gravity(job.scene.gravity));
     if (is_recorded && job.motions.front().record) { // not in a job of a result file
         add_derived("scale", list.amplitude, "factor on the record");
     }
@@ -270,16 +280,15 @@ std::vector<Dimension> dimensions_of(const Job& job)
     std::vector<Dimension> dimensions{
         {"slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
         {"restitution", plane.restitution,
-         plane.restitution_of == RestitutionOf::maximum
-             ? "energy ratio at an impact, over its maximum for the block"
-             : "energy ratio at an impact",
+         plane.restitution_of == RestitutionOf::maximum ? "energy ratio at an impact, r / r_max"
+                                                        : "energy ratio at an impact, r",
          "1"}};
     if (plane.motions > 0) {
         dimensions.insert(dimensions.begin(), motion_dimension(plane));
     }
     if (job.product == Product::boundary) {
-        dimensions.push_back({"crossing", plane.amplitude,
-                              "number of the flip along the amplitude, counted from 0", "1"});
+        dimensions.push_back(
+            {"crossing", plane.amplitude, "number of the flip, counted from 0", "1"});
     } else {
         dimensions.push_back(amplitude_dimension(job));
     }
@@ -289,7 +298,7 @@ std::vector<Dimension> dimensions_of(const Job& job)
 
 std::string name_of_scan(const Job& job)
 {
-    return layout::scan_prefix + std::string(name_of(job.plane.amplitude_is));
+    return layout::in_run_group(layout::scan_prefix + std::string(name_of(job.plane.amplitude_is)));
 }
 
 std::vector<Coordinate> coordinates_of(const Job& job)
@@ -307,11 +316,9 @@ std::vector<Coordinate> coordinates_of(const Job& job)
         }
     }
     if (is_boundary) {
-        all.push_back(
-            coordinate_of({name_of_scan(job), job.scan,
-                           fmt::format("values of {} that were computed first to find the flips",
-                                       name_of(plane.amplitude_is)),
-                           "1"}));
+        all.push_back(coordinate_of(
+            {name_of_scan(job), job.scan,
+             fmt::format("values of {} computed first", name_of(plane.amplitude_is)), "1"}));
     }
     if (plane.list) {
         add_blocks(job, all);

@@ -36,63 +36,61 @@ Description description_of(Field field, const Job& job)
     const bool is_recorded = job.scene.is_recorded();
     switch (field) {
     case Field::region:
-        return {
-            "region of the block's state at the end of the ground motion", "",
-            "S: safe within the separatrix; S_plus, S_minus: safe due to the loss at the next "
-            "impact; U0: overturns without another impact; U1: overturns after one more impact; "
-            "F: falls during the ground motion",
-            std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
-            regions + " undecided not_computed"};
+        return {"region at the end of the ground motion", "",
+                "S: safe within the separatrix; S+, S-: safe due to the loss at the next impact; "
+                "U0: overturns without another impact; U1: overturns after one more impact; "
+                "F: falls during the ground motion",
+                std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 254, 255},
+                regions + " undecided not_computed"};
     case Field::status:
-        return {"flags set during the integration of the ground motion", "",
-                "0: no flag is set; 255: not computed yet",
+        return {"flags set during the integration", "", "0: no flag is set; 255: not computed yet",
                 std::vector<std::uint8_t>{status::came_to_rest, status::cap_was_hit,
                                           status::not_finite, status::unresolved,
                                           status::free_fall},
                 "came_to_rest cap_was_hit not_finite unresolved free_fall"};
     case Field::impacts:
-        return {"number of impacts during the ground motion", "1", "",
+        return {"impacts during the ground motion", "1", "",
                 std::vector<std::uint16_t>{impact_count::largest, impact_count::not_computed,
                                            impact_count::bounce_series},
                 "this_many_or_more not_computed bounce_series"};
-    case Field::angle: return {"angle theta of the block at the end of the ground motion", "rad"};
-    case Field::velocity: return {"d theta / d(p t) at the end of the ground motion", "rad"};
-    case Field::margin: return {"distance from the other verdict, positive where safe", "1"};
+    case Field::angle: return {"angle at the end of the ground motion", "rad", "theta"};
+    case Field::velocity:
+        return {"velocity at the end of the ground motion", "rad", "d theta / d(p t)"};
+    case Field::margin:
+        return {"margin, positive where safe", "1", "distance from the other verdict"};
     case Field::error:
         return {"bound of the error of the margin", "1",
                 "to first order; infinite where it is unknown: an impact or a fall may or may "
                 "not have happened, or was only just avoided; a verdict is certain where |margin| "
                 "is larger"};
     case Field::peak:
-        return {"largest |theta| / alpha during the ground motion and after it", "1",
-                "infinite where the block overturns"};
+        return {"largest |theta| / alpha", "1",
+                "during the ground motion and after it; infinite where the block overturns"};
     case Field::fall_time:
-        return {"p t from the first uplift to |theta| = pi/2", "1",
+        return {"time p t from uplift to |theta| = pi/2", "1",
                 "infinite where the block does not overturn"};
     case Field::steps:
         return {"integration steps tried", "1", "",
                 std::vector<std::uint32_t>{step_count::not_computed}, "not_computed"};
     case Field::flip_amplitude:
         return {
-            fmt::format("{} at which the verdict flips, in ascending order; NaN beyond the last "
-                        "flip",
-                        is_recorded ? "scale" : "amplitude"),
-            "1",
+            fmt::format("{} at which the verdict flips", is_recorded ? "scale" : "amplitude"), "1",
             is_recorded
-                ? "each flip lies between two amplitudes with settled verdicts, at most `width` "
+                ? "in ascending order; NaN beyond the last flip. Each flip lies between two "
+                  "amplitudes with settled verdicts, at most `width` "
                   "apart relative to their size. If region_below or region_above is undecided, the "
                   "value is not a flip but the settled amplitude next to the undecided range. The "
                   "steps of the scan were divided evenly until each was at most `finest_step` of "
                   "the amplitude. Narrower strips exist and are missed"
-                : "each flip lies between two amplitudes with settled verdicts, at most `width` "
+                : "in ascending order; NaN beyond the last flip. Each flip lies between two "
+                  "amplitudes with settled verdicts, at most `width` "
                   "apart relative to their size. If region_below or region_above is undecided, the "
                   "value is not a flip but the settled amplitude next to the undecided range. "
                   "Between neighbours of the scan the steps were halved where the margin is not "
                   "linear or the number of impacts changes, down to `finest_step` of the "
                   "amplitude. Strips that are narrower, or that the neighbouring amplitudes do not "
                   "indicate, may be missed"};
-    case Field::flip_pga:
-        return {"peak ground acceleration at which the verdict flips, over g", "1"};
+    case Field::flip_pga: return {"PGA at which the verdict flips, over g", "1"};
     case Field::region_below:
         return {
             "region just below the flip", "",
@@ -107,11 +105,13 @@ Description description_of(Field field, const Job& job)
                 "stored flip and there are more",
                 regions_or_none, or_none};
     case Field::unsafe_share:
-        return {"share of the scanned interval in which the block overturns", "1",
-                "under a record, smaller steps find more flips; this share hardly depends on the "
+        return {"share of amplitudes that overturn", "1",
+                "share of the scanned interval. Under a record, smaller steps find more flips; "
+                "this share hardly depends on the "
                 "step. Flips beyond the last stored flip are included"};
     case Field::undecided_share:
-        return {"share of the scanned interval in which the verdict could not be settled", "1"};
+        return {"share of amplitudes without verdict", "1",
+                "share of the scanned interval in which the verdict could not be settled"};
     }
     return {};
 }

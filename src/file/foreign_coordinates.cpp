@@ -14,12 +14,16 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-/// `pga` was named peak_ground_acceleration in earlier files of format 2.
-std::string stored_name_of(const std::string& coordinate, hid_t file)
+/// `pga` was named peak_ground_acceleration in earlier files of format 2, and there was no group.
+std::string stored_name_of(const std::string& coordinate, const StoredSpectrum& stored)
 {
-    const bool has_old_name =
-        coordinate == "pga" && check(H5Lexists(file, "pga", H5P_DEFAULT)) == 0;
-    return has_old_name ? "peak_ground_acceleration" : coordinate;
+    if (stored.format < 3) {
+        const bool has_old_name =
+            coordinate == "pga" && check(H5Lexists(stored.file, "pga", H5P_DEFAULT)) == 0;
+        return has_old_name ? "peak_ground_acceleration"
+                            : coordinate.substr(coordinate.rfind('/') + 1);
+    }
+    return coordinate;
 }
 
 /// The table of a list, from the variables along its blocks.
@@ -64,7 +68,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
             foreign.emplace_back(dimension.name);
         }
     }
-    const std::string scan = name_of_scan(job);
+    const std::string scan = stored_name_of(name_of_scan(job), stored);
     if (job.product == Product::boundary && !has_shape(scan, {hsize_t(job.scan.size())})) {
         foreign.push_back(scan);
     }
@@ -79,7 +83,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
         restore_blocks(job, std::move(table));
     }
     for (Coordinate coordinate : coordinates_of(job)) {
-        coordinate.name = stored_name_of(coordinate.name, stored.file);
+        coordinate.name = stored_name_of(coordinate.name, stored);
         std::vector<double> values(coordinate.values.size());
         if (has_shape(coordinate.name, coordinate.shape)) {
             const Handle dataset = open_own_dataset(stored.file, coordinate.name);

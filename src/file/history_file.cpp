@@ -15,18 +15,20 @@ struct Quantity {
     const char* long_name;
     const char* units;
     double HistorySample::*value;
+    const char* comment = "";
 };
 
-constexpr Quantity time_of_sample{"time", "tau = p t since the beginning of the ground motion", "1",
-                                  &HistorySample::time};
+constexpr Quantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
+                                  "from the beginning of the ground motion"};
 constexpr Quantity quantities[] = {
-    {"angle", "theta", "rad", &HistorySample::angle},
-    {"velocity", "theta' = d theta / d tau, tau = p t", "rad", &HistorySample::velocity},
-    {"acceleration", "theta'' = d^2 theta / d tau^2", "rad", &HistorySample::acceleration},
-    {"q",
-     "4 sin^2((alpha - |theta|) / 2) - theta'^2; linear theory: (alpha - |theta|)^2 - theta'^2",
-     "rad2", &HistorySample::q},
-    {"ground", "ground acceleration over g", "1", &HistorySample::ground},
+    {"angle", "angle theta", "rad", &HistorySample::angle},
+    {"velocity", "d theta / d(p t)", "rad", &HistorySample::velocity},
+    {"acceleration", "d^2 theta / d(p t)^2", "rad", &HistorySample::acceleration},
+    {"q", "q", "rad2", &HistorySample::q,
+     "4 sin^2((alpha - |theta|) / 2) - (d theta / d(p t))^2; linear theory: (alpha - |theta|)^2 - "
+     "(d "
+     "theta / d(p t))^2"},
+    {"ground", "ground acceleration, over g", "1", &HistorySample::ground},
 };
 
 /// `when` is appended to the long name of the quantity.
@@ -38,17 +40,20 @@ void add_quantity(hid_t file, const char* dimension, const std::string& name,
     for (const HistorySample& sample : samples) {
         values.push_back(sample.*quantity.value);
     }
-    add_variable(
-        file,
-        {name, {dimension}, {values.size()}, values, quantity.long_name + when, quantity.units});
+    add_variable(file, {name,
+                        {dimension},
+                        {values.size()},
+                        values,
+                        quantity.long_name + when,
+                        quantity.units,
+                        quantity.comment});
 }
 
 void add_samples(hid_t file, const std::vector<HistorySample>& samples)
 {
-    add_bare_dimension(file, "sample", std::int64_t(samples.size()));
-    add_quantity(file, "sample", time_of_sample.name, time_of_sample, samples);
+    add_quantity(file, "time", time_of_sample.name, time_of_sample, samples);
     for (const Quantity& quantity : quantities) {
-        add_quantity(file, "sample", quantity.name, quantity, samples);
+        add_quantity(file, "time", quantity.name, quantity, samples);
     }
 }
 
@@ -62,13 +67,15 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
         after.push_back(event.after);
         kinds.push_back(std::uint8_t(event.kind));
     }
-    add_bare_dimension(file, "event", std::int64_t(events.size()));
-    add_quantity(file, "event", "event_time", time_of_sample, after);
-    add_codes(file, "event_kind", "event", kinds, "kind of the event", event_names);
+    const char* const dimension = "events/event";
+    add_group(file, "events"); // of another length than the samples
+    add_bare_dimension(file, dimension, std::int64_t(events.size()));
+    add_quantity(file, dimension, "events/time", time_of_sample, after);
+    add_codes(file, "events/kind", dimension, kinds, "kind of the event", event_names);
     for (const Quantity& quantity : quantities) {
-        const std::string name = std::string("event_") + quantity.name;
-        add_quantity(file, "event", name + "_before", quantity, before, ", just before the event");
-        add_quantity(file, "event", name + "_after", quantity, after, ", just after the event");
+        const std::string name = std::string("events/") + quantity.name;
+        add_quantity(file, dimension, name + "_before", quantity, before, ", before the event");
+        add_quantity(file, dimension, name + "_after", quantity, after, ", after the event");
     }
 }
 

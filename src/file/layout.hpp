@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <variant>
 
 namespace overturn::layout {
@@ -25,15 +26,28 @@ inline constexpr const char* name_of(FileKind kind)
 /// Global attribute: the version of the layout. Files without it are of version 1: they have four
 /// dimensions and the attributes amplitude_extent and frequency_extent.
 inline constexpr char format_version[] = "format_version";
-inline constexpr std::int64_t newest_format = 2;
+inline constexpr std::int64_t newest_format = 3;
 
+/// The group of what is neither a coordinate nor a field: how the file was computed. Readers that
+/// open the root group, such as xarray.open_dataset(), do not see it.
+inline constexpr char run_group[] = "run";
+
+/// The place of an object of the group `run`, which earlier formats had in the root group.
+inline std::string in_run_group(const std::string& name, std::int64_t format = newest_format)
+{
+    return format < 3 ? name : std::string(run_group) + "/" + name;
+}
+
+// In the group `run`.
 inline constexpr char scan_prefix[] = "scan_"; ///< followed by amplitude, scale or pga
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
 inline constexpr char tile[] = "tile";
+inline constexpr char job_resolved[] = "job_resolved";
+
+// Attributes of the checksums.
 inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
 inline constexpr char tile_shape[] = "tile_shape";
-inline constexpr char job_resolved[] = "job_resolved";
 
 /// The types of a field in the file and in memory, and the value of a point not computed yet.
 struct StoredAs {

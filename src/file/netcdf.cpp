@@ -20,9 +20,9 @@ namespace {
 
 // netCDF-4 readers need attributes and links in the order of their creation. Times are not tracked,
 // because they would differ between equal runs.
-Handle file_creation()
+Handle ordered_creation(hid_t of_what)
 {
-    Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    Handle creation(H5Pcreate(of_what), H5Pclose);
     const unsigned ordered = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
     check(H5Pset_link_creation_order(creation, ordered));
     check(H5Pset_attr_creation_order(creation, ordered));
@@ -87,15 +87,23 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
 
 void add_job(hid_t file, const Job& job)
 {
-    add_text(file, "job_given", job.given, "job file as given");
-    add_text(file, "job_overrides", fmt::format("{}", fmt::join(job.overrides, "\n")),
+    using layout::in_run_group;
+    add_text(file, in_run_group("job_given"), job.given, "job file as given");
+    add_text(file, in_run_group("job_overrides"), fmt::format("{}", fmt::join(job.overrides, "\n")),
              "overrides of the job file, one per line");
-    add_text(file, layout::job_resolved, job.resolved, "job with all defaults");
+    add_text(file, in_run_group(layout::job_resolved), job.resolved, "job with all defaults");
     std::string records;
     for (const Motion& motion : job.motions) {
         records += record_text(motion);
     }
-    add_text(file, "records", records, "files of the recorded ground motions, with their headers");
+    add_text(file, in_run_group("records"), records,
+             "files of the recorded ground motions, with their headers");
+}
+
+/// A name without that of its group.
+std::string in_its_group(const std::string& name)
+{
+    return name.substr(name.rfind('/') + 1);
 }
 
 /// Makes the dataset a dimension if it has the name of one, else attaches its dimensions.
@@ -103,7 +111,7 @@ void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name
                               const std::vector<std::string>& dimensions)
 {
     if (dimensions.front() == name) {
-        check(H5DSset_scale(dataset, name.c_str()));
+        check(H5DSset_scale(dataset, in_its_group(name).c_str()));
     } else {
         attach_dimensions(file, dataset, dimensions);
     }
@@ -154,6 +162,7 @@ void add_variable(hid_t file, const Variable& variable)
                    variable.values.data()));
     write_attribute(dataset, "long_name", variable.long_name);
     write_attribute(dataset, "units", variable.units);
+    write_attribute(dataset, "comment", variable.comment);
     attach_or_make_dimension(file, dataset, variable.name, variable.dimensions);
 }
 
@@ -192,6 +201,12 @@ void add_names(hid_t file, const std::string& name, const std::string& dimension
     write_attribute(dataset, "_Encoding", "utf-8");
 }
 
+void add_group(hid_t file, const char* name)
+{
+    const Handle creation = ordered_creation(H5P_GROUP_CREATE);
+    Handle(H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose).close();
+}
+
 void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length)
 {
     const Handle creation = dataset_creation();
@@ -206,9 +221,11 @@ void make_file(const std::string& path, const Job& job, FileKind kind,
                const std::function<void(hid_t file)>& write)
 {
     hdf5::start();
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, file_creation(), hdf5::file_access()),
+    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, ordered_creation(H5P_FILE_CREATE),
+                          hdf5::file_access()),
                 H5Fclose);
     write_origin(file, job, kind);
+    add_group(file, layout::run_group);
     write(file);
     add_job(file, job);
     file.close();

@@ -24,8 +24,9 @@ struct Variable {
     std::vector<std::string> dimensions; ///< slowest first; its own name if it is a dimension
     DatasetShape shape;
     std::vector<double> values; ///< in `units`
-    std::string long_name;
+    std::string long_name;      ///< at most 40 characters: plots take it as the label of an axis
     std::string units;
+    std::string comment = {};
 
     bool is_dimension() const { return dimensions.front() == name; }
 };
@@ -42,6 +43,9 @@ void add_codes(hid_t file, const char* name, const char* dimension,
 void add_names(hid_t file, const std::string& name, const std::string& dimension,
                const std::vector<std::string>& names, const char* long_name);
 
+/// Adds a group. The names of its variables and dimensions begin with its name and a slash.
+void add_group(hid_t file, const char* name);
+
 /// Adds a netCDF-4 dimension without a variable. Its dataset takes no space.
 void add_bare_dimension(hid_t file, const std::string& name, std::int64_t length);
 
@@ -57,7 +61,8 @@ void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>
 std::string record_text(const Motion& motion);
 
 /// Creates a file of this kind: kind, program version and scene as attributes; the content that
-/// `write` adds; and the job as given, its overrides, and as resolved. Throws Hdf5Error.
+/// `write` adds; and in the group `run` the job as given, its overrides, and as resolved. Throws
+/// Hdf5Error.
 void make_file(const std::string& path, const Job& job, FileKind kind,
                const std::function<void(hid_t file)>& write);
 

@@ -31,9 +31,15 @@ void demand(bool condition, const char* what_is_wrong)
 
 Handle open_own_dataset(hid_t file, const std::string& name)
 {
-    H5L_info_t link = {};
-    check(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
-    demand(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
+    // The groups on the path, and the dataset itself.
+    for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
+        H5L_info_t link = {};
+        check(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT));
+        demand(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
+        if (end == name.npos) {
+            break;
+        }
+    }
     Handle dataset = hdf5::open_dataset(file, name);
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,

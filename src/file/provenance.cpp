@@ -40,17 +40,6 @@ std::string mpi_version()
     return text; // not by its length, into which Open MPI counts the terminating zero
 }
 
-std::string compiler_version()
-{
-#if defined(__clang__)
-    return "clang " __clang_version__;
-#elif defined(__GNUC__)
-    return "GCC " __VERSION__;
-#else
-    return "unknown";
-#endif
-}
-
 /// Distinguishes a sidecar from other files called OUT.h5.json.
 constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
@@ -86,6 +75,17 @@ std::string as_json(const RunInfo& run)
 }
 
 } // namespace
+
+std::string compiler_version()
+{
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "GCC " __VERSION__;
+#else
+    return "unknown";
+#endif
+}
 
 std::string hdf5_version()
 {

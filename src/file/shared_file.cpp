@@ -26,7 +26,7 @@ struct Token {
 std::int64_t place_of_token(const std::string& path)
 {
     const Handle file = hdf5::open_to_read(path);
-    const Handle dataset = hdf5::open_dataset(file, layout::run_token);
+    const Handle dataset = hdf5::open_dataset(file, layout::in_run_group(layout::run_token));
     const haddr_t place = H5Dget_offset(dataset);
     if (place == HADDR_UNDEF) {
         throw hdf5::Hdf5Error("its run_token is not stored");

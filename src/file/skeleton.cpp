@@ -36,17 +36,48 @@ std::vector<std::string> names_of(const std::vector<Dimension>& dimensions)
     return names;
 }
 
-/// The coordinates that are not dimensions ("auxiliary" in the CF conventions).
-std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates)
+/// Variables of names along one dimension.
+struct Names {
+    std::string name;
+    std::string dimension;
+    std::vector<std::string> values;
+    const char* long_name;
+};
+
+/// The files of the motions, and the texts of the table.
+std::vector<Names> names_of(const Job& job)
 {
-    std::string names;
-    for (const Coordinate& coordinate : coordinates) {
-        if (!coordinate.is_dimension()) {
-            names += names.empty() ? "" : " ";
-            names += coordinate.name;
+    std::vector<Names> all;
+    if (job.scene.is_recorded()) {
+        all.push_back({"motion_name", "motion", {}, "file of the recorded ground motion"});
+        for (const Motion& motion : job.motions) {
+            all.back().values.push_back(motion.file);
         }
     }
-    return names;
+    if (job.blocks) {
+        for (const TableColumn& column : job.blocks->table->columns) {
+            if (!column.texts.empty()) {
+                all.push_back({column.name, "block", column.texts, "column of the table"});
+            }
+        }
+    }
+    return all;
+}
+
+/// The coordinates that are not dimensions ("auxiliary" in the CF conventions).
+std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates,
+                               const std::vector<Names>& texts)
+{
+    std::vector<std::string> names;
+    for (const Coordinate& coordinate : coordinates) {
+        if (!coordinate.is_dimension()) {
+            names.push_back(coordinate.name);
+        }
+    }
+    for (const Names& text : texts) {
+        names.push_back(text.name);
+    }
+    return fmt::format("{}", fmt::join(names, " "));
 }
 
 /// Writes fill values to every chunk, so that a run only overwrites existing values.
@@ -100,26 +131,28 @@ Handle early_allocated()
 
 void add_run_token(hid_t file)
 {
-    const Handle dataset =
-        create_dataset(file, layout::run_token, H5T_STD_U64LE, {}, early_allocated());
-    write_attribute(
-        dataset, "long_name",
-        "random number by which the ranks check at the start that they share the file, or 0");
+    const Handle dataset = create_dataset(file, layout::in_run_group(layout::run_token),
+                                          H5T_STD_U64LE, {}, early_allocated());
+    write_attribute(dataset, "long_name", "random number of the ranks, or 0");
+    write_attribute(dataset, "comment",
+                    "by it, the ranks check at the start that they share the file");
 }
 
 void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
 {
-    const Handle dataset = create_dataset(file, layout::checksum, H5T_STD_U64LE,
+    using layout::in_run_group;
+    add_bare_dimension(file, in_run_group(layout::tile), tiling.size());
+    const Handle dataset = create_dataset(file, in_run_group(layout::checksum), H5T_STD_U64LE,
                                           {hsize_t(tiling.size())}, early_allocated());
-    attach_dimensions(file, dataset, {layout::tile});
-    write_attribute(dataset, "long_name", "checksum of the tile, 0 if it is not computed yet");
+    attach_dimensions(file, dataset, {in_run_group(layout::tile)});
+    write_attribute(dataset, "long_name", "checksum of the tile, 0 if not computed");
     write_attribute(dataset, "algorithm",
                     "xxHash64, seed 0, over the stored values of the tile, field by field in the "
                     "order of the variables; a hash of 0 is stored as 1");
-    write_attribute(
-        dataset, "numbering",
-        "tiles are rectangles in the last two dimensions, at one index of the others, smaller at "
-        "the far edges; the last dimension varies fastest");
+    write_attribute(dataset, "numbering",
+                    "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
+                    "`dimensions`; the "
+                    "last varies fastest");
     write_attribute(dataset, layout::dimensions,
                     fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
     write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
@@ -138,27 +171,17 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job, const T
     for (const Coordinate& coordinate : coordinates) {
         add_variable(file, coordinate);
     }
-    if (job.scene.is_recorded()) {
-        std::vector<std::string> names;
-        for (const Motion& motion : job.motions) {
-            names.push_back(motion.file);
-        }
-        add_names(file, "motion_name", "motion", names, "file of the recorded ground motion");
+    const std::vector<Names> texts = names_of(job);
+    for (const Names& text : texts) {
+        add_names(file, text.name, text.dimension, text.values, text.long_name);
     }
-    if (job.blocks) {
-        for (const TableColumn& column : job.blocks->table->columns) {
-            if (!column.texts.empty()) {
-                add_names(file, column.name, "block", column.texts, "column of the table");
-            }
-        }
-    } else {
+    if (!job.blocks) {
         write_attribute(hdf5::open_dataset(file, "restitution"), "of",
                         name_of(job.plane.restitution_of));
     }
-    add_bare_dimension(file, layout::tile, tiling.size());
     for (const Field field : job.fields) {
-        fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates)), field, tiling,
-             path, between_tiles);
+        fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates, texts)), field,
+             tiling, path, between_tiles);
     }
     add_checksums(file, job, tiling);
 }

@@ -138,7 +138,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
         for (const Field field : job.fields) {
             open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
         }
-        open_->checksums = hdf5::open_dataset(open_->file, layout::checksum);
+        open_->checksums = hdf5::open_dataset(open_->file, layout::in_run_group(layout::checksum));
         if (stat(path.c_str(), &open_->as_opened) != 0) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }

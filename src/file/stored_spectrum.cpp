@@ -44,7 +44,7 @@ bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsiz
     return H5Dget_storage_size(dataset) == expected || is_compressed;
 }
 
-std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
+std::string read_text(hid_t file, const std::string& name, std::uint64_t bytes)
 {
     const Handle dataset = open_own_dataset(file, name);
     std::string text(length_of_list(dataset, H5T_C_S1, bytes, "a text is malformed"), '\0');
@@ -104,7 +104,8 @@ void check_field(const StoredSpectrum& spectrum, Field field)
 /// The names of the dimensions, slowest first. Files of format 1 have four.
 std::vector<std::string> read_dimensions(const StoredSpectrum& spectrum)
 {
-    const Handle checksums = open_own_dataset(spectrum.file, layout::checksum);
+    const Handle checksums =
+        open_own_dataset(spectrum.file, layout::in_run_group(layout::checksum, spectrum.format));
     std::istringstream words(hdf5::read_text_attribute(checksums, layout::dimensions));
     std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
     if (spectrum.format == 1) {
@@ -126,7 +127,8 @@ Shape read_tile_shape(hid_t checksums)
 
 void read_checksums_of_tiles(StoredSpectrum& spectrum)
 {
-    const Handle dataset = open_own_dataset(spectrum.file, layout::checksum);
+    const Handle dataset =
+        open_own_dataset(spectrum.file, layout::in_run_group(layout::checksum, spectrum.format));
     spectrum.tile_shape = read_tile_shape(dataset);
     const Shape& tile = spectrum.tile_shape;
     demand(tile.size() == spectrum.axes.size() &&
@@ -167,7 +169,8 @@ FileOrigin read_origin(hid_t file, const std::string& path, FileKind last, const
     origin.title = hdf5::read_text_attribute(file, "title");
     origin.program_version = hdf5::read_text_attribute(file, "program_version");
     origin.program_commit = hdf5::read_text_attribute(file, "program_commit");
-    origin.resolved_job = read_text(file, layout::job_resolved, origin.bytes);
+    origin.resolved_job =
+        read_text(file, layout::in_run_group(layout::job_resolved, origin.format), origin.bytes);
     return origin;
 }
 

@@ -21,15 +21,18 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> job_keys{"title",  "scene",    "plane", "block",
-                                                   "blocks", "numerics", "output"};
-
 // Sufficient for lists of millions of values; a file that is not a job cannot fill the memory.
 constexpr TextFileKind job_file{"a job file", std::size_t(64) << 20, "Give the path of a job file.",
                                 "Give long axes as first, last and count."};
 
 toml::table parse(const std::string& text, const std::string& path)
 {
+    if (text.starts_with("\x89HDF\r\n")) {
+        throw JobError(
+            fmt::format("{0}: this is a result file, not a job file. Give the job file; to "
+                        "resume its run, also -o {0}.",
+                        path));
+    }
     if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
         const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
         throw JobError(fmt::format("{}:{}: a key has more than {} parts, but keys of a job have at "

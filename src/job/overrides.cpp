@@ -264,6 +264,27 @@ void replace_number(toml::table& job, toml::table& given, const Path& path)
 
 } // namespace
 
+std::vector<std::string> override_keys()
+{
+    std::vector<std::string> keys{"title"};
+    const auto add = [&](std::string_view table, Names names) {
+        for (const std::string_view name : names) {
+            keys.push_back(fmt::format("{}.{}", table, name));
+        }
+    };
+    add("scene", scene_keys);
+    for (const std::string_view axis : axis_names) {
+        const std::string table = fmt::format("plane.{}", axis);
+        keys.push_back(table);
+        add(table, axis == "restitution" ? Names(restitution_keys) : Names(axis_keys));
+    }
+    add("block", block_keys);
+    add("blocks", blocks_keys);
+    add("numerics", numerics_keys);
+    add("output", output_keys);
+    return keys;
+}
+
 void apply_override(toml::table& job, const std::string& argument)
 {
     const std::size_t equals = argument.find('=');

@@ -16,7 +16,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> given_keys{"table"};
 constexpr std::array<std::string_view, 5> described_keys{"table", "rows", "columns", "own_motions",
                                                          "checksum"};
 
@@ -244,7 +243,7 @@ BlockTable read_blocks(const Entry& entry, const std::string& folder, Job& job, 
     if (kind == JobText::resolved) {
         return described_blocks(entry, job);
     }
-    expect_table(entry, given_keys);
+    expect_table(entry, blocks_keys);
     const Entry table = require(entry, "table", "Give the path of a table of blocks.");
     try {
         const TableReader reader(string_of(table), folder);

@@ -10,19 +10,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> pulse_plane_keys{
-    "frequency", "pulse_period", "pulse_frequency", "amplitude",
-    "pga",       "restitution",  "slenderness",     "size"};
-constexpr std::array<std::string_view, 6> record_plane_keys{
-    "scale", "pga", "size", "frequency_parameter", "restitution", "slenderness"};
-constexpr std::array<std::string_view, 5> list_keys_under_pulses{
-    "frequency", "pulse_period", "pulse_frequency", "amplitude", "pga"};
-constexpr std::array<std::string_view, 2> list_keys_under_records{"scale", "pga"};
-constexpr std::array<std::string_view, 6> restitution_keys{"values", "first",   "last",
-                                                           "count",  "spacing", "of"};
-constexpr std::array<std::string_view, 4> block_keys{"width", "height", "half_width",
-                                                     "half_height"};
-
 constexpr std::string_view axis_advice =
     "Give a number, { first, last, count } or { values = [...] }.";
 

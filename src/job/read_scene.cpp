@@ -12,15 +12,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> scene_keys{
-    "pulse", "record", "theory",    "window",   "cycles",    "gamma",
-    "nu",    "units",  "component", "vertical", "time_step", "gravity"};
-constexpr std::array<std::string_view, 5> pulse_keys{"pulse", "window", "cycles", "gamma", "nu"};
-constexpr std::array<std::string_view, 4> record_keys{"component", "vertical", "time_step",
-                                                      "units"};
-constexpr std::array<std::string_view, 3> numerics_keys{"method", "tolerance", "resolve"};
-constexpr std::array<std::string_view, 1> output_keys{"fields"};
-
 PulseShape read_shape(const Entry& scene, PulseKind pulse)
 {
     PulseShape shape;

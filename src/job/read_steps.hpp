@@ -1,11 +1,10 @@
 // The steps of read_job: apply the --set arguments, then read table by table.
 #pragma once
 
+#include "job_keys.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/quantity.hpp"
 #include "toml_reading.hpp"
-
-#include <array>
 
 namespace overturn {
 
@@ -43,9 +42,6 @@ void read_plane(const Entry& job, Plane& plane);
 
 /// Throws JobError if the value is outside the interval of the quantity.
 void expect_allowed(const Entry& entry, const Quantity& rule, double value);
-
-inline constexpr std::array<std::string_view, 5> axis_keys{"values", "first", "last", "count",
-                                                           "spacing"};
 
 /// Reads an axis: a number, which gives an axis of one value, or a table with these keys only,
 /// { values = [...] } or { first, last, count, spacing }.

@@ -40,7 +40,7 @@ class ABatchJob(Scratch):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5", *few), 0)
         self.assertEqual(self.run_until_done("true").returncode, 0)
         with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["checksum"][0] = 0
+            file["run/checksum"][0] = 0
         self.assert_not_done(self.run_until_done("true"))
 
     def test_is_not_done_if_the_launcher_returns_0_and_there_is_no_file(self):
@@ -49,7 +49,7 @@ class ABatchJob(Scratch):
     def test_is_not_done_if_the_launcher_returns_0_and_the_file_is_damaged(self):
         shutil.copy(self.folder / "whole.h5", self.folder / "out.h5")
         with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["checksum"][3] += np.uint64(1)
+            file["run/checksum"][3] += np.uint64(1)
         self.assert_not_done(self.run_until_done("true"))
 
     def assert_not_done(self, result):
@@ -59,7 +59,7 @@ class ABatchJob(Scratch):
     def test_is_requeued_if_the_launcher_returns_0_after_a_stop(self):
         shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
         with h5py.File(self.folder / "unfinished.h5", "r+") as file:
-            file["checksum"][3] = 0
+            file["run/checksum"][3] = 0
         result = self.run_until_done("cp", "unfinished.h5", "out.h5")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("23 tiles were added: requeueing", result.stdout)

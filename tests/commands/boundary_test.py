@@ -71,7 +71,7 @@ class ABoundary(Scratch):
         self.assertEqual(checksum(self.folder / "both.h5"), whole)
         with h5py.File(self.folder / "both.h5", "r+") as file:
             file["flip_amplitude"][0, 1, :, 4:12] = np.nan
-            file["checksum"][34:42] = 0
+            file["run/checksum"][34:42] = 0
         self.assert_exit(self.boundary("both.h5"), 0, "resuming: 52 of 60 tiles done")
         self.assertEqual(checksum(self.folder / "both.h5"), whole)
         self.assert_exit(self.boundary("both.h5"), 0, "is already complete")
@@ -139,6 +139,11 @@ class ABoundary(Scratch):
         result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.values=[3]")
         self.assert_exit(result, 65, "plane.amplitude has one value, 3")
         self.assertFalse((self.folder / "small_boundary.h5").exists())
+
+    def test_is_estimated_by_check(self):
+        self.assert_exit(self.overturn("check", "small.toml"), 0, "boundary about", "if computed with overturn boundary")
+        single = self.overturn("check", "small.toml", "--set", "plane.amplitude.values=[3]")
+        self.assertNotIn("overturn boundary", single.stdout)
 
     def test_is_described_by_info(self):
         self.have_boundary()

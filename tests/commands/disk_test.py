@@ -96,7 +96,7 @@ class ADiskThatFails(OnFaultyDisk):
     def damage(self):
         """Damages the checksums of all tiles, so that a run has tiles to compute."""
         with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["checksum"][:] = 0
+            file["run/checksum"][:] = 0
 
 
 class AKillAtTheLastWrite(OnFaultyDisk):
@@ -186,7 +186,7 @@ class AFullDisk(Scratch):
     def forget_a_tile(self, name):
         shutil.copy(self.whole, self.folder / name)
         with h5py.File(self.folder / name, "r+") as file:
-            file["checksum"][3] = 0
+            file["run/checksum"][3] = 0
 
     def test_that_is_read_only_is_reported_when_resuming(self):
         self.forget_a_tile("unfinished.h5")

@@ -47,7 +47,7 @@ class ADamagedFile(Scratch):
         self.assertEqual(process.returncode, 85)
         self.assert_exit(self.overturn("verify", "long.h5"), 0)
         with h5py.File(self.folder / "long.h5") as file:
-            unmarked = file["checksum"][:] == 0
+            unmarked = file["run/checksum"][:] == 0
             self.assertGreater(np.count_nonzero(unmarked), 65)
             # Readers that ignore checksums must not take its values for computed ones either.
             points = unmarked.reshape(1, 2, 7, 7).repeat(64, 2).repeat(64, 3)
@@ -59,7 +59,7 @@ class ADamagedFile(Scratch):
 
     def test_is_reported_if_a_checksum_is_damaged(self):
         with h5py.File(self.folder / "whole.h5", "r+") as file:
-            file["checksum"][11] += np.uint64(1)
+            file["run/checksum"][11] += np.uint64(1)
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "tile numbers: 11")
 
     def test_is_repaired_by_the_same_run_even_if_it_was_complete(self):
@@ -72,7 +72,7 @@ class ADamagedFile(Scratch):
     def test_is_repaired_together_with_missing_tiles(self):
         self.damage("whole.h5", (5, 6))
         with h5py.File(self.folder / "whole.h5", "r+") as file:
-            file["checksum"][6:9] = 0
+            file["run/checksum"][6:9] = 0
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 finished tiles", "tile numbers: 5")
         result = self.overturn("run", "small.toml", "-o", "whole.h5")
         self.assert_exit(result, 0, "20 of 24 tiles done, 1 damaged tile to recompute")
@@ -81,8 +81,8 @@ class ADamagedFile(Scratch):
     def test_is_repaired_if_a_killed_run_has_left_its_random_number(self):
         for ranks in (None, 2):
             with h5py.File(self.folder / "whole.h5", "r+") as file:
-                file["checksum"][3] = 0
-                file["run_token"][()] = 123
+                file["run/checksum"][3] = 0
+                file["run/run_token"][()] = 123
             self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5", ranks=ranks), 0)
             self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
 
@@ -96,7 +96,7 @@ class ADamagedFile(Scratch):
                 self.addCleanup(process.kill)
                 self.assertIn("tiles", process.stdout.readline())
                 with h5py.File(self.folder / "long.h5", locking=False) as file:
-                    place = file["checksum"].id.get_offset()
+                    place = file["run/checksum"].id.get_offset()
                 with (self.folder / "long.h5").open("r+b") as file:
                     mark = bytes(8)
                     while mark == bytes(8):

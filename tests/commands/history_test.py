@@ -30,21 +30,25 @@ class AHistory(Scratch):
             self.assertEqual(file.attrs["frequency"], 3)
             self.assertAlmostEqual(file.attrs["restitution"], 0.911547, places=6)
             self.assertEqual(len(file["time"]), len(file["angle"]))
-            meanings = file["event_kind"].attrs["flag_meanings"].decode().split()
-            kinds = [meanings[code] for code in file["event_kind"][:]]
+            meanings = file["events/kind"].attrs["flag_meanings"].decode().split()
+            kinds = [meanings[code] for code in file["events/kind"][:]]
             self.assertEqual(kinds[0], "uplift")
             self.assertEqual(kinds[-1], "rest")
-            impacts = file["event_kind"][:] == meanings.index("impact")
-            before = file["event_velocity_before"][:][impacts]
-            after = file["event_velocity_after"][:][impacts]
+            impacts = file["events/kind"][:] == meanings.index("impact")
+            before = file["events/velocity_before"][:][impacts]
+            after = file["events/velocity_after"][:][impacts]
             self.assertTrue(np.allclose(after**2, file.attrs["restitution"] * before**2))
 
     def test_opens_in_xarray(self):
         self.history(AT)
         for engine in ("netcdf4", "h5netcdf"):
             with xarray.open_dataset(self.folder / "history.h5", engine=engine) as found:
-                self.assertEqual(found.angle.dims, ("sample",))
-                self.assertEqual(found.event_time.dims, ("event",))
+                self.assertEqual(found.angle.dims, ("time",))
+                self.assertTrue((np.diff(found.time) >= 0).all())
+                self.assertEqual(set(found.to_dataframe().columns),
+                                 {"angle", "velocity", "acceleration", "q", "ground"})
+            with xarray.open_dataset(self.folder / "history.h5", engine=engine, group="events") as events:
+                self.assertEqual(events.time.dims, ("event",))
 
     def test_is_described_by_info(self):
         self.history(AT)
@@ -100,7 +104,7 @@ class AHistory(Scratch):
         picture = (self.folder / "history.svg").read_text()
         for words in ("A small plane", "uplift", "at rest"):
             self.assertIn(f">{words}<", picture)
-        self.assertIn("safe (S)", picture)
+        self.assertIn("safe, no more impacts needed (S)", picture)
 
     def test_is_plotted_with_the_settings_not_shown_below_the_title(self):
         self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")

@@ -66,6 +66,17 @@ TEST(Progress, IsSilentInAShortRun)
     EXPECT_EQ(written(log_file, short_run), "");
 }
 
+TEST(Progress, PrintsTheFirstLineOfALogAfterTwoSeconds)
+{
+    const std::string text = written(log_file, [](Progress& progress) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2050));
+        progress.update(500);
+        progress.update(501); // the next line appears after another 10 s
+    });
+    EXPECT_TRUE(text.starts_with("500 of 1.00 k points, 50 %")) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
+}
+
 TEST(Progress, RedrawsOneLineOnATerminalAndTerminatesIt)
 {
     const std::string text = written(terminal, [](Progress& progress) {

@@ -21,6 +21,11 @@ class TheCommandLine(Scratch):
         result = self.overturn("--version")
         self.assert_exit(result, 0, "overturn ", "commit", "kernel", "MPI", "HDF5 1.")
 
+    def test_doctor_prints_what_a_bug_report_should_contain(self):
+        self.assert_exit(self.overturn("doctor", str(self.folder)), 0, "overturn ", "commit", "kernels double: yes",
+                         "MPI", "HDF5 1.", "processor", f"folder {self.folder}", "file system", "free space")
+        self.assert_refused(2, ["nowhere is not a folder"], "doctor", "nowhere")
+
     def test_help_is_a_subcommand_too(self):
         for words in ((), ("run",)):
             asked = self.overturn("help", *words)
@@ -56,6 +61,10 @@ class TheCommandLine(Scratch):
 
 
 class ABadJob(Scratch):
+    def test_a_result_file_is_recognized(self):
+        self.assert_exit(self.overturn("run", "small.toml"), 0)
+        self.assert_refused(65, ["small.h5: this is a result file, not a job file", "-o small.h5"], "run", "small.h5")
+
     def test_a_missing_job_file_is_named(self):
         self.assert_refused(65, ["nowhere.toml"], "run", "nowhere.toml")
 

@@ -4,6 +4,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import tomllib
 import unittest
 
 import h5py
@@ -13,6 +14,37 @@ import xarray
 from program import ENVIRONMENT, OVERTURN, PATIENCE, SMALL, Scratch, checksum, words
 
 TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
+
+
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+
+
+def few_points_of(job):
+    """Returns --set arguments that reduce the axes of a job to at most three values each."""
+    return [f"--set=plane.{name}.count=3" for name, axis in job.get("plane", {}).items()
+            if isinstance(axis, dict) and axis.get("count", 0) > 3]
+
+
+class AShippedJob(Scratch):
+    def test_gives_a_data_frame_of_its_points_with_coordinates_and_fields(self):
+        for path in sorted(JOBS.glob("*.toml")):
+            job = tomllib.loads(path.read_text())
+            fields = job.get("output", {}).get("fields", ["region"])
+            for command in ("run", "boundary"):
+                if command == "boundary" and path.stem not in ("smoke", "statue"):
+                    continue
+                with self.subTest(path.stem, command=command):
+                    self.assert_exit(self.overturn(command, str(path), "-o", "out.h5", *few_points_of(job)), 0)
+                    with xarray.open_dataset(self.folder / "out.h5") as found:
+                        if command == "boundary":
+                            fields = ["flip_amplitude", "flip_pga", "region_below", "region_above"]
+                        self.assertEqual(set(found.data_vars), set(fields))
+                        table = found.to_dataframe()
+                        self.assertEqual(len(table), found[fields[0]].size)
+                        self.assertEqual(set(table.columns), {*fields, *found.coords} - {*found.dims})
+                        for name in found.variables:
+                            self.assertLessEqual(len(found[name].attrs["long_name"]), 40, name)
+                    (self.folder / "out.h5").unlink()
 
 
 class AFinishedFile(Scratch):

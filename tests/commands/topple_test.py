@@ -33,6 +33,11 @@ class Toppling(Scratch):
         self.assertIn("verdict      topples at 1.2 g",
                       self.topple(*PULSE, "--pga", "1.2", "--restitution-of-maximum", "0.9"))
 
+    def test_of_a_weak_motion_leaves_the_block_at_rest(self):
+        text = self.topple(*PULSE, "--pga", "0.3")
+        for words in ("does not topple at 0.3 g", "0: the block is not lifted and stays at rest"):
+            self.assertIn(words, text)
+
     def test_agrees_with_the_job_in_dimensionless_numbers(self):
         answer = self.answer(*PULSE, "--pga", "1.2", "--restitution", "0.65")
         alpha, p = math.atan(1 / 3), math.sqrt(3 * 9.81 / (4 * math.hypot(0.3, 0.9)))

@@ -78,8 +78,8 @@ class Runs:
         self.whole = (self.folder / "whole.h5").read_bytes()
         with h5py.File(self.folder / "whole.h5") as file:
             self.values = values_of(file)
-            self.tiles = len(file["checksum"])
-            self.side = int(file["checksum"].attrs["tile_shape"][-1])
+            self.tiles = len(file["run/checksum"])
+            self.side = int(file["run/checksum"].attrs["tile_shape"][-1])
         # A tile consists of whole rows of its chunk and takes a write per field and one for its
         # checksum; the other writes create the file.
         self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
@@ -164,7 +164,7 @@ class Runs:
                                  timeout=PATIENCE)
         self.note_torn_checksums(verdict)
         with h5py.File(self.file) as file:
-            done = np.flatnonzero(file["checksum"][:])
+            done = np.flatnonzero(file["run/checksum"][:])
             stored = values_of(file)
         for tile in set(done) - self.torn_checksums:
             for name in FIELDS:

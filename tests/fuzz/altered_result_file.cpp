@@ -49,9 +49,10 @@ private:
     std::string_view bytes_;
 };
 
-constexpr std::array objects{"slenderness", "restitution", "amplitude",    "frequency",
-                             "region",      "impacts",     "checksum",     "job_resolved",
-                             "job_given",   "tile",        "region_below", "/"};
+constexpr std::array objects{"slenderness",      "restitution", "amplitude",    "frequency",
+                             "region",           "impacts",     "checksum",     "job_resolved",
+                             "job_given",        "tile",        "region_below", "run/checksum",
+                             "run/job_resolved", "run/tile",    "run",          "/"};
 constexpr std::array attributes{"kind",           "title",      "program_version", "program_commit",
                                 "format_version", "dimensions", "tile_shape",      "units"};
 constexpr std::array<hsize_t, 12> lengths{0,

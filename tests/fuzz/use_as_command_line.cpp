@@ -47,6 +47,10 @@ int verify(const std::string&)
 {
     refuse_to_run();
 }
+int doctor(const std::string&)
+{
+    refuse_to_run();
+}
 
 Verdict use_as_command_line(std::string_view bytes)
 {

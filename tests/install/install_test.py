@@ -77,11 +77,21 @@ class AnInstallation(unittest.TestCase):
             self.assertIn(tool.name.replace("-", "\\-"), manual)
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 
-    def test_a_tool_plots_results_of_the_program(self):
-        history, picture = self.folder / "history.h5", self.folder / "history.png"
+    def test_every_tool_works(self):
+        history, boundary, accuracy = (self.folder / f"{name}.h5" for name in ("history", "boundary", "accuracy"))
         run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
-        run(self.prefix / "bin/overturn-plot-history", history, "-o", picture)
-        self.assertGreater(picture.stat().st_size, 1000)
+        run(self.overturn, "boundary", self.folder / "job.toml", "-o", boundary)
+        run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
+        outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
+                   "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
+                   "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
+                   "to-csv": (self.spectrum, "spectrum.csv"), "to-xdmf": (self.spectrum, "spectrum.xdmf2")}
+        for tool, (argument, output) in outputs.items():
+            run(self.prefix / f"bin/overturn-{tool}", argument, "-o", self.folder / output)
+            self.assertGreater((self.folder / output).stat().st_size, 100, tool)
+        tested = {f"overturn-{tool}" for tool in (*outputs, "join-spectra", "synthetic-record")}  # below, and a record
+        run(self.prefix / "bin/overturn-synthetic-record", "-o", self.folder / "record.AT2")
+        self.assertEqual({path.name for path in (self.prefix / "bin").glob("overturn-*")}, tested)
 
     def test_a_tool_finds_the_program(self):
         for name, slenderness in (("one", 0.1), ("two", 0.2)):
@@ -119,7 +129,13 @@ class AnInstallation(unittest.TestCase):
                                ("overturn run --kernel avx", ["avx2", "avx512"]),
                                ("overturn check j", ["job.toml"]), ("overturn info sp", ["spectrum.h5"]),
                                ("overturn run job.toml -o sp", ["spectrum.h5"]),
-                               ("overturn run --set p", [])):
+                               ("overturn run --set scene.p", ["scene.pulse="]),
+                               ("overturn boundary --set plane.size.", ["plane.size.values=", "plane.size.first=",
+                                                                        "plane.size.last=", "plane.size.count=",
+                                                                        "plane.size.spacing="]),
+                               ("overturn topple --set plane", []),
+                               ("overturn history --at pulse_p", ["pulse_period="]),
+                               ("overturn run --set scene.pulse = o", [])):
             self.assertEqual(self.completions_of(line), expected, line)
 
     def completions_of(self, line):

@@ -152,9 +152,9 @@ def history(figure, frequency, amplitude, *settings, samples=2):
     at = f"frequency={frequency},amplitude={amplitude}"
     with output_of("history", figure, "--at", at, "--samples", str(samples),
                    *overrides(settings)) as file:
-        meanings = file["event_kind"].attrs["flag_meanings"].decode().split()
-        kinds = [meanings[code] for code in file["event_kind"][:]]
-        return History(events=list(zip(kinds, file["event_time"][:])), frequency=frequency,
+        meanings = file["events/kind"].attrs["flag_meanings"].decode().split()
+        kinds = [meanings[code] for code in file["events/kind"][:]]
+        return History(events=list(zip(kinds, file["events/time"][:])), frequency=frequency,
                        slenderness=file.attrs["slenderness"],
                        end_of_pulse=file.attrs["end_of_pulse"],
                        **{name: file[name][:] for name in ("time", "angle", "velocity", "ground")})

@@ -110,8 +110,8 @@ class AResultFile(InAFolder):
         with overturn.run(JOB, output="spectrum.h5") as spectrum:
             whole = spectrum.load()
         with h5py.File("spectrum.h5", "r+") as file:
-            self.assertEqual(len(file["checksum"]), 2 * 4)  # tiles of 64 x 64 points
-            file["checksum"][6] = 0  # the second slenderness, rows from 64 on, columns up to 64
+            self.assertEqual(len(file["run/checksum"]), 2 * 4)  # tiles of 64 x 64 points
+            file["run/checksum"][6] = 0  # the second slenderness, rows from 64 on, columns up to 64
         part = overturn.open("spectrum.h5")
         self.assertTrue((part.region[1, 0, 64:, :64] == 255).all())
         self.assertTrue(np.isnan(part.margin[1, 0, 64:, :64]).all())

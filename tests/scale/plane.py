@@ -103,7 +103,7 @@ class Plane:
             return np.zeros(self.tiles, np.uint64)
         if self.place_of_marks is None:
             with h5py.File(self.file) as file:
-                self.place_of_marks = file["checksum"].id.get_offset()
+                self.place_of_marks = file["run/checksum"].id.get_offset()
         return np.fromfile(self.file, "<u8", self.tiles, offset=self.place_of_marks)
 
     def done(self):

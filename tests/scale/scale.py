@@ -140,7 +140,7 @@ def mark_as_done(plane, but):
 
     If they contain other values, the run that resumes recomputes them and reports it."""
     with h5py.File(plane.file, "r+") as file:
-        marks, region = file["checksum"][:], file["region"]
+        marks, region = file["run/checksum"][:], file["region"]
         some = int(np.flatnonzero(marks)[0])
         demand(checksum_of(region[(0, 0, *plane.slices(some))]) == marks[some],
                "the checksum does not match its attribute `algorithm`")
@@ -150,7 +150,7 @@ def mark_as_done(plane, but):
             if shape not in checksums:
                 checksums[shape] = checksum_of(np.full(shape, region.fillvalue, region.dtype))
             marks[tile] = checksums[shape]
-        file["checksum"][:] = marks
+        file["run/checksum"][:] = marks
 
 
 def checksum_of(values):
@@ -165,7 +165,7 @@ def checksum_of(values):
 def places_in_file(plane, tiles):
     """Returns (offset, size) of the values and the checksums of some tiles."""
     with h5py.File(plane.file) as file:
-        checksums = file["checksum"].id.get_offset()
+        checksums = file["run/checksum"].id.get_offset()
         corners = [(0, 0, *(part.start for part in plane.slices(tile))) for tile in tiles]
         chunks = [file["region"].id.get_chunk_info_by_coord(corner) for corner in corners]
     return ([(checksums + 8 * tile, 8) for tile in tiles] +

@@ -110,8 +110,8 @@ class TestTheWhole(Spectra):
                     self.assertEqual(alphas[place], file["slenderness"][0])
                     for field in ("status", "region", "angle", "impacts", "steps"):
                         np.testing.assert_array_equal(joined[field][place], file[field][0], field)
-                    np.testing.assert_array_equal(joined["checksum"][12 * place:12 * place + 12],
-                                                  file["checksum"][:])
+                    np.testing.assert_array_equal(joined["run/checksum"][12 * place:12 * place + 12],
+                                                  file["run/checksum"][:])
         self.compute("at_once.h5", list(map(float, alphas)))
         self.assert_equal_files("joined.h5", "at_once.h5")
 
@@ -243,7 +243,7 @@ class TestAJoinRefused(Spectra):
 
     def test_of_an_unfinished_file(self):
         def forget(file):
-            file["checksum"][3:5] = 0
+            file["run/checksum"][3:5] = 0
         self.change("part.h5", forget)
         self.refuses(74, ("\"part.h5\" is unfinished: 2 of 12 tiles",),
                      "part.h5", "-o", "joined.h5")
@@ -268,7 +268,7 @@ class TestAJoinRefused(Spectra):
 
     def test_of_a_damaged_file_or_another_kind_of_file(self):
         def damage(file):
-            del file["job_resolved"]
+            del file["run/job_resolved"]
         self.change("damaged.h5", damage)
         self.refuses(74, ("\"damaged.h5\"", "is damaged"), "damaged.h5", "-o", "joined.h5")
         self.refuses(74, ("\"job.toml\" is not an HDF5 file",), "job.toml", "-o", "joined.h5")

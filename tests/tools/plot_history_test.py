@@ -5,14 +5,14 @@ Requires OVERTURN (the binary) in the environment.
 
 import os
 import pathlib
-import runpy
 import subprocess
 import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from tool import TOOLS, run_tool
+from tool import run_tool  # first: adds the package to the path
+from overturn.plot import histories
 
 OVERTURN = os.environ["OVERTURN"]
 JOB = """
@@ -25,7 +25,6 @@ JOB = """
     restitution = { values = [1.0], of = "maximum" }
     slenderness = { values = [0.2] }
     """
-TOOL = runpy.run_path(str(TOOLS / "plot_history"))
 IMPACT = 1  # as numbered in the file
 
 
@@ -54,7 +53,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
 
     def history(self, start=0, until=np.inf):
         with h5py.File(self.folder / "history.h5") as file:
-            return TOOL["History"](file, start, until)
+            return histories.History(file, start, until)
 
     def test_is_in_seconds_and_in_alpha(self):
         self.under_a_record()
@@ -65,7 +64,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
             np.testing.assert_allclose(history.values["angle"], file["angle"][:] / 0.2)
             np.testing.assert_array_equal(history.values["ground"], file["ground"][:])
             self.assertAlmostEqual(history.end_of_ground_motion, file.attrs["end_of_pulse"] / p)
-            impacts = file["event_time"][:][file["event_kind"][:] == IMPACT]
+            impacts = file["events/time"][:][file["events/kind"][:] == IMPACT]
             np.testing.assert_allclose(history.impacts(), impacts / p)
         self.assertEqual(history.limits("angle"), (-1, 1))
 
@@ -83,7 +82,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         for words in ("A job", "uplift", "at rest", "time since the start of the record  [s]"):
             self.assertIn(f">{words}<", picture)
         with h5py.File(self.folder / "history.h5") as file:
-            count = np.count_nonzero(file["event_kind"][:] == IMPACT)
+            count = np.count_nonzero(file["events/kind"][:] == IMPACT)
         self.assertRegex(picture, f">{count} impacts?<")
         self.assertNotIn("velocity", picture)
 
@@ -93,7 +92,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
                 file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, "size": 3.0,
                                    "theory": "nonlinear", "slenderness": 0.2, "restitution": 0.9,
                                    "region": 8, **strength})
-                self.assertEqual(TOOL["describe"](file),
+                self.assertEqual(histories.describe(file),
                                  rf"a_\$1\$.AT2, {words}, $R$ = 3 m, $\alpha$ = 0.2 rad, "
                                  "$r$ = 0.9: falls during the record (F−)")
 

@@ -5,9 +5,7 @@ Requires OVERTURN (the binary) in the environment.
 
 import csv
 import json
-import runpy
 import subprocess
-import types
 import unittest
 
 import h5py
@@ -21,6 +19,7 @@ from recorded_spectra_test import Recorded
 from to_xdmf_test import Described, follow
 from tool import TOOLS, run_tool  # first: adds the package to the path
 from overturn.overlay import draw_boundary, open_boundary
+from overturn.plot import boundaries, histories
 from overturn.result_file import PANELS
 from overturn.spectrum_file import Axis
 from overturn.units import quantities
@@ -131,14 +130,12 @@ class TestAPlaneInPhysicalUnits(Sized):
 
 
 class TestAPhysicalBoundary(Sized):
-    LINES = runpy.run_path(str(TOOLS / "plot_boundary"))["Lines"]
-
     def lines(self, *settings):
         self.overturn("boundary", "boundary.h5", *settings)
         with h5py.File(self.folder / "boundary.h5") as file:
             for name in ("flip_amplitude", "flip_pga"):
                 self.assertGreater(np.isfinite(file[name][:]).sum(), 9)
-            return self.LINES(file, (0, 0), "physical"), file["flip_amplitude"][0, 0]
+            return boundaries.Lines(file, (0, 0), "physical"), file["flip_amplitude"][0, 0]
 
     def test_has_its_flips_and_its_scan_in_g(self):
         for theory, threshold in (("nonlinear", 1 / 3), ("linear", np.arctan(1 / 3))):
@@ -241,13 +238,12 @@ class TestAnOverlaidBoundary(Sized):
 
 
 class TestAPhysicalHistory(Sized):
-    TOOL = types.SimpleNamespace(**runpy.run_path(str(TOOLS / "plot_history")))
     AT = ("plane.pulse_period=0.5", "plane.pga=0.9")
 
     def test_is_in_seconds_and_degrees(self):
         self.overturn("history", "history.h5", *self.AT)
         with h5py.File(self.folder / "history.h5") as file:
-            history = self.TOOL.History(file, 0, np.inf, "physical")
+            history = histories.History(file, 0, np.inf, "physical")
             np.testing.assert_allclose(history.time, file["time"][:] / P)
             for name, power in (("angle", 0), ("velocity", 1), ("acceleration", 2)):
                 np.testing.assert_allclose(history.values[name],
@@ -269,9 +265,9 @@ class TestAPhysicalHistory(Sized):
         for settings in (self.AT, dimensionless):
             self.overturn("history", "history.h5", *settings)
             with h5py.File(self.folder / "history.h5") as file:
-                self.assertTrue(self.TOOL.describe(file, "physical").startswith(
+                self.assertTrue(histories.describe(file, "physical").startswith(
                     "period = 0.5 s, PGA = 0.9 g, $p$ = 2.78487 1/s, α = 18.43°, $r$ = 0.7225: "))
-                words = self.TOOL.describe(file)
+                words = histories.describe(file)
                 self.assertEqual("period" in words, settings == self.AT)
                 self.assertEqual("omega_p" in words, settings != self.AT)
 

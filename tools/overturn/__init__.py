@@ -1,5 +1,6 @@
 """overturn from Python: the outcome of single blocks (evaluate), the program (run, check), result
-files (open) and recorded motions (read_record). The other modules are shared by the tools.
+files (open), pictures of them (plot) and recorded motions (read_record). The other modules are shared
+by the tools.
 
 Modules are imported when they are used, because every tool imports this package."""
 
@@ -20,14 +21,17 @@ _MODULE_OF = {
     "read_record": "records",
     "Record": "records",
     "RecordError": "records",
+    "PlotError": "result_file",
 }
-__all__ = list(_MODULE_OF)
+__all__ = [*_MODULE_OF, "plot"]
 
 # An installed package contains the compiled module; that of a build is in a folder next to the program.
 __path__.append(str(overturn_path().parent / "python"))
 
 
 def __getattr__(name):
+    if name == "plot":
+        return importlib.import_module("overturn.plot")
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(f"{__name__}.{_MODULE_OF[name]}"), name)

@@ -26,25 +26,28 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
     if "program_version" not in file.attrs:
         file.close()
         raise ValueError(f"\"{path}\" was not written by overturn.")
-    dataset = _without_unmarked_tiles(file, path) if "checksum" in file else file
-    texts = [name for name, variable in dataset.variables.items() if not variable.dims]
-    dataset = dataset.drop_vars([*texts, "checksum"], errors="ignore")
+    # Before format 3, texts, checksums and the scan of a boundary were in the root group.
+    dataset = _without_unmarked_tiles(file, path) if "spectrum" in file.kind or "boundary" in file.kind else file
+    strangers = [name for name, variable in dataset.variables.items()
+                 if not variable.dims or name in ("checksum", "tile") or name.startswith("scan_")]
+    dataset = dataset.drop_vars(strangers)
     dataset = dataset.set_coords([name for name in ("motion_name",) if name in dataset])
+    dataset.encoding["source"] = os.path.abspath(path)
     dataset.set_close(file.close)
     return dataset
 
 
 def _without_unmarked_tiles(dataset, path):
     """Replaces the values of tiles that have no checksum: they are not computed, whatever is stored."""
-    marks = dataset["checksum"].values != 0
-    if marks.all():
-        return dataset
     import h5py
     import numpy as np
     import xarray
 
-    from overturn.fields import dimensions_of, fill_value, tile_shape
+    from overturn.fields import checksums_of, dimensions_of, fill_value, tile_shape
     with h5py.File(path) as file:
+        marks = checksums_of(file)[:] != 0
+        if marks.all():
+            return dataset
         dimensions = dimensions_of(file)
         shape = [dataset.sizes[dimension] for dimension in dimensions]
         tile = [1] * (len(shape) - len(tile_shape(file))) + list(tile_shape(file))

@@ -3,12 +3,17 @@ value is stored: it is read as the fill value of the field."""
 
 import numpy as np
 
-from overturn.result_file import PlotError, text_attribute
+from overturn.result_file import PlotError, run_data, text_attribute
+
+
+def checksums_of(file):
+    """Returns the dataset of the checksums of tiles; 0: not computed."""
+    return run_data(file)["checksum"]
 
 
 def dimensions_of(file):
     """Returns the names of the dimensions of every field, slowest first."""
-    words = text_attribute(file["checksum"], "dimensions").split()
+    words = text_attribute(checksums_of(file), "dimensions").split()
     rows = "crossing" if "crossing" in file else "amplitude"
     return words or ["slenderness", "restitution", rows, "frequency"]  # of the first format
 
@@ -29,7 +34,7 @@ def fields_of(file):
 
 def tile_shape(file):
     """Returns the rows and columns of a tile; tiles at the upper edges may be smaller."""
-    attributes = file["checksum"].attrs
+    attributes = checksums_of(file).attrs
     if "tile_shape" in attributes:
         return tuple(int(extent) for extent in attributes["tile_shape"][-2:])
     return int(attributes["amplitude_extent"]), int(attributes["frequency_extent"])
@@ -37,7 +42,7 @@ def tile_shape(file):
 
 def count_tiles(file):
     """Returns the number of computed tiles and of all tiles."""
-    checksums = file["checksum"][:]
+    checksums = checksums_of(file)[:]
     return np.count_nonzero(checksums), len(checksums)
 
 
@@ -47,13 +52,14 @@ def computed(file, field, outer, rows):
     *outer_shape, height, width = field.shape
     high, wide = tile_shape(file)
     up, across = -(-height // high), -(-width // wide)
-    if len(file["checksum"]) != int(np.prod(outer_shape)) * up * across:
-        raise PlotError(f"\"{file.filename}\" is damaged: it has {len(file['checksum'])} "
-                        "checksums, which is not its number of tiles.")
+    checksums = checksums_of(file)
+    if len(checksums) != int(np.prod(outer_shape)) * up * across:
+        raise PlotError(f"\"{file.filename}\" is damaged: it has {len(checksums)} checksums, which is "
+                        "not its number of tiles.")
     start, stop, _ = rows.indices(height)
     first, last = start // high, -(-stop // high)
     plane = int(np.ravel_multi_index(outer, outer_shape))
-    marks = file["checksum"][(plane * up + first) * across:(plane * up + last) * across] != 0
+    marks = checksums[(plane * up + first) * across:(plane * up + last) * across] != 0
     points = marks.reshape(-1, across).repeat(high, axis=0).repeat(wide, axis=1)
     return points[start - first * high:stop - first * high, :width]
 

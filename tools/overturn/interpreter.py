@@ -3,6 +3,7 @@ a module that the system's has.
 
 Only the standard library is imported here, so that this module works in any Python 3."""
 
+import importlib
 import os
 import subprocess
 import sys
@@ -31,3 +32,15 @@ def run_elsewhere(error, packages="plot"):
         os.execv(SYSTEM, [SYSTEM] + sys.argv)
     sys.exit("{}: {} (Python: {}); to install it: tools/install_dependencies {}".format(
         tool, error, sys.executable, packages))
+
+
+def run_command(name, module):
+    """Runs main() of a module as the tool of this name; in the system's Python if this one lacks a
+    module that it needs."""
+    os.environ["MPLBACKEND"] = "Agg"  # writes files; needs no display
+    try:
+        command = importlib.import_module(module)
+        from overturn.result_file import run_tool
+    except ImportError as error:
+        run_elsewhere(error)
+    run_tool(name, command.main)

@@ -5,14 +5,13 @@ import re
 import numpy as np
 from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
 from overturn.fields import read_field
-from overturn.result_file import PlotError, open_result, text_attribute
+from overturn.result_file import PlotError, job_text, open_result, text_attribute
 from overturn.units import (NEEDING_A_SIZE, PHYSICAL, RECIPROCALS, axis_of, expect_size,
                             name_of_flips, quantities, values_of)
 
 
 def checksums_of_records(file):
-    resolved = file["job_resolved"][:].tobytes().decode(errors="replace")
-    return re.findall(r'\bchecksum = "(\w+)"', resolved)
+    return re.findall(r'\bchecksum = "(\w+)"', job_text(file, "job_resolved"))
 
 
 def expect_same_motion(file, spectrum):

@@ -7,6 +7,7 @@ from matplotlib.patches import Patch
 # The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) through S (75), U1
 # (65, 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
 # readers. The minus of a pair is the darker one.
+UNDECIDED, NOT_COMPUTED = 254, 255
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
     1: ("S+", "safe after one more impact", "#0b5530"),
@@ -17,9 +18,8 @@ REGIONS = {
     6: ("U1−", "overturns, one more impact", "#b6801e"),
     7: ("F+", "falls during the pulse", "#73737a"),
     8: ("F−", "falls during the pulse", "#5e5e66"),
-    254: ("", "undecided: see field status", "#e6007e"),
+    UNDECIDED: ("", "undecided: see field status", "#e6007e"),
 }
-NOT_COMPUTED = 255
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
 LAST_SAFE = 2  # the largest code of a safe block
 LEFT_STANDING = 6  # the largest code of a block that does not fall during the ground motion
@@ -33,13 +33,18 @@ def coloured(codes):
     return table[codes]
 
 
+def meaning_of(code, ground="pulse"):
+    """`ground` is a word for the ground motion."""
+    return REGIONS[code][1].replace("the pulse", f"the {ground}")
+
+
 def legend_entries(codes, ground="pulse"):
     """One entry per region in the picture, and one per kind of point without a region; `ground` is
     a word for the ground motion."""
     entries = []
-    for code, (name, meaning, colour) in REGIONS.items():
+    for code, (name, _, colour) in REGIONS.items():
         if code in codes:
-            meaning = meaning.replace("the pulse", f"the {ground}")
+            meaning = meaning_of(code, ground)
             label = f"{name}  {meaning}" if name else meaning
             entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
     if NOT_COMPUTED in codes:

@@ -1,6 +1,8 @@
 """Reading of result files by the tools, and their error messages."""
 
+import contextlib
 import json
+import os
 import pathlib
 import sys
 
@@ -8,7 +10,7 @@ import h5py
 
 USAGE, FILE = 2, 74  # exit codes, equal to those of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-NEWEST_FORMAT = 2
+NEWEST_FORMAT = 3
 PICTURES = (".png", ".pdf", ".svg")
 PANELS = "overturn:panels"  # the PNG text chunk with the positions of the panels
 
@@ -26,6 +28,27 @@ def text_attribute(holder, name):
     return value.decode() if isinstance(value, bytes) else str(value)
 
 
+def run_data(file):
+    """Returns the group of what is neither a coordinate nor a field: checksums, the job and the scan of a
+    boundary. Before format 3, it was the root group."""
+    return file["run"] if "run" in file else file
+
+
+def job_text(file, name):
+    """Returns a text about the job; empty if there is none."""
+    texts = run_data(file)
+    return texts[name][:].tobytes().decode(errors="replace") if name in texts else ""
+
+
+def events_of(file):
+    """Returns the variables of the events of a history, by name. Before format 3, their names began
+    with event_."""
+    if "events" in file:
+        return file["events"]
+    return {name.removeprefix("event_"): values for name, values in file.items()
+            if name.startswith("event_")}
+
+
 def shortened(text, width):
     """Returns the text in one line of at most `width` characters; may cut within a word."""
     line = " ".join(text.split())
@@ -36,8 +59,8 @@ def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
     title and of the tables in `shown`, whose values the picture shows elsewhere."""
     title = text_attribute(file, "title")
-    if title and "job_overrides" in file:
-        overrides = file["job_overrides"][:].tobytes().decode(errors="replace").splitlines()
+    if title:
+        overrides = job_text(file, "job_overrides").splitlines()
         others = [shortened(words, 48) for words in overrides
                   if words.split("=")[0].split(".")[0].strip() not in ("title", *shown)]
         title += (", with " + ", ".join(others)) * bool(others)
@@ -73,6 +96,32 @@ def open_result(path, kind, wanted):
     return file
 
 
+def path_of(result):
+    """Returns the path of a result file, given by its path or by the data set that overturn.open() made
+    of it. Raises ValueError for a part of a data set: its picture would be that of the whole file."""
+    if not hasattr(result, "encoding"):
+        return os.fspath(result)
+    path = result.encoding.get("source")
+    if path is None:
+        raise ValueError("the data set was not made by overturn.open(). Pass the path of the file.")
+    with h5py.File(path) as file:
+        dimensions = {name: len(data) for name, data in file.items() if isinstance(data, h5py.Dataset)
+                      and h5py.h5ds.is_scale(data.id) and not name.endswith("_length")}
+        if dimensions != dict(result.sizes):
+            raise ValueError(f"the data set is not all of \"{path}\". Pass the path of the file, and select "
+                             "with motion, slenderness and restitution.")
+    return path
+
+
+@contextlib.contextmanager
+def damage_reported(path, *also):
+    """Reports what is missing or malformed in a file, also errors of the given types, as its damage."""
+    try:
+        yield
+    except (OSError, KeyError, *also) as error:
+        raise PlotError(f"\"{path}\" is damaged: {error}.") from error
+
+
 def add_picture_argument(parser, default="FILE.png"):
     parser.add_argument("-o", "--output", metavar="OUT",
                         help=f"picture: .png, .pdf or .svg (default: {default} in the working directory)")
@@ -97,13 +146,17 @@ def place_of(panel, shows):
 
 
 def save(figure, path, places=(), **how):
-    """Saves a figure; a PNG includes the positions of its panels."""
+    """Saves and closes a figure; a PNG includes the positions of its panels."""
+    import matplotlib
+    from matplotlib import pyplot
     if places and pathlib.Path(path).suffix == ".png":
         how["metadata"] = {PANELS: json.dumps(places)}
     try:
-        figure.savefig(path, **how)
+        with matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
+            figure.savefig(path, **how)
     except OSError as error:
         raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    pyplot.close(figure)
     print(path)
 
 

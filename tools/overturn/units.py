@@ -4,7 +4,7 @@ in seconds and g. An index `outer` is that of one spectrum."""
 import numpy as np
 from overturn.captions import JOB, PHYSICAL, is_linear, is_recorded, scales_records
 from overturn.fields import dimensions_of, slenderness_and_restitution
-from overturn.result_file import PlotError
+from overturn.result_file import PlotError, run_data
 from overturn.spectrum_file import Axis
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
@@ -41,7 +41,7 @@ def expect_size(file, units):
 
 def scanned_quantity(file):
     """Returns the name of the axis of the job along which a boundary was scanned."""
-    return next(name for name in ("amplitude", "scale", "pga") if f"scan_{name}" in file)
+    return next(name for name in ("amplitude", "scale", "pga") if f"scan_{name}" in run_data(file))
 
 
 def quantities(file, units=JOB):
@@ -94,7 +94,7 @@ def uplift_threshold(file, slenderness):
 def scan_of(file, quantity, outer):
     """Returns the values of a quantity at which a boundary was scanned."""
     scanned = scanned_quantity(file)
-    scan = file[f"scan_{scanned}"][:]
+    scan = run_data(file)[f"scan_{scanned}"][:]
     if quantity == scanned:
         return scan
     if is_recorded(file):

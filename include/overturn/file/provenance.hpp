@@ -19,6 +19,9 @@ std::string_view program_version();
 /// "unknown" if they were not in a git repository.
 std::string_view program_commit();
 
+/// The compiler of the program, such as "GCC 12.2.0".
+std::string compiler_version();
+
 /// The version of the HDF5 library in use, such as "1.10.8".
 std::string hdf5_version();
 

@@ -83,6 +83,15 @@ struct Job {
     std::pair<double, double> scales(const Motion& motion) const;
 };
 
+/// The names of all axes of a plane.
+inline constexpr std::array<std::string_view, 10> axis_names{
+    "frequency", "pulse_period", "pulse_frequency",     "amplitude",   "pga",
+    "scale",     "size",         "frequency_parameter", "restitution", "slenderness"};
+
+/// The keys that an override of read_job() may replace, such as "scene.pulse" and
+/// "plane.frequency.count".
+std::vector<std::string> override_keys();
+
 /// Reads and checks a job. Each override is `key.path=value` in TOML syntax (a bare word is a
 /// string) and replaces a key of the file; keys that contradict it are dropped. Throws JobError.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});

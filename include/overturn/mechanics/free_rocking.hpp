@@ -101,6 +101,9 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
 {
     using std::asin;
     using std::sqrt;
+    if (state.tilt == 0 && state.rate == 0) {
+        return T(0); // without the rounding errors of the formulas below
+    }
     const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
     const T largest = separatrix_rate<theory>(T(0), block.slenderness);
     const T q = (c - state.rate) * (c + state.rate);

@@ -24,8 +24,8 @@ enum class Region : std::uint8_t {
 };
 
 /// Names in result files, in the order of the codes.
-inline constexpr std::array<std::string_view, 9> region_names{
-    "S", "S_plus", "S_minus", "U0_plus", "U0_minus", "U1_plus", "U1_minus", "F_plus", "F_minus"};
+inline constexpr std::array<std::string_view, 9> region_names{"S",   "S+",  "S-", "U0+", "U0-",
+                                                              "U1+", "U1-", "F+", "F-"};
 
 constexpr std::string_view name_of(Region region)
 {

@@ -8,6 +8,7 @@ import textwrap
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from overturn.interpreter import run_elsewhere
 from overturn.result_file import USAGE, PlotError, add_picture_argument, name_picture, save
 from overturn.ticks import name_ticks
 
@@ -99,6 +100,12 @@ def read_arguments(argv):
 
 def compute(arguments):
     """Returns the curve of each measure."""
+    try:
+        import h5netcdf  # noqa: F401 (for overturn.open)
+        import scipy  # noqa: F401 (for overturn.fragility)
+        import xarray  # noqa: F401 (for overturn.open)
+    except ImportError as error:
+        run_elsewhere(error)
     try:
         dataset = overturn.open(arguments.file)
     except (OSError, ValueError) as error:

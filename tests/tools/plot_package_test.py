@@ -1,0 +1,88 @@
+"""Pictures from Python: overturn.plot.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from tool import TOOLS, run_tool  # first: adds the package to the path
+import overturn
+from matplotlib import image, pyplot
+
+OVERTURN = os.environ["OVERTURN"]
+SMOKE = TOOLS.parent / "jobs" / "smoke.toml"
+FEW = [f"--set=plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
+
+
+class TestPicturesFromPython(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        for command, name, *more in (("run", "spectrum", "plane.restitution.values=[0.8,1]"),
+                                     ("boundary", "boundary"), ("history", "history")):
+            settings = [f"--set={setting}" for setting in more]
+            point = ["--at", "frequency=3,amplitude=1.5"] if command == "history" else FEW
+            subprocess.run([OVERTURN, command, SMOKE, "-o", f"{name}.h5", *point, *settings],
+                           cwd=cls.folder, check=True, capture_output=True, timeout=100)
+
+    def tearDown(self):
+        pyplot.close("all")
+
+    def path(self, name):
+        return self.folder / f"{name}.h5"
+
+    def test_are_those_of_the_tools(self):
+        for name, draw, options, how in (("spectrum", overturn.plot.spectrum, {"restitution": 1}, {}),
+                                         ("boundary", overturn.plot.boundary, {"units": "physical"}, {"dpi": 120}),
+                                         ("history", overturn.plot.history, {}, {"dpi": 120})):
+            with self.subTest(name):
+                arguments = [word for option, value in options.items() for word in (f"--{option}", str(value))]
+                run = run_tool(f"plot_{name}", f"{name}.h5", *arguments, cwd=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                axes = draw(self.path(name), **options)
+                (axes[0] if isinstance(axes, list) else axes).figure.savefig(self.folder / "own.png", **how)
+                np.testing.assert_array_equal(image.imread(self.folder / "own.png"),
+                                              image.imread(self.folder / f"{name}.png"))
+
+    def test_of_several_spectra_are_a_list_of_axes(self):
+        axes = overturn.plot.spectrum(self.path("spectrum"))
+        self.assertEqual(len(axes), 2)
+        self.assertIs(axes[0].figure, axes[1].figure)
+
+    def test_fit_into_axes_of_the_caller(self):
+        figure, panels = pyplot.subplots(1, 3, figsize=(12, 4), dpi=50, layout="constrained")
+        self.assertIs(overturn.plot.spectrum(self.path("spectrum"), restitution=0, ax=panels[0]), panels[0])
+        self.assertIs(overturn.plot.boundary(self.path("boundary"), ax=panels[1]), panels[1])
+        self.assertIs(overturn.plot.history(self.path("history"), ax=panels[2]), panels[2])
+        self.assertEqual(len(figure.axes), 3)
+        figure.canvas.draw()
+        widths = [panel.get_position().width for panel in panels]
+        self.assertAlmostEqual(widths[0], 0.28, delta=0.04)  # a third, less the numbers beside it
+        self.assertAlmostEqual(min(widths), max(widths), delta=1e-3)
+        self.assertEqual(panels[0].get_xlabel(), panels[1].get_xlabel())
+        self.assertIn("time since the start of the pulse", panels[2].get_xlabel())
+        with self.assertRaisesRegex(overturn.PlotError, "limited to 1"):
+            overturn.plot.spectrum(self.path("spectrum"), ax=panels[0])
+
+    def test_take_a_data_set_as_it_was_opened(self):
+        with overturn.open(self.path("spectrum")) as dataset:
+            self.assertEqual(len(overturn.plot.spectrum(dataset)), 2)
+            with self.assertRaisesRegex(ValueError, "is not all of"):
+                overturn.plot.spectrum(dataset.isel(amplitude=slice(3)))
+            with self.assertRaisesRegex(ValueError, "is not all of"):
+                overturn.plot.spectrum(dataset.isel(restitution=0))
+
+    def test_of_another_kind_of_file_are_refused(self):
+        with self.assertRaisesRegex(overturn.PlotError, "is not a spectrum"):
+            overturn.plot.spectrum(self.path("boundary"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,150 @@
+"""Plots an accuracy study: error and share of wrong verdicts against time per point."""
+
+import argparse
+
+import numpy as np
+from matplotlib import pyplot
+from overturn.captions import ground_text
+from overturn.result_file import (PlotError, add_picture_argument, damage_reported, name_picture,
+                                  open_result, plain, save,
+                                  title_of)
+from overturn.ticks import name_ticks
+
+EXAMPLE = """\
+example:
+  overturn accuracy jobs/figure_07a.toml -o accuracy.h5
+  tools/plot_accuracy accuracy.h5                # draws accuracy.png
+
+Left, work-precision curves: the error of the margin against time per point, one marker per
+tolerance. Right, the share of wrong verdicts; the lowest level means none."""
+
+METHODS = ("rk45", "taylor")  # as numbered in the file
+# Markers and dashes distinguish the methods in greyscale and for colour-blind readers.
+COLOURS = {"rk45": "#1b6ca8", "taylor": "#c8422b"}
+MARKERS = {"rk45": "o", "taylor": "s"}
+QUANTILE = 0.99
+
+
+class Curve:
+    """One method, resolved or not, from its loosest tolerance to its tightest."""
+
+    def __init__(self, file, method, resolve):
+        self.method, self.resolve = METHODS[method], resolve
+        chosen = (file["method"][:] == method) & (file["resolve"][:] == resolve)
+        order = np.argsort(-file["tolerance"][:][chosen])
+        quantile = int(np.argmin(np.abs(file["quantile"][:] - QUANTILE)))
+
+        def column(values):
+            return np.asarray(values)[chosen][order]
+
+        self.tolerance = column(file["tolerance"])
+        self.time = column(file["seconds_per_point"]) * 1e6
+        self.error = column(file["margin_error"][:, quantile])
+        wrong = "wrong_verdicts" if "wrong_verdicts" in file else "flips"  # the name in older files
+        self.wrong = column(file[wrong]) / file.attrs["points_settled"]
+
+    @property
+    def label(self):
+        return f"{self.method}, resolved" if self.resolve else self.method
+
+    def style(self):
+        return {"color": COLOURS[self.method], "marker": MARKERS[self.method], "markersize": 5.5,
+                "linestyle": (0, (4, 2)) if self.resolve else "-",
+                "markerfacecolor": "white" if self.resolve else COLOURS[self.method],
+                "linewidth": 1.6, "label": self.label}
+
+
+def read_curves(file):
+    curves = [Curve(file, method, resolve)
+              for resolve in (False, True) for method in range(len(METHODS))]
+    return [curve for curve in curves if len(curve.time)]
+
+
+def name_tolerances(axes, curve, values, upwards):
+    """Labels every third tolerance next to its marker."""
+    for tolerance, time, value in list(zip(curve.tolerance, curve.time, values))[::3]:
+        if np.isfinite(value) and value > 0:
+            axes.annotate(f"1e{round(np.log10(tolerance))}", (time, value),
+                          (5, 5) if upwards else (-5, -6), textcoords="offset points",
+                          ha="left" if upwards else "right", va="bottom" if upwards else "top",
+                          fontsize=7.5, color=COLOURS[curve.method])
+
+
+def draw_order(axes, curve):
+    """Draws the slope of a method of order 5: five decades of error per decade of time."""
+    time, error = curve.time[-4], curve.error[-4]
+    span = np.array([time / 4, time])
+    axes.plot(span * 1.25, error * (span / time)**-5.0, color="0.45", linewidth=1, linestyle=":",
+              label="slope of order 5")
+
+
+def draw_errors(axes, curves):
+    for curve in curves:
+        shown = np.isfinite(curve.error) & (curve.error > 0)
+        axes.plot(curve.time[shown], curve.error[shown], **curve.style())
+        if not curve.resolve:
+            name_tolerances(axes, curve, curve.error, curve.method == "rk45")
+    for curve in curves:
+        if curve.method == "rk45" and not curve.resolve and len(curve.time) > 4:
+            draw_order(axes, curve)
+    axes.set(xscale="log", yscale="log", xlabel="time per point on one core [µs]",
+             ylabel=f"error of the margin, {100 * QUANTILE:g}th percentile")
+    axes.set_title("What accuracy costs", fontsize=11)
+    axes.legend(frameon=False, fontsize=8.5)
+
+
+def draw_wrong_verdicts(axes, curves, points):
+    """Plots the share of wrong verdicts; zero is drawn below the least share of the sample."""
+    least = 1 / points
+    none = least / 4
+    for curve in curves:
+        values = np.where(curve.wrong > 0, curve.wrong, none)
+        axes.plot(curve.time, values, **curve.style())
+        if not curve.resolve:
+            name_tolerances(axes, curve, np.where(curve.wrong > 0, curve.wrong, np.nan),
+                            curve.method == "rk45")
+    axes.axhline(least / 2, color="0.7", linewidth=0.8)
+    axes.set(xscale="log", yscale="log", xlabel="time per point on one core [µs]",
+             ylabel="share of wrong verdicts")
+    axes.set_ylim(bottom=none / 2.5)
+    decades = [10.0**i for i in range(0, -12, -1) if 10.0**i >= least]
+    axes.set_yticks([none] + decades, ["none"] + [f"1e{round(np.log10(d))}" for d in decades])
+    axes.minorticks_off()
+    axes.set_title(f"Wrong verdicts among {points:,} points", fontsize=11)
+
+
+def draw(file):
+    if not file.attrs["points_settled"] or not file.attrs["points_in_50_digits"]:
+        raise PlotError(f"\"{file.filename}\" has no point whose verdict and end state are known: "
+                        "there is no reference to compare with.")
+    curves = read_curves(file)
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.5, 4.9))
+    draw_errors(left, curves)
+    draw_wrong_verdicts(right, curves, int(file.attrs["points_settled"]))
+    for axes in (left, right):
+        axes.grid(color="#dddddd", linewidth=0.6)
+        axes.set_axisbelow(True)
+        for side in ("top", "right"):
+            axes.spines[side].set_visible(False)
+        name_ticks(axes.xaxis)
+    figure.suptitle(plain(title_of(file) or ground_text(file)), fontsize=12, x=0.02, ha="left")
+    figure.tight_layout()
+    return figure
+
+
+def read_arguments(argv):
+    parser = argparse.ArgumentParser(prog="plot_accuracy", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.h5", help="written by overturn accuracy")
+    add_picture_argument(parser)
+    arguments = parser.parse_args(argv)
+    name_picture(parser, arguments)
+    return arguments
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    with open_result(arguments.file, "accuracy study",
+                     "a study written by overturn accuracy") as file, damage_reported(arguments.file):
+        figure = draw(file)
+    save(figure, arguments.output, dpi=120)

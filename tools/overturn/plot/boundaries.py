@@ -1,0 +1,200 @@
+"""Plots a boundary: the minimum overturning amplitude and all higher amplitudes where the verdict
+flips."""
+
+from __future__ import annotations
+
+import argparse
+from types import SimpleNamespace
+
+import matplotlib
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.legend_handler import HandlerTuple
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from overturn.captions import ground_word, heading, subtitle
+from overturn.choice import add_choice_arguments, chosen_one
+from overturn.fields import read_field
+from overturn.regions import REGIONS
+from overturn.result_file import (add_picture_argument, damage_reported, name_picture, open_result,
+                                  path_of, plain, save)
+from overturn.spectrum_file import Axis
+from overturn.ticks import set_axes
+from overturn.units import (add_units_argument, axis_of, expect_size, name_axes,
+                            name_of_flips, quantities, scan_of, values_of)
+
+EXAMPLE = """\
+example:
+  overturn boundary jobs/figure_07a.toml         # writes figure_07a_boundary.h5
+  tools/plot_boundary figure_07a_boundary.h5     # draws figure_07a_boundary.png
+
+Each flip of the verdict is a point; consecutive ones along the frequency look like a line. The
+lowest flip of each frequency, the minimum overturning amplitude, is bold; a frequency at which the
+first amplitude of the scan overturns the block has a triangle instead. Overturning amplitudes are
+shaded. Under a record, there are always strips that are narrower than the steps of the scan: what
+is shaded as safe may contain them."""
+
+SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED = range(4)
+VERDICTS = np.full(256, UNDECIDED)  # by the code of a region
+VERDICTS[0:3], VERDICTS[3:9], VERDICTS[255] = SAFE, UNSAFE, NOT_COMPUTED
+# Safe and unsafe have about the same lightness as in spectra.
+SHADES = {SAFE: REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9"}
+FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", REGIONS[254][2]
+CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
+ROWS = 1400  # of the shading: half a pixel at the default size
+
+
+class Lines:
+    """The flips of one block, a column per frequency, and the range of amplitudes scanned."""
+
+    def __init__(self, file, outer, units):
+        across, up = quantities(file, units)
+        self.frequency = values_of(file, across, outer)
+        self.across, self.up = axis_of(file, across, outer), Axis(scan_of(file, up, outer))
+        self.ground = ground_word(file)
+        self.flips = read_field(file, name_of_flips(up), outer)
+        codes = np.stack([read_field(file, name, outer) for name in ("region_below", "region_above")])
+        # In older files a line without flips has no region, and an undecided line lacks flips.
+        lacks_flips = ((codes[1] == CODE_OF_UNDECIDED) & np.isnan(self.flips)).any(axis=0)
+        codes[:, :, lacks_flips | (codes[0, 0] == CODE_OF_NO_FLIP)] = CODE_OF_UNDECIDED
+        self.below, self.above = VERDICTS[codes]
+        self.has_undecided = (codes == CODE_OF_UNDECIDED).any(axis=(0, 1))
+        self.overturns_at_once = self.below[0] == UNSAFE
+
+    def minimum(self):
+        """Returns the minimum overturning amplitude; NaN where there is none."""
+        found = (self.below[0] == SAFE) & (self.above[0] == UNSAFE)
+        return np.where(found, self.flips[0], np.nan)
+
+    def others(self):
+        """Returns all other flips; a change next to an undecided amplitude is not a flip."""
+        others = np.where((self.below <= UNSAFE) & (self.above <= UNSAFE), self.flips, np.nan)
+        others[0, self.below[0] == SAFE] = np.nan
+        return others
+
+    def verdicts(self, amplitudes):
+        """Returns the verdict of each amplitude, one per row: that above the nearest flip below."""
+        count = (self.flips[:, None, :] < amplitudes[None, :, None]).sum(axis=0)
+        return np.take_along_axis(np.concatenate([self.below[:1], self.above]), count, axis=0)
+
+
+def shade(panel, lines):
+    """Shades the plane by verdict, column by column."""
+    across, up = lines.across, lines.up
+    edges = np.linspace(*up.edges[[0, -1]], ROWS + 1)
+    middles = (edges[1:] + edges[:-1]) / 2
+    amplitudes = np.exp(middles) if up.scale == "log" else middles
+    table = np.array([matplotlib.colors.to_rgb(SHADES[verdict]) for verdict in sorted(SHADES)])
+    picture = table[lines.verdicts(amplitudes)]
+    # Columns are as wide as the cells of their frequencies, which may be unequal.
+    columns = across.cells(ROWS)
+    set_axes(panel, across, up)
+    image = panel.imshow(picture[:, columns], extent=(0, 1, 0, 1), transform=panel.transAxes,
+                         origin="lower", aspect="auto", interpolation="nearest", zorder=0)
+    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
+
+
+def draw_flips(panel, lines):
+    size = np.clip(900 / len(lines.frequency), 0.6, 3)
+    frequency = np.broadcast_to(lines.frequency, lines.flips.shape)
+    panel.plot(frequency.ravel(), lines.others().ravel(), linestyle="none", marker=".",
+               markersize=size, color=OTHERS, zorder=2)
+    panel.plot(lines.frequency, lines.minimum(), linestyle="none", marker=".",
+               markersize=2.2 * size, color=FIRST, zorder=3)
+    bottom, top = panel.get_ylim()
+    for which, edge, marker, colour in ((lines.overturns_at_once, bottom, "^", FIRST),
+                                        (lines.has_undecided, top, "v", DOUBTFUL)):
+        if which.any():  # an empty line not clipped would count in the layout
+            panel.plot(lines.frequency[which], np.full(which.sum(), edge), linestyle="none",
+                       marker=marker, markersize=5, color=colour, clip_on=False, zorder=4)
+
+
+def legend_entries(lines):
+    """Returns a handle and a label per item; overturns and safe are always listed."""
+    def marks(marker, colour, size):
+        return Line2D([], [], linestyle="none", marker=marker, markersize=size, color=colour)
+
+    def shade_of(verdict):
+        return Patch(facecolor=SHADES[verdict], edgecolor="black", linewidth=0.5)
+    entries = [
+        (np.isfinite(lines.minimum()), marks(".", FIRST, 9),
+         "minimum overturning amplitude" if lines.ground == "pulse" else "lowest flip found"),
+        (lines.overturns_at_once, marks("^", FIRST, 5),
+         "overturns at the first amplitude of the job"),
+        (np.isfinite(lines.others()), marks(".", OTHERS, 6), "other flips"),
+        (True, shade_of(UNSAFE), "overturns"), (True, shade_of(SAFE), "safe"),
+        (lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
+         "undecided, or more flips"),
+        (lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet")]
+    return [(handle, label) for present, handle, label in entries if np.any(present)]
+
+
+def draw_panel(file, panel, outer, units):
+    lines = Lines(file, outer, units)
+    shade(panel, lines)
+    draw_flips(panel, lines)
+    across, up = name_axes(file, units)
+    panel.set(xlabel=across, ylabel=up)
+    return lines
+
+
+def draw_figure(file, outer, units):
+    figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
+    lines = draw_panel(file, panel, outer, units)
+    handles, labels = zip(*legend_entries(lines))
+    one_row = len(labels) <= (4 if lines.overturns_at_once.any() else 5)
+    figure.subplots_adjust(left=0.085, right=0.975, top=0.84 if one_row else 0.81, bottom=0.085)
+    figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left",
+                  bbox_to_anchor=(0.075, 0.9), ncols=5 if one_row else 4, frameon=False,
+                  fontsize=9.5, handletextpad=0.5, columnspacing=1.4)
+    figure.text(0.085, 0.955, plain(heading(file, [outer]), 80), fontsize=13)
+    figure.text(0.085, 0.918, subtitle(file, [outer], units), fontsize=10)
+    if lines.ground == "record":
+        step = float(file["flip_amplitude"].attrs["finest_step"])
+        figure.text(0.5, 0.013, f"Scanned in steps of {100 * step:g} % of the scale or less. There "
+                    "are narrower strips, which are not drawn.", ha="center", fontsize=10)
+        figure.subplots_adjust(bottom=0.115)
+    return figure
+
+
+def draw(path, arguments, ax=None):
+    """Draws into axes, or else a figure. Returns the axes."""
+    with open_result(path, "overturning boundary",
+                     "a boundary written by overturn boundary") as file, damage_reported(path):
+        expect_size(file, arguments.units)
+        outer = chosen_one(file, arguments)
+        if ax is None:
+            return draw_figure(file, outer, arguments.units).axes[0]
+        draw_panel(file, ax, outer, arguments.units)
+        return ax
+
+
+def boundary(result, *, motion: int | None = None, slenderness: int | None = None,
+             restitution: int | None = None, units: str = "job", ax=None):
+    """Draws a boundary, as tools/plot_boundary does.
+
+    result: the path of a file, or the data set that overturn.open() made of it. motion, slenderness,
+    restitution: indices, counted from 0, of one boundary of several. units: "job", or "physical" for s
+    and g. ax: axes of Matplotlib to draw into, without a legend.
+
+    Returns the axes. Raises overturn.PlotError."""
+    arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
+                                units=units)
+    return draw(path_of(result), arguments, ax)
+
+
+def read_arguments(argv):
+    parser = argparse.ArgumentParser(prog="plot_boundary", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.h5", help="written by overturn boundary")
+    add_picture_argument(parser)
+    add_choice_arguments(parser)
+    add_units_argument(parser)
+    arguments = parser.parse_args(argv)
+    name_picture(parser, arguments)
+    return arguments
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    save(draw(arguments.file, arguments).figure, arguments.output, dpi=120)

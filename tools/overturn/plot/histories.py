@@ -1,0 +1,264 @@
+"""Plots the history of one block over time: under a pulse the ground, angle, velocity, acceleration
+and q; under a record the ground and the tilt."""
+
+from __future__ import annotations
+
+import argparse
+from types import SimpleNamespace
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.lines import Line2D
+from overturn.captions import (JOB, PHYSICAL, ground_text, ground_word, is_linear, is_recorded,
+                               slenderness_text)
+from overturn.regions import REGIONS, UNDECIDED, meaning_of
+from overturn.result_file import (PlotError, add_picture_argument, damage_reported, events_of,
+                                  name_picture, open_result, path_of, plain, save, title_of)
+from overturn.units import add_units_argument, expect_size, uplift_threshold
+
+EXAMPLE = """\
+example:
+  overturn history jobs/figure_07a.toml --at frequency=3,amplitude=1.5 -o history.h5
+  tools/plot_history history.h5                  # draws history.png
+  tools/plot_history history.h5 --until 8        # the first 8/p
+  overturn history jobs/synthetic.toml --at scale=1,size=1 --samples 20000 -o recorded.h5
+  tools/plot_history recorded.h5 --from 4 --until 12   # from 4 s to 12 s
+  tools/plot_history tilt.h5 --units physical    # in seconds and degrees
+
+Grey: duration of the pulse or record. Thin lines, or ticks under a record: impacts. Dashed:
+|theta| = alpha, where the block balances on an edge, and the limits of velocity and q of an upright
+block that does not overturn. The curves connect the samples of the file: with too few samples,
+peaks of a record are missed."""
+
+UPLIFT, IMPACT, REST, END_OF_PULSE, FALL = range(5)  # as numbered in the file
+INK = "#1f3b57"
+LIMIT = "#c8422b"
+MARKS = {UPLIFT: ("^", "uplift"), REST: ("s", "at rest"), FALL: ("X", "fall")}
+MOST_IMPACT_LINES = 60
+
+# Variable, axis label, share of the height.
+PULSE_PANELS = (
+    ("ground", r"ground  $\ddot u_g/g$", 0.6),
+    ("angle", r"angle  $\theta$ [rad]", 1.3),
+    ("velocity", r"velocity  $\theta'$ [rad]", 1),
+    ("acceleration", r"acceleration  $\theta''$ [rad]", 1),
+    ("q", r"$q$ [rad$^2$]", 1),
+)
+RECORD_PANELS = (("ground", r"ground  $\ddot u_g/g$", 1), ("angle", r"tilt  $\theta/\alpha$", 1.6))
+PHYSICAL_LABELS = {"ground": "ground [g]", "angle": "tilt [degrees]", "velocity": "velocity [degrees/s]",
+                   "acceleration": "acceleration [degrees/s²]", "q": "$q$ [degrees²/s²]"}
+# Attribute, symbol, unit of the point, in the order of the picture.
+AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold})$", ""),
+        ("pulse_period", "period", " s"), ("pulse_frequency", "frequency", " Hz"),
+        ("scale", "scale", ""), ("pga", "PGA", " g"),
+        ("size", "$R$", " m"), ("frequency_parameter", "$p$", " 1/s"))
+
+
+def frequency_parameter(attributes):
+    """p [1/s] of the block of a history under a record."""
+    if "frequency_parameter" in attributes:
+        return float(attributes["frequency_parameter"])
+    return float(np.sqrt(3 * attributes["gravity"] / (4 * attributes["size"])))
+
+
+class History:
+    """The contents of the file between two times. Times are in 1/p and angles in rad, but under a
+    record in seconds and in alpha, and in physical units in seconds and degrees."""
+
+    def __init__(self, file, start, until, units=JOB):
+        self.is_recorded = is_recorded(file)
+        self.panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
+        self.is_in_seconds = self.is_recorded or units == PHYSICAL
+        slenderness = float(file.attrs["slenderness"])
+        per_time = frequency_parameter(file.attrs) if self.is_in_seconds else 1
+        per_angle = slenderness if self.is_recorded else 1
+        if units == PHYSICAL:
+            self.panels = [(name, PHYSICAL_LABELS[name], share) for name, _, share in self.panels]
+            per_angle = np.radians(1)
+        time = file["time"][:] / per_time
+        shown = (time >= start) & (time <= until)
+        self.start, self.time = start, time[shown]
+        if not len(self.time):
+            unit = " s" if self.is_in_seconds else "/p"
+            raise PlotError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
+                            f"{until:g}{unit}.")
+        rate = per_time / per_angle
+        factors = {"ground": 1, "angle": 1 / per_angle, "velocity": rate,
+                   "acceleration": per_time * rate, "q": rate**2}
+        self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
+        events = events_of(file)
+        self.events = [(when, kind, angle)
+                       for when, kind, angle in zip(events["time"][:] / per_time, events["kind"][:],
+                                                    events["angle_after"][:] / per_angle)
+                       if start <= when <= self.time[-1]]
+        self.alpha = slenderness / per_angle
+        self.largest_rate = rate * (slenderness if is_linear(file) else 2 * np.sin(slenderness / 2))
+        self.end_of_ground_motion = float(file.attrs["end_of_pulse"]) / per_time
+
+    def impacts(self):
+        return [when for when, kind, _ in self.events if kind == IMPACT]
+
+    def limits(self, name):
+        """Returns the values of the dashed lines."""
+        return {"angle": (-self.alpha, self.alpha),
+                "velocity": (-self.largest_rate, self.largest_rate),
+                "q": (0, self.largest_rate**2)}.get(name, ())
+
+
+def draw_panel(axes, history, name, label):
+    values = history.values[name]
+    axes.axvspan(0, min(history.end_of_ground_motion, history.time[-1]), color="#eeeeee", zorder=0)
+    impacts = history.impacts()
+    if len(impacts) <= MOST_IMPACT_LINES and not history.is_recorded:
+        for when in impacts:
+            axes.axvline(when, color="0.75", linewidth=0.6, zorder=1)
+    linewidth = 0.7 if name == "ground" and history.is_recorded else 1.3
+    axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
+    spread = np.ptp(values) or 1
+    low, high = values.min() - 0.08 * spread, values.max() + 0.08 * spread
+    for limit in history.limits(name):
+        if low - spread <= limit <= high + spread:  # a distant limit would flatten the curve
+            axes.axhline(limit, color=LIMIT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=2)
+            low, high = min(low, limit - 0.08 * spread), max(high, limit + 0.08 * spread)
+    axes.axhline(0, color="0.6", linewidth=0.6, zorder=1)
+    axes.set_ylim(low, high)
+    axes.set_ylabel(label, fontsize=9)
+    axes.tick_params(labelsize=8)
+    axes.ticklabel_format(axis="y", scilimits=(-2, 3))
+    axes.yaxis.get_offset_text().set_fontsize(8)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def mark_events(axes, history, **place_of_legend):
+    """Marks uplift, rest and overturning on the curve of the angle. Under a record, impacts are
+    ticks below it, because they are often too many for lines."""
+    handles = []
+    for kind, (marker, name) in MARKS.items():
+        points = [(when, angle) for when, what, angle in history.events if what == kind]
+        if points:
+            axes.plot(*zip(*points), linestyle="none", marker=marker, markersize=6,
+                      markerfacecolor="white", markeredgecolor=LIMIT, zorder=4, clip_on=False)
+            handles.append(Line2D([], [], linestyle="none", marker=marker, markersize=6,
+                                  markerfacecolor="white", markeredgecolor=LIMIT, label=name))
+    impacts = history.impacts()
+    count = len(impacts)
+    if count:
+        style = {"color": "0.75", "linewidth": 0.8}
+        if history.is_recorded:
+            style = {"color": "0.35", "linestyle": "none", "marker": "|", "markersize": 7,
+                     "markeredgewidth": 0.6}
+            low, high = axes.get_ylim()
+            axes.set_ylim(low - 0.08 * (high - low), high)
+            axes.plot(impacts, np.full(count, 0.04), transform=axes.get_xaxis_transform(), **style)
+        many = count > MOST_IMPACT_LINES and not history.is_recorded
+        handles.append(Line2D([], [], **style, label=f"{count} impact{'s' * (count > 1)}"
+                                                     f"{', too many to mark' * many}"))
+    if handles:
+        axes.legend(handles=handles, fontsize=8, handletextpad=0.4, **place_of_legend)
+
+
+def point_of(file, units):
+    """Returns the values on the axes of the job, by name; equivalents are omitted."""
+    point = {name: file.attrs[name] for name, _, _ in AXES if name in file.attrs}
+    has_time = "pulse_period" in point or "pulse_frequency" in point
+    if units == PHYSICAL and not is_recorded(file):
+        if not has_time:
+            point["pulse_period"] = 2 * np.pi / (point["frequency"] * point["frequency_parameter"])
+            has_time = True
+        threshold = uplift_threshold(file, file.attrs["slenderness"])
+        point.setdefault("pga", point["amplitude"] * threshold)
+    if has_time:
+        point.pop("frequency", None)
+    if "pga" in point:
+        point.pop("amplitude", None)
+    return point
+
+
+def describe(file, units=JOB):
+    """Returns the point and its outcome in one line."""
+    attributes = file.attrs
+    region = int(attributes["region"])
+    outcome = (f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})"
+               if region in REGIONS and region != UNDECIDED else "undecided")
+    threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
+    values = point_of(file, units)
+    point = [f"{symbol.replace('{threshold}', threshold)} = {values[name]:g}{unit}, "
+             for name, symbol, unit in AXES if name in values]
+    alpha = (slenderness_text(attributes["slenderness"], units) if units == PHYSICAL
+             else rf"$\alpha$ = {attributes['slenderness']:.6g} rad")
+    record = [plain(ground_text(file), 40) + ", "] * is_recorded(file)
+    return ("".join([*record, *point]) +
+            rf"{alpha}, $r$ = {attributes['restitution']:.6g}: "
+            f"{outcome}")
+
+
+def name_time(panel, file, history):
+    unit = "[s]" if history.is_in_seconds else r"$\tau = p\,t$"
+    panel.set_xlabel(f"time since the start of the {ground_word(file)}  {unit}", fontsize=9)
+    panel.set_xlim(history.start, history.time[-1] if history.time[-1] > history.start else history.start + 1)
+
+
+def draw_figure(file, history, units):
+    height = 5.4 if history.is_recorded else 9.2
+    figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
+                                     height_ratios=[share for _, _, share in history.panels])
+    for axes, (name, label, _) in zip(panels, history.panels):
+        draw_panel(axes, history, name, label)
+        axes.yaxis.set_label_coords(-0.075, 0.5)
+        if name == "angle":
+            mark_events(axes, history, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0,
+                        frameon=False, ncols=len(MARKS) + 1)
+    name_time(panels[-1], file, history)
+    title = title_of(file, ("plane", "block")) or ground_text(file)
+    figure.suptitle(plain(title), fontsize=11, x=0.02, ha="left", y=1 - 0.092 / height)
+    figure.text(0.02, 1 - 0.3956 / height, describe(file, units), fontsize=9)
+    figure.subplots_adjust(left=0.1, right=0.975, top=1 - 0.598 / height, bottom=0.506 / height,
+                           hspace=0.14)
+    return figure
+
+
+def draw(path, arguments, ax=None):
+    """Draws the tilt into axes, or else a figure. Returns the axes."""
+    with (open_result(path, "rocking history", "a history written by overturn history") as file,
+          damage_reported(path, ValueError)):
+        expect_size(file, arguments.units)
+        shown = History(file, arguments.start, arguments.until, arguments.units)
+        if ax is None:
+            return draw_figure(file, shown, arguments.units).axes
+        label = next(label for name, label, _ in shown.panels if name == "angle")
+        draw_panel(ax, shown, "angle", label)
+        mark_events(ax, shown)
+        name_time(ax, file, shown)
+        return ax
+
+
+def history(result, *, start: float = 0, until: float = np.inf, units: str = "job", ax=None):
+    """Draws the motion of a block, as tools/plot_history does.
+
+    result: the path of a file, or the data set that overturn.open() made of it. start, until: times
+    [1/p]; under a record or in physical units [s]. units: "job", or "physical" for s and degrees. ax:
+    axes of Matplotlib to draw the tilt into.
+
+    Returns a list of axes, from the ground motion down, or ax. Raises overturn.PlotError."""
+    return draw(path_of(result), SimpleNamespace(start=start, until=until, units=units), ax)
+
+
+def read_arguments(argv):
+    parser = argparse.ArgumentParser(prog="plot_history", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.h5", help="written by overturn history")
+    parser.add_argument("--until", type=float, metavar="TIME", default=np.inf,
+                        help="last time to draw [1/p]; under a record or in physical units [s]")
+    parser.add_argument("--from", dest="start", type=float, metavar="TIME", default=0,
+                        help="first time to draw, in the same unit (default: 0)")
+    add_units_argument(parser, "time in s, angles in degrees, PGA in g")
+    add_picture_argument(parser)
+    arguments = parser.parse_args(argv)
+    name_picture(parser, arguments)
+    return arguments
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    save(draw(arguments.file, arguments)[0].figure, arguments.output, dpi=120)

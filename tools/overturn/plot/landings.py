@@ -1,0 +1,223 @@
+"""Plots the end states in phase space: the angles and velocities at the end of the ground motion,
+coloured by the points of the plane."""
+
+import argparse
+import pathlib
+
+import numpy as np
+from matplotlib import pyplot
+from overturn.captions import ground_word, heading, is_linear, is_recorded, subtitle
+from overturn.choice import add_choice_arguments, chosen_one
+from overturn.fields import dimensions_of, read_field, slenderness_and_restitution
+from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_libration,
+                                  name_phase_axes)
+from overturn.region_labels import add_label_argument, pieces, thinned, write_label
+from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
+from overturn.result_file import (add_picture_argument, damage_reported, name_picture, place_of,
+                                  plain, save)
+from overturn.spectrum_file import open_spectrum, read_cells, rows_of_tiles
+from overturn.ticks import set_axes
+from overturn.units import axes_of_plane, name_axes
+
+EXAMPLE = """\
+example:
+  overturn run jobs/figure_07a.toml              # writes figure_07a.h5
+  tools/plot_landing figure_07a.h5               # draws figure_07a_landing.png
+
+Left, the plane: black at the bottom left, red grows to the right, blue upwards; lines separate the
+regions. Middle and right, the end states (angle and velocity at the end of the pulse or record)
+in the same colours; several points in one pixel give their mean colour; blocks that fell before
+the end are not shown, nor undecided ones. Pale blue: the libration region, from which no block
+overturns.
+
+The spectrum must have the fields region, angle and velocity. Of several spectra choose one with
+--slenderness, --restitution and, under records, --motion."""
+
+LIBRATION = "#dcecf7"
+PLANE_PIXELS = 1000
+LANDING_PIXELS = 360  # per side: more would leave gaps between a million points
+NEAR = 2  # half width of the near view, in slendernesses and largest velocities
+LEAST_SHARE = 0.004  # of the plane: smaller pieces of a region get no name
+SHOWN = ("plane", "state", "state")  # by the three panels
+
+
+class Landing:
+    """Mean colours of the points in each pixel of a window of phase space."""
+
+    def __init__(self, largest_angle, largest_rate):
+        self.reach = np.array([largest_angle, largest_rate])
+        self.count = np.zeros(LANDING_PIXELS**2)
+        self.red, self.blue = self.count.copy(), self.count.copy()
+
+    def extent(self):
+        angle, rate = self.reach
+        return (-angle, angle, -rate, rate)
+
+    def pixels(self, angle, rate):
+        """Returns the pixel of each point in the window and a mask of these points."""
+        across, up = (np.floor((values / reach + 1) / 2 * LANDING_PIXELS)
+                      for values, reach in zip((angle, rate), self.reach))
+        within = (0 <= across) & (across < LANDING_PIXELS) & (0 <= up) & (up < LANDING_PIXELS)
+        return (up[within] * LANDING_PIXELS + across[within]).astype(int), within
+
+    def add(self, angle, rate, red, blue):
+        pixels, within = self.pixels(angle, rate)
+        for total, weights in ((self.count, None), (self.red, red[within]),
+                               (self.blue, blue[within])):
+            total += np.bincount(pixels, weights, LANDING_PIXELS**2)
+
+    def picture(self):
+        """Returns RGBA, transparent where there is no point."""
+        seen = np.maximum(self.count, 1)
+        layers = (self.red / seen, 0 * seen, self.blue / seen, self.count > 0)
+        return np.stack(layers, axis=1).reshape(LANDING_PIXELS, LANDING_PIXELS, 4)
+
+
+class Spectrum:
+    """One spectrum of the file: its plane, its block, and its points at the end."""
+
+    def __init__(self, file, outer):
+        self.file, self.outer = file, outer
+        self.across, self.up = axes_of_plane(file, outer)
+        self.block = FreeBlock(*slenderness_and_restitution(file, outer), is_linear(file))
+
+    def blocks(self):
+        """Yields angle, velocity, red and blue of points not overturned, some rows at a time."""
+        up, across = dimensions_of(self.file)[-2:]
+        red, blue = self.across.share(self.file[across][:]), self.up.share(self.file[up][:])
+        for rows in rows_of_tiles(self.file["region"]):
+            region, angle, rate = (read_field(self.file, name, self.outer, rows)
+                                   for name in ("region", "angle", "velocity"))
+            standing = region <= LEFT_STANDING
+            colours = np.broadcast_to(red, region.shape), np.broadcast_to(blue[rows, None],
+                                                                          region.shape)
+            yield tuple(values[standing] for values in (angle, rate, *colours))
+
+    def sample(self, pixels, *fields):
+        """Returns the fields at evenly spaced pixels of the plane."""
+        rows, columns = self.up.cells(pixels), self.across.cells(pixels)
+        return [read_cells(self.file, name, self.outer, rows, columns) for name in fields]
+
+
+def land(spectrum):
+    """Returns the view near the upright block and the view of all states."""
+    block = spectrum.block
+    fastest = max((np.abs(rate).max(initial=0) for _, rate, _, _ in spectrum.blocks()), default=0)
+    near = Landing(NEAR * block.slenderness, NEAR * block.largest_rate)
+    fastest = max(fastest, float(block.inward_rate(HALF_TURN)), float(block.inward_rate(0.0)))
+    far = Landing(HALF_TURN, 1.05 * fastest)
+    for points in spectrum.blocks():
+        near.add(*points)
+        far.add(*points)
+    return near, far
+
+
+def borders(codes):
+    """Returns the pixels on both sides of a change of region."""
+    change = np.zeros(codes.shape, bool)
+    rows, columns = codes[1:] != codes[:-1], codes[:, 1:] != codes[:, :-1]
+    change[1:] |= rows
+    change[:-1] |= rows
+    change[:, 1:] |= columns
+    change[:, :-1] |= columns
+    return change
+
+
+def draw_plane(panel, spectrum):
+    codes, = spectrum.sample(PLANE_PIXELS, "region")
+    shade = (np.arange(PLANE_PIXELS) + 0.5) / PLANE_PIXELS
+    picture = np.zeros((PLANE_PIXELS, PLANE_PIXELS, 3))
+    picture[..., 0], picture[..., 2] = shade, shade[:, None]
+    picture[borders(codes)] = 1
+    picture[codes == NOT_COMPUTED] = 0.8
+    set_axes(panel, spectrum.across, spectrum.up)
+    panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
+                 aspect="auto", interpolation="nearest")
+    across, up = name_axes(spectrum.file)
+    title = "The record and the block" if is_recorded(spectrum.file) else "The pulse"
+    panel.set(xlabel=across, ylabel=up, title=title)
+
+
+def draw_landing(panel, spectrum, landing, title):
+    fill_libration(panel, spectrum.block, LIBRATION)
+    panel.imshow(landing.picture(), extent=landing.extent(), origin="lower", aspect="auto",
+                 interpolation="nearest", zorder=2)
+    draw_boundaries(panel, spectrum.block, zorder=3)
+    left, right, bottom, top = landing.extent()
+    panel.set(xlim=(left, right), ylim=(bottom, top), title=title)
+    name_phase_axes(panel)
+
+
+def named_pieces(codes, labels, across, up):
+    """Yields text, code and cells of each piece of a region that is labelled or large enough."""
+    unlabelled = codes.copy()
+    for label in labels:
+        piece = label.piece(codes, across, up)
+        if piece.any():
+            unlabelled[piece] = NOT_COMPUTED
+            yield f"{label.text}  {REGIONS[label.code][0]}", label.code, piece
+    for code, (name, _, _) in REGIONS.items():
+        for piece in pieces(unlabelled == code, LEAST_SHARE * codes.size):
+            yield name or "undecided", code, piece
+
+
+def write_names(panels, views, spectrum, labels):
+    """Labels pieces in the plane and in phase space: in the near view if it shows half of one."""
+    cells = len(thinned(np.arange(PLANE_PIXELS)))
+    codes, angle, rate = spectrum.sample(cells, "region", "angle", "velocity")
+    for text, code, piece in named_pieces(codes, labels, spectrum.across, spectrum.up):
+        write_label(panels[0], piece, text, size=9)
+        if code > LEFT_STANDING:
+            continue
+        for panel, view in zip(panels[1:], views):
+            pixels, within = view.pixels(angle[piece], rate[piece])
+            if np.count_nonzero(within) >= len(within) / 2:
+                write_label(panel, covered(pixels), text, size=9)
+                break
+
+
+def covered(pixels):
+    """Returns the part of a view covered by a sample of points, coarse enough to have no gaps."""
+    coarse = 8
+    mask = np.zeros((LANDING_PIXELS // coarse,) * 2, bool)
+    mask[pixels // LANDING_PIXELS // coarse, pixels % LANDING_PIXELS // coarse] = True
+    return mask
+
+
+def draw(file, outer, title, labels):
+    spectrum = Spectrum(file, outer)
+    figure, panels = pyplot.subplots(1, 3, figsize=(17, 6.2))
+    figure.subplots_adjust(left=0.045, right=0.99, bottom=0.1, top=0.82, wspace=0.19)
+    views = land(spectrum)
+    draw_plane(panels[0], spectrum)
+    for panel, view, name in zip(panels[1:], views, ("near upright", "full range")):
+        title_of_view = f"State at the end of the {ground_word(file)}, {name}"
+        draw_landing(panel, spectrum, view, title_of_view)
+    write_names(panels, views, spectrum, labels)
+    title = heading(file, [outer]) if title is None else title
+    figure.text(0.045, 0.945, plain(title), fontsize=14)
+    figure.text(0.045, 0.9, subtitle(file, [outer]), fontsize=11)
+    return figure, [place_of(panel, shows) for panel, shows in zip(panels, SHOWN)]
+
+
+def read_arguments(argv):
+    parser = argparse.ArgumentParser(prog="plot_landing", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run")
+    add_picture_argument(parser, "FILE_landing.png")
+    add_choice_arguments(parser)
+    add_label_argument(parser)
+    parser.add_argument("--title", help="title of the picture (default: the job's title, or the name "
+                                        "of its record)")
+    arguments = parser.parse_args(argv)
+    name_picture(parser, arguments, pathlib.Path(arguments.file).stem + "_landing.png")
+    return arguments
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    with open_spectrum(arguments.file, ("region", "angle", "velocity")) as file, \
+            damage_reported(arguments.file):
+        outer = chosen_one(file, arguments)
+        figure, places = draw(file, outer, arguments.title, arguments.label)
+    save(figure, arguments.output, places, dpi=150)

@@ -1,0 +1,237 @@
+"""Plots the overturning spectra of a result file as maps of regions."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+from types import SimpleNamespace
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.lines import Line2D
+from overturn import practice
+from overturn.captions import ground_word, heading, panel_titles, subtitle
+from overturn.choice import add_choice_arguments, chosen
+from overturn.overlay import draw_boundary, open_boundary
+from overturn.region_labels import Label, add_label_argument, thinned, write_label
+from overturn.regions import coloured, legend_entries
+from overturn.result_file import (add_picture_argument, damage_reported, name_picture, path_of,
+                                  place_of, plain, save)
+from overturn.spectrum_file import open_spectrum, read_cells
+from overturn.ticks import set_axes
+from overturn.units import (add_units_argument, axes_of_plane, expect_size, name_axes,
+                            quantities)
+
+EXAMPLE = """\
+example:
+  overturn run jobs/figure_07a.toml              # writes figure_07a.h5
+  tools/plot_spectrum figure_07a.h5              # draws figure_07a.png
+
+A file of several spectra (records, slendernesses, restitutions) is plotted as a grid of up to 12
+maps:
+  tools/plot_spectrum four_axes.h5 -o nine.pdf
+  tools/plot_spectrum four_axes.h5 --slenderness 0 --restitution 2   # the first and the third
+  tools/plot_spectrum suite.h5 --motion 0        # the first record of a suite
+
+A label is placed where its region is widest:
+  tools/plot_spectrum figure_07a.h5 --label III=S+@10,12 --label V=S+@7,12
+
+Published practice calls a block overturned when |theta| >= alpha. To mark and count the safe blocks
+that it misjudges, store the field peak:
+  tools/plot_spectrum suite.h5 --practice
+
+Axes are drawn in the units of the job. If it gives the size of the block, all can be drawn in s and g:
+  tools/plot_spectrum statue.h5 --units physical
+
++ and - denote the side to which a block falls, or swings if it is safe. For an unfinished file the
+computed part is plotted."""
+
+MOST_PANELS = 12
+
+
+class Sheet:
+    """A figure of equal square panels; lengths in inches fix the number of pixels of a panel. Panels
+    with the same vertical axis share the numbers beside it."""
+
+    LEFT, RIGHT, BOTTOM, GAP = 0.85, 3.25, 0.7, 0.45
+
+    def __init__(self, titles, columns, dpi, shares_vertical_axis):
+        count = len(titles)
+        self.top = 1 + 0.15 * titles[0].count("\n")
+        rows = -(-count // columns)
+        side = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8}[columns]
+        self.pixels = round(side * dpi)
+        self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
+        self.height = self.top + rows * (side + self.GAP) - self.GAP + self.BOTTOM
+        self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
+                                                   sharex=True, sharey=shares_vertical_axis,
+                                                   figsize=(self.width, self.height))
+        for panel, title in zip(self.panels.flat, titles):
+            panel.set_title(title, fontsize=9)
+        self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
+                                    1 - self.RIGHT / self.width, 1 - self.top / self.height,
+                                    self.GAP / side, self.GAP / side)
+        for unused in self.panels.flat[count:]:
+            unused.set_visible(False)
+        for lowest in self.panels.flat[max(count - columns, 0):count]:
+            lowest.tick_params(labelbottom=True)
+
+    def write(self, title, second_line, across, up):
+        left = self.LEFT / self.width
+        self.figure.text(left, 1 - 0.4 / self.height, title, fontsize=14)
+        self.figure.text(left, 1 - 0.67 / self.height, second_line, fontsize=11)
+        self.figure.supxlabel(across, fontsize=12, y=0.15 / self.height,
+                              x=(self.LEFT + self.width - self.RIGHT) / 2 / self.width)
+        self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,
+                              y=(self.BOTTOM + self.height - self.top) / 2 / self.height)
+
+    def explain(self, entries, ground):
+        corner = (1 - (self.RIGHT - 0.2) / self.width, 1 - self.top / self.height)
+        legend = self.figure.legend(
+            handles=entries, loc="upper left", bbox_to_anchor=corner, borderaxespad=0,
+            frameon=False, fontsize=10.5, handlelength=1.6, handleheight=1.2, labelspacing=0.7,
+            title=f"At the end of the {ground}\n(+ and − are the side it moves to)",
+            alignment="left")
+        legend.get_title().set_fontsize(10.5)
+
+
+def layout(choices):
+    """Returns the indices of the spectra in the order of the panels, and the number of columns: the
+    last dimension of several values if there are two or more, otherwise nearly a square."""
+    spectra = list(itertools.product(*choices))
+    several = [len(places) for places in choices if len(places) > 1]
+    if len(several) > 1 and several[-1] <= 4:
+        return spectra, several[-1]
+    return spectra, math.ceil(math.sqrt(len(spectra)))
+
+
+def cover(panel, picture):
+    image = panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
+                         aspect="auto", interpolation="nearest")
+    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
+
+
+def draw_panel(panel, codes, across, up):
+    set_axes(panel, across, up)
+    panel.patch.set(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0)
+    cover(panel, coloured(codes))
+
+
+def write_labels(panel, codes, labels, across, up):
+    few = codes[np.ix_(thinned(np.arange(codes.shape[0])), thinned(np.arange(codes.shape[1])))]
+    for label in labels:
+        piece = label.piece(few, across, up)
+        if piece.any():
+            write_label(panel, piece, label.text, size=13)
+
+
+def draw_panels(file, panels, pixels, spectra, axes, arguments):
+    """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
+    boundary = (open_boundary(arguments.boundary, file, arguments.units) if arguments.boundary
+                else None)
+    present = set()
+    for panel, outer, (across, up) in zip(panels, spectra, axes):
+        rows, columns = up.cells(pixels), across.cells(pixels)
+        codes = read_cells(file, "region", outer, rows, columns)
+        present.update(np.unique(codes))
+        draw_panel(panel, codes, across, up)
+        if arguments.practice:
+            cover(panel, practice.picture(codes, read_cells(file, "peak", outer, rows, columns)))
+        if boundary is not None:
+            draw_boundary(panel, boundary, outer, quantities(file, arguments.units))
+        write_labels(panel, codes, arguments.label, across, up)
+    return present
+
+
+def draw_sheet(file, spectra, columns, misjudged, arguments, dpi):
+    units = arguments.units
+    titles = panel_titles(file, spectra, units)
+    axes = [axes_of_plane(file, outer, units) for outer in spectra]
+    shares = all(np.array_equal(up.edges, axes[0][1].edges) for _, up in axes)
+    sheet = Sheet(titles, columns, dpi, shares)
+    present = draw_panels(file, sheet.panels.flat, sheet.pixels, spectra, axes, arguments)
+    title = heading(file, spectra) if arguments.title is None else arguments.title
+    sheet.write(plain(title), subtitle(file, spectra, units), *name_axes(file, units))
+    entries = legend_entries(present, ground_word(file))
+    if misjudged:
+        entries.append(misjudged.legend_entry())
+    if arguments.boundary:
+        entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
+                              label="flip of the verdict"))
+    sheet.explain(entries, ground_word(file))
+    return sheet
+
+
+def draw_into(file, ax, outer, arguments):
+    """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
+    size = ax.get_window_extent()
+    pixels = max(1, round(max(size.width, size.height)))
+    draw_panels(file, [ax], pixels, [outer], [axes_of_plane(file, outer, arguments.units)], arguments)
+    across, up = name_axes(file, arguments.units)
+    ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
+
+
+def draw(path, arguments, dpi, ax=None):
+    """Draws into axes, or else a sheet, which is returned with the number of its spectra and, under
+    published practice, the count of misjudged points."""
+    fields = ("region", "peak") if arguments.practice else ("region",)
+    with open_spectrum(path, fields) as file, damage_reported(path):
+        expect_size(file, arguments.units)
+        spectra, columns = layout(chosen(file, arguments, 1 if ax is not None else MOST_PANELS))
+        misjudged = practice.Misjudged(file, spectra) if arguments.practice else None
+        if ax is not None:
+            return draw_into(file, ax, spectra[0], arguments)
+        sheet = draw_sheet(file, spectra, columns, misjudged, arguments, dpi)
+        return sheet, len(spectra), misjudged
+
+
+def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
+             restitution: int | None = None, units: str = "job", boundary=None, practice: bool = False,
+             labels: tuple[str, ...] = (), title: str | None = None, ax=None):
+    """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
+
+    result: the path of a file, or the data set that overturn.open() made of it. motion, slenderness,
+    restitution: indices, counted from 0, of one spectrum of several. units: "job", or "physical" for s
+    and g. boundary: the path of a boundary to draw on it. practice: mark what published practice
+    misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes of Matplotlib for one
+    spectrum without a legend.
+
+    Returns the axes; a list of them for several spectra. Raises overturn.PlotError."""
+    arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
+                                units=units, boundary=boundary, practice=practice,
+                                label=[Label(words) for words in labels], title=title)
+    drawn = draw(path_of(result), arguments, 150, ax)
+    if ax is not None:
+        return ax
+    sheet, count, _ = drawn
+    return sheet.panels.flat[0] if count == 1 else list(sheet.panels.flat[:count])
+
+
+def read_arguments(argv):
+    parser = argparse.ArgumentParser(prog="plot_spectrum", description=__doc__, epilog=EXAMPLE,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run")
+    add_picture_argument(parser)
+    add_choice_arguments(parser)
+    add_label_argument(parser)
+    add_units_argument(parser)
+    parser.add_argument("--boundary", metavar="BOUNDARY.h5",
+                        help="overlay the flips of the verdict; written by overturn boundary")
+    parser.add_argument("--practice", action="store_true",
+                        help="mark and count safe points whose |theta| reaches alpha, which "
+                             "published practice calls overturned; needs the field peak")
+    parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
+                                        "names of its records)")
+    arguments = parser.parse_args(argv)
+    name_picture(parser, arguments)
+    return arguments
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    dpi = 150 if arguments.output.endswith(".png") else 300
+    sheet, count, misjudged = draw(arguments.file, arguments, dpi)
+    save(sheet.figure, arguments.output, [place_of(panel, "plane") for panel in sheet.panels.flat[:count]])
+    if misjudged:
+        print(misjudged.report())
