@@ -79,7 +79,7 @@ def result(region, scale, motions=None, pgv=1.0, **fields):
         **{name: ("motion", np.full(motions, value), {"units": "m s-1"}) for name, value in measures.items()}})
 
 
-def graded(motions=6, blocks=8):
+def graded(motions=10, blocks=8):
     """More blocks overturn at larger scales; motions differ by one block."""
     scale = np.array([0.5, 1.0, 2.0, 4.0])
     counts = np.minimum(np.array([0, 2, 5, 7]) + np.arange(motions)[:, None] % 2, blocks)
@@ -90,10 +90,10 @@ def graded(motions=6, blocks=8):
 class TheCurve(unittest.TestCase):
     def test_counts_the_blocks_that_overturn_in_each_bin(self):
         curve = overturn.fragility(result(*graded()), "pgv", bins=4, samples=50)
-        self.assertEqual(curve.points.tolist(), [48] * 4)
-        self.assertEqual(curve.exceeding.tolist(), [3, 15, 33, 45])
-        np.testing.assert_allclose(curve.fraction, np.array([3, 15, 33, 45]) / 48)
-        self.assertEqual((curve.motions, curve.undecided, curve.not_computed, curve.notes), (6, 0, 0, ()))
+        self.assertEqual(curve.points.tolist(), [80] * 4)
+        self.assertEqual(curve.exceeding.tolist(), [5, 25, 55, 75])
+        np.testing.assert_allclose(curve.fraction, np.array([5, 25, 55, 75]) / 80)
+        self.assertEqual((curve.motions, curve.undecided, curve.not_computed, curve.notes), (10, 0, 0, ()))
         self.assertTrue(curve.median_interval[0] < curve.median < curve.median_interval[1])
         self.assertTrue((curve.band[0] <= curve.probability).all() and (curve.probability <= curve.band[1]).all())
 
@@ -111,7 +111,7 @@ class TheCurve(unittest.TestCase):
     def test_is_the_same_whether_scale_or_pga_is_the_axis(self):
         data = result(*graded())
         by_pga = data.rename(pga="record_pga").assign_coords(pga=("scale", 0.5 * data.scale.values))
-        by_pga = by_pga.swap_dims(scale="pga").assign_coords(scale=(("motion", "pga"), np.tile(data.scale.values, (6, 1))))
+        by_pga = by_pga.swap_dims(scale="pga").assign_coords(scale=(("motion", "pga"), np.tile(data.scale.values, (10, 1))))
         first, second = (overturn.fragility(each, "pga", samples=20) for each in (data, by_pga))
         self.assertEqual((first.median, first.units), (second.median, "g"))
         np.testing.assert_array_equal(first.band, second.band)
@@ -131,35 +131,35 @@ class TheCurve(unittest.TestCase):
         peak = np.where(region == F, np.inf, 0.3)
         peak[:, 0, 0] = 0.7
         curve = overturn.fragility(result(region, scale, peak=peak), limit=0.5, bins=4, samples=1)
-        self.assertEqual(curve.exceeding.tolist(), [6, 15, 33, 45])
+        self.assertEqual(curve.exceeding.tolist(), [10, 25, 55, 75])
         with self.assertRaisesRegex(ValueError, "no field peak"):
             overturn.fragility(result(region, scale), limit=0.5)
 
     def test_leaves_out_points_without_a_verdict_and_reports_them(self):
         region, scale = graded()
         region[0, :, 7] = UNDECIDED  # safe otherwise
-        region[5, 2:] = NOT_COMPUTED
+        region[9, 2:] = NOT_COMPUTED
         peak = np.where(region >= UNDECIDED, np.nan, np.where(region == F, np.inf, 0.3))
         for limit in (None, 0.5):
             curve = overturn.fragility(result(region, scale, peak=peak), bins=4, samples=20, limit=limit)
-            self.assertEqual(curve.points.tolist(), [47, 47, 39, 39])
-            self.assertEqual(curve.exceeding.tolist(), [3, 15, 27, 37])
+            self.assertEqual(curve.points.tolist(), [79, 79, 71, 71])
+            self.assertEqual(curve.exceeding.tolist(), [5, 25, 49, 67])
             self.assertEqual(curve.without_verdict.tolist(), [1, 1, 9, 9])
             self.assertEqual((curve.undecided, curve.not_computed), (4, 16))
-            self.assertIn("left out: 4 undecided and 16 points that are not computed, of 192", curve.notes)
+            self.assertIn("left out: 4 undecided and 16 points that are not computed, of 320", curve.notes)
             self.assertIn("4 undecided, 16 not computed", curve.summary())
 
     def test_leaves_out_points_whose_measure_has_no_logarithm(self):
         region, scale = graded()
         curve = overturn.fragility(result(region, [0.0, 1.0, 2.0, 4.0]), samples=20)
-        self.assertIn("left out: 48 points whose pgv is not positive", curve.notes)
-        self.assertEqual(curve.points.sum(), 144)
+        self.assertIn("left out: 80 points whose pgv is not positive", curve.notes)
+        self.assertEqual(curve.points.sum(), 240)
 
     def test_of_one_motion_has_no_band(self):
         for data in (result(*graded()).isel(motion=1), result(*graded()).isel(motion=[1])):
             curve = overturn.fragility(data)
             self.assertTrue(np.isfinite(curve.median) and np.isnan(curve.band).all())
-            self.assertIn("no confidence band: it needs 5 motions or more, not 1", curve.notes)
+            self.assertIn("no confidence band: it needs 10 motions or more, not 1", curve.notes)
 
     def test_refuses_what_has_no_motions_or_no_such_measure(self):
         with self.assertRaisesRegex(ValueError, "no scale"):
@@ -180,7 +180,7 @@ class TheCurve(unittest.TestCase):
         comments = [line for line in lines if line.startswith("#")]
         self.assertEqual([f"# {line}" for line in curve.summary().splitlines()], comments)
         rows = list(csv.DictReader(lines[len(comments):]))
-        self.assertEqual([row["points"] for row in rows], ["48", "0", "48", "48"])
+        self.assertEqual([row["points"] for row in rows], ["80", "0", "80", "80"])
         self.assertEqual([row["fraction"] for row in rows], ["0.0625", "", "0.6875", "0.9375"])
 
 
@@ -194,23 +194,23 @@ class AnEdgeCase(unittest.TestCase):
         return curve
 
     def test_no_point_overturns(self):
-        curve = self.assert_no_fit(np.full((6, 4, 8), S), [0.5, 1, 2, 4], "no fit: no point overturns, up to pgv = 4")
+        curve = self.assert_no_fit(np.full((10, 4, 8), S), [0.5, 1, 2, 4], "no fit: no point overturns, up to pgv = 4")
         self.assertEqual(curve.fraction[[0, -1]].tolist(), [0, 0])
 
     def test_every_point_overturns(self):
-        self.assert_no_fit(np.full((6, 4, 8), U0), [0.5, 1, 2, 4], "no fit: every point overturns, down to pgv = 0.5")
+        self.assert_no_fit(np.full((10, 4, 8), U0), [0.5, 1, 2, 4], "no fit: every point overturns, down to pgv = 0.5")
 
     def test_all_points_have_one_value(self):
         region, scale = graded()
         curve = self.assert_no_fit(region[:, 1:2], scale[1:2], "no fit: all points have the same pgv = 1")
-        self.assertEqual(curve.fraction.tolist(), [15 / 48])
+        self.assertEqual(curve.fraction.tolist(), [25 / 80])
 
     def test_no_point_has_a_verdict(self):
-        curve = self.assert_no_fit(np.full((6, 4, 8), NOT_COMPUTED), [0.5, 1, 2, 4], "no fit: no point has a verdict")
-        self.assertEqual((len(curve.points), curve.not_computed), (0, 192))
+        curve = self.assert_no_fit(np.full((10, 4, 8), NOT_COMPUTED), [0.5, 1, 2, 4], "no fit: no point has a verdict")
+        self.assertEqual((len(curve.points), curve.not_computed), (0, 320))
 
     def test_no_value_has_points_of_both_kinds(self):
-        region = np.full((6, 4, 8), S)
+        region = np.full((10, 4, 8), S)
         region[:, 2:] = F
         self.assert_no_fit(region, [0.5, 1, 2, 4],
                            "no point overturns up to pgv = 1, and every point does so from 2 on")
@@ -220,14 +220,14 @@ class AnEdgeCase(unittest.TestCase):
         self.assert_no_fit(region[:, ::-1], scale, "no fit: the share of such points does not rise with pgv")
 
     def test_too_many_samples_have_no_fit(self):
-        region = np.full((6, 4, 8), S)
+        region = np.full((10, 4, 8), S)
         region[:, 3] = F
-        region[0, 2, 0] = F  # only this motion has scatter
+        region[0, 2, :3] = F  # only this motion has scatter
         region[0, 3, 0] = S
         curve = overturn.fragility(result(region, [0.5, 1, 2, 4]), samples=200)
         self.assertTrue(np.isfinite(curve.median))
         self.assertTrue(np.isnan([*curve.band.ravel(), *curve.beta_interval]).all())
-        # A sample of 6 motions lacks the first one with the probability (5/6)^6 = 0.33.
+        # A sample of 10 motions lacks the first one with the probability 0.9^10 = 0.35.
         self.assertRegex("".join(curve.notes), r"no confidence band: [5-9]\d of 200 samples of the motions have no fit")
 
 

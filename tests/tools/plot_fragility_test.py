@@ -31,7 +31,7 @@ class Curve(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="overturn-fragility-")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        done = run_tool("synthetic_record", "--suite", "6", "-o", ".", cwd=cls.folder)
+        done = run_tool("synthetic_record", "--suite", "10", "-o", ".", cwd=cls.folder)
         assert done.returncode == 0, done.stderr
         cls.compute("result.h5")
 
@@ -63,13 +63,13 @@ class TestAPicture(Curve):
         for measure in ("pga", "pgv"):
             with open(self.folder / f"curve_{measure}.csv", encoding="utf-8") as file:
                 rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-            self.assertEqual(sum(int(row["points"]) for row in rows), 6 * 60)
+            self.assertEqual(sum(int(row["points"]) for row in rows), 10 * 60)
 
     def test_of_a_limit_counts_more_points(self):
         overturning, _ = self.words("result.h5")
         rocking, words = self.words("result.h5", "--limit", "0.3")
         self.assertIn("fraction with a peak", words)
-        counts = [int(re.search(r": (\d+) of 360 points", text)[1]) for text in (overturning, rocking)]
+        counts = [int(re.search(r": (\d+) of 600 points", text)[1]) for text in (overturning, rocking)]
         self.assertLess(*counts)
 
     def test_without_a_fit_says_why_and_draws_no_curve(self):
@@ -88,8 +88,8 @@ class TestAPicture(Curve):
             file.visititems(lambda name, item: checksums.append(item) if name.endswith("checksum") else None)
             checksums[0][-1] = 0  # of the tile of the last spectrum
         text, words = self.words("part.h5")
-        self.assertRegex(text, r"of 340 points with a verdict, 6 motions; 0 undecided, 20 not computed")
-        self.assertIn("20 points that are not computed, of 360", " ".join(text.split()))
+        self.assertRegex(text, r"of 580 points with a verdict, 10 motions; 0 undecided, 20 not computed")
+        self.assertIn("20 points that are not computed, of 600", " ".join(text.split()))
         self.assertIn("with points without a verdict", words)
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import ndtr
 
 LEVEL = 0.95  # of the intervals
-LEAST_MOTIONS = 5  # below, there are fewer than 126 different samples
+LEAST_MOTIONS = 10  # with fewer, intervals are erratic: some samples consist of nearly equal motions
 MOST_WITHOUT_FIT = 1 - LEVEL  # share of the samples; above it, there are no intervals
 MOST_ITERATIONS = 60
 CONVERGED = 1e-8  # step of a and b, whose standard errors are above 1e-4 for less than 1e8 motions

@@ -52,7 +52,7 @@ def fragility(curve, ax=None):
     ax.grid(color="0.9")
     ax.set_axisbelow(True)
     if ax.get_legend_handles_labels()[0]:
-        ax.legend(loc="upper left", fontsize=9)
+        ax.legend(loc="best", fontsize=9)
     return ax
 
 
