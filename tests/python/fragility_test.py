@@ -111,7 +111,8 @@ class TheCurve(unittest.TestCase):
     def test_is_the_same_whether_scale_or_pga_is_the_axis(self):
         data = result(*graded())
         by_pga = data.rename(pga="record_pga").assign_coords(pga=("scale", 0.5 * data.scale.values))
-        by_pga = by_pga.swap_dims(scale="pga").assign_coords(scale=(("motion", "pga"), np.tile(data.scale.values, (10, 1))))
+        scale = np.tile(data.scale.values, (10, 1))
+        by_pga = by_pga.swap_dims(scale="pga").assign_coords(scale=(("motion", "pga"), scale))
         first, second = (overturn.fragility(each, "pga", samples=20) for each in (data, by_pga))
         self.assertEqual((first.median, first.units), (second.median, "g"))
         np.testing.assert_array_equal(first.band, second.band)
