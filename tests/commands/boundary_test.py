@@ -183,9 +183,14 @@ class ABoundary(Scratch):
         picture = self.drawn("boundary.h5", "--restitution", "1")
         for words in ("minimum overturning amplitude", "other flips", "overturns", "safe"):
             self.assertIn(f">{words}<", picture)
-        result = self.plot("boundary.h5")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("choose with --restitution", result.stderr)
+
+    def test_of_several_blocks_is_a_sheet(self):
+        self.have_boundary()
+        self.assertEqual(self.plot("boundary.h5", "-o", "both.svg").returncode, 0)
+        sheet = (self.folder / "both.svg").read_text()
+        for title in ("r = 0.7 r_max = 0.6381", "r = r_max = 0.9115"):
+            self.assertIn(title, sheet)
+        self.assertEqual(sheet.count("minimum overturning amplitude</text>"), 1)
 
     def test_overlays_its_own_spectrum_only(self):
         self.have_boundary()

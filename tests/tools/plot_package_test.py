@@ -9,10 +9,12 @@ import subprocess
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 from tool import TOOLS, run_tool  # first: adds the package to the path
 import overturn
 from matplotlib import image, pyplot
+from overturn.regions import CODES
 
 OVERTURN = os.environ["OVERTURN"]
 SMOKE = TOOLS.parent / "jobs" / "smoke.toml"
@@ -78,6 +80,13 @@ class TestPicturesFromPython(unittest.TestCase):
                 overturn.plot.spectrum(dataset.isel(amplitude=slice(3)))
             with self.assertRaisesRegex(ValueError, "is not all of"):
                 overturn.plot.spectrum(dataset.isel(restitution=0))
+
+    def test_name_regions_as_the_file_does(self):
+        with h5py.File(self.path("spectrum")) as file:
+            attributes = file["region"].attrs
+            names = dict(zip(attributes["flag_values"].tolist(), attributes["flag_meanings"].decode().split()))
+        self.assertEqual({**names, **{code: name for name, code in CODES.items()}}, names)
+        self.assertEqual(sorted(CODES.values()), list(range(9)))
 
     def test_of_another_kind_of_file_are_refused(self):
         with self.assertRaisesRegex(overturn.PlotError, "is not a spectrum"):

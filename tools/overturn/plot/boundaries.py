@@ -4,6 +4,7 @@ flips."""
 from __future__ import annotations
 
 import argparse
+import textwrap
 from types import SimpleNamespace
 
 import matplotlib
@@ -12,9 +13,10 @@ from matplotlib import pyplot
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from overturn.captions import ground_word, heading, subtitle
-from overturn.choice import add_choice_arguments, chosen_one
+from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
+from overturn.choice import add_choice_arguments, chosen
 from overturn.fields import read_field
+from overturn.plot.sheet import MOST_PANELS, Sheet, layout
 from overturn.regions import REGIONS
 from overturn.result_file import (add_picture_argument, damage_reported, name_picture, open_result,
                                   path_of, plain, save)
@@ -31,7 +33,8 @@ example:
 Each flip of the verdict is a point; consecutive ones along the frequency look like a line. The
 lowest flip of each frequency, the minimum overturning amplitude, is bold; a frequency at which the
 first amplitude of the scan overturns the block has a triangle instead. Overturning amplitudes are
-shaded. Under a record, there are always strips that are narrower than the steps of the scan: what
+shaded. Boundaries of several slendernesses, restitutions or records are plotted as a grid of up to
+12 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
 is shaded as safe may contain them."""
 
 SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED = range(4)
@@ -109,39 +112,64 @@ def draw_flips(panel, lines):
                        marker=marker, markersize=5, color=colour, clip_on=False, zorder=4)
 
 
-def legend_entries(lines):
-    """Returns a handle and a label per item; overturns and safe are always listed."""
+def legend_entries(all_lines):
+    """Returns the handles and labels of what is in any of the planes; overturns and safe are always
+    listed."""
     def marks(marker, colour, size):
         return Line2D([], [], linestyle="none", marker=marker, markersize=size, color=colour)
 
     def shade_of(verdict):
         return Patch(facecolor=SHADES[verdict], edgecolor="black", linewidth=0.5)
+    lowest = "minimum overturning amplitude" if all_lines[0].ground == "pulse" else "lowest flip found"
     entries = [
-        (np.isfinite(lines.minimum()), marks(".", FIRST, 9),
-         "minimum overturning amplitude" if lines.ground == "pulse" else "lowest flip found"),
-        (lines.overturns_at_once, marks("^", FIRST, 5),
+        (lambda lines: np.isfinite(lines.minimum()), marks(".", FIRST, 9), lowest),
+        (lambda lines: lines.overturns_at_once, marks("^", FIRST, 5),
          "overturns at the first amplitude of the job"),
-        (np.isfinite(lines.others()), marks(".", OTHERS, 6), "other flips"),
-        (True, shade_of(UNSAFE), "overturns"), (True, shade_of(SAFE), "safe"),
-        (lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
+        (lambda lines: np.isfinite(lines.others()), marks(".", OTHERS, 6), "other flips"),
+        (lambda lines: True, shade_of(UNSAFE), "overturns"),
+        (lambda lines: True, shade_of(SAFE), "safe"),
+        (lambda lines: lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
          "undecided, or more flips"),
-        (lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet")]
-    return [(handle, label) for present, handle, label in entries if np.any(present)]
+        (lambda lines: lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet")]
+    shown = [(handle, label) for is_in, handle, label in entries
+             if any(np.any(is_in(lines)) for lines in all_lines)]
+    return tuple(zip(*shown))
 
 
-def draw_panel(file, panel, outer, units):
-    lines = Lines(file, outer, units)
+def draw_panel(panel, lines):
     shade(panel, lines)
     draw_flips(panel, lines)
-    across, up = name_axes(file, units)
-    panel.set(xlabel=across, ylabel=up)
-    return lines
+
+
+def note_on_strips(file):
+    step = float(file["flip_amplitude"].attrs["finest_step"])
+    return (f"Scanned in steps of {100 * step:g} % of the scale or less.", "There are narrower strips, "
+            "which are not drawn.")
+
+
+def draw_sheet(file, spectra, columns, units):
+    """Draws several boundaries and returns their axes."""
+    all_lines = [Lines(file, outer, units) for outer in spectra]
+    shares = all(np.array_equal(lines.up.edges, all_lines[0].up.edges) for lines in all_lines)
+    sheet = Sheet(panel_titles(file, spectra, units), columns, 120, shares)
+    for panel, lines in zip(sheet.panels.flat, all_lines):
+        draw_panel(panel, lines)
+    sheet.write(plain(heading(file, spectra)), subtitle(file, spectra, units), *name_axes(file, units))
+    handles, labels = legend_entries(all_lines)
+    labels = ["\n".join(textwrap.wrap(label, 30)) for label in labels]
+    sheet.explain(handles=handles, labels=labels, handler_map={tuple: HandlerTuple(None)},
+                  title="\n".join(textwrap.wrap(" ".join(note_on_strips(file)), 32)) if is_recorded(file)
+                  else None)
+    return list(sheet.panels.flat[:len(spectra)])
 
 
 def draw_figure(file, outer, units):
     figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
-    lines = draw_panel(file, panel, outer, units)
-    handles, labels = zip(*legend_entries(lines))
+    lines = Lines(file, outer, units)
+    draw_panel(panel, lines)
+    across, up = name_axes(file, units)
+    panel.set(xlabel=across, ylabel=up)
+    handles, labels = legend_entries([lines])
     one_row = len(labels) <= (4 if lines.overturns_at_once.any() else 5)
     figure.subplots_adjust(left=0.085, right=0.975, top=0.84 if one_row else 0.81, bottom=0.085)
     figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left",
@@ -149,24 +177,26 @@ def draw_figure(file, outer, units):
                   fontsize=9.5, handletextpad=0.5, columnspacing=1.4)
     figure.text(0.085, 0.955, plain(heading(file, [outer]), 80), fontsize=13)
     figure.text(0.085, 0.918, subtitle(file, [outer], units), fontsize=10)
-    if lines.ground == "record":
-        step = float(file["flip_amplitude"].attrs["finest_step"])
-        figure.text(0.5, 0.013, f"Scanned in steps of {100 * step:g} % of the scale or less. There "
-                    "are narrower strips, which are not drawn.", ha="center", fontsize=10)
+    if is_recorded(file):
+        figure.text(0.5, 0.013, " ".join(note_on_strips(file)), ha="center", fontsize=10)
         figure.subplots_adjust(bottom=0.115)
-    return figure
+    return panel
 
 
 def draw(path, arguments, ax=None):
-    """Draws into axes, or else a figure. Returns the axes."""
+    """Draws into axes, or else a figure. Returns the axes; a list of them for several boundaries."""
     with open_result(path, "overturning boundary",
                      "a boundary written by overturn boundary") as file, damage_reported(path):
         expect_size(file, arguments.units)
-        outer = chosen_one(file, arguments)
-        if ax is None:
-            return draw_figure(file, outer, arguments.units).axes[0]
-        draw_panel(file, ax, outer, arguments.units)
-        return ax
+        spectra, columns = layout(chosen(file, arguments, 1 if ax is not None else MOST_PANELS))
+        if ax is not None:
+            draw_panel(ax, Lines(file, spectra[0], arguments.units))
+            across, up = name_axes(file, arguments.units)
+            ax.set(xlabel=across, ylabel=up)
+            return ax
+        if len(spectra) > 1:
+            return draw_sheet(file, spectra, columns, arguments.units)
+        return draw_figure(file, spectra[0], arguments.units)
 
 
 def boundary(result, *, motion: int | None = None, slenderness: int | None = None,
@@ -177,7 +207,7 @@ def boundary(result, *, motion: int | None = None, slenderness: int | None = Non
     restitution: indices, counted from 0, of one boundary of several. units: "job", or "physical" for s
     and g. ax: axes of Matplotlib to draw into, without a legend.
 
-    Returns the axes. Raises overturn.PlotError."""
+    Returns the axes; a list of them for several boundaries. Raises overturn.PlotError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 units=units)
     return draw(path_of(result), arguments, ax)
@@ -197,4 +227,5 @@ def read_arguments(argv):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    save(draw(arguments.file, arguments).figure, arguments.output, dpi=120)
+    drawn = draw(arguments.file, arguments)
+    save((drawn[0] if isinstance(drawn, list) else drawn).figure, arguments.output, dpi=120)

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
-import itertools
-import math
 from types import SimpleNamespace
 
 import numpy as np
-from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, chosen
 from overturn.overlay import draw_boundary, open_boundary
+from overturn.plot.sheet import MOST_PANELS, Sheet, layout
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
 from overturn.result_file import (add_picture_argument, damage_reported, name_picture, path_of,
@@ -46,64 +44,6 @@ Axes are drawn in the units of the job. If it gives the size of the block, all c
 
 + and - denote the side to which a block falls, or swings if it is safe. For an unfinished file the
 computed part is plotted."""
-
-MOST_PANELS = 12
-
-
-class Sheet:
-    """A figure of equal square panels; lengths in inches fix the number of pixels of a panel. Panels
-    with the same vertical axis share the numbers beside it."""
-
-    LEFT, RIGHT, BOTTOM, GAP = 0.85, 3.25, 0.7, 0.45
-
-    def __init__(self, titles, columns, dpi, shares_vertical_axis):
-        count = len(titles)
-        self.top = 1 + 0.15 * titles[0].count("\n")
-        rows = -(-count // columns)
-        side = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8}[columns]
-        self.pixels = round(side * dpi)
-        self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
-        self.height = self.top + rows * (side + self.GAP) - self.GAP + self.BOTTOM
-        self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
-                                                   sharex=True, sharey=shares_vertical_axis,
-                                                   figsize=(self.width, self.height))
-        for panel, title in zip(self.panels.flat, titles):
-            panel.set_title(title, fontsize=9)
-        self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
-                                    1 - self.RIGHT / self.width, 1 - self.top / self.height,
-                                    self.GAP / side, self.GAP / side)
-        for unused in self.panels.flat[count:]:
-            unused.set_visible(False)
-        for lowest in self.panels.flat[max(count - columns, 0):count]:
-            lowest.tick_params(labelbottom=True)
-
-    def write(self, title, second_line, across, up):
-        left = self.LEFT / self.width
-        self.figure.text(left, 1 - 0.4 / self.height, title, fontsize=14)
-        self.figure.text(left, 1 - 0.67 / self.height, second_line, fontsize=11)
-        self.figure.supxlabel(across, fontsize=12, y=0.15 / self.height,
-                              x=(self.LEFT + self.width - self.RIGHT) / 2 / self.width)
-        self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,
-                              y=(self.BOTTOM + self.height - self.top) / 2 / self.height)
-
-    def explain(self, entries, ground):
-        corner = (1 - (self.RIGHT - 0.2) / self.width, 1 - self.top / self.height)
-        legend = self.figure.legend(
-            handles=entries, loc="upper left", bbox_to_anchor=corner, borderaxespad=0,
-            frameon=False, fontsize=10.5, handlelength=1.6, handleheight=1.2, labelspacing=0.7,
-            title=f"At the end of the {ground}\n(+ and − are the side it moves to)",
-            alignment="left")
-        legend.get_title().set_fontsize(10.5)
-
-
-def layout(choices):
-    """Returns the indices of the spectra in the order of the panels, and the number of columns: the
-    last dimension of several values if there are two or more, otherwise nearly a square."""
-    spectra = list(itertools.product(*choices))
-    several = [len(places) for places in choices if len(places) > 1]
-    if len(several) > 1 and several[-1] <= 4:
-        return spectra, several[-1]
-    return spectra, math.ceil(math.sqrt(len(spectra)))
 
 
 def cover(panel, picture):
@@ -159,7 +99,8 @@ def draw_sheet(file, spectra, columns, misjudged, arguments, dpi):
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
                               label="flip of the verdict"))
-    sheet.explain(entries, ground_word(file))
+    sheet.explain(handles=entries, title=f"At the end of the {ground_word(file)}\n"
+                                         "(+ and − are the side it moves to)")
     return sheet
 
 

@@ -1,0 +1,62 @@
+"""Sheets of several planes."""
+
+import itertools
+import math
+
+from matplotlib import pyplot
+
+MOST_PANELS = 12
+
+
+class Sheet:
+    """A figure of equal square panels; lengths in inches fix the number of pixels of a panel. Panels
+    with the same vertical axis share the numbers beside it."""
+
+    LEFT, RIGHT, BOTTOM, GAP = 0.85, 3.25, 0.7, 0.45
+
+    def __init__(self, titles, columns, dpi, shares_vertical_axis):
+        count = len(titles)
+        self.top = 1 + 0.15 * titles[0].count("\n")
+        rows = -(-count // columns)
+        side = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8}[columns]
+        self.pixels = round(side * dpi)
+        self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
+        self.height = self.top + rows * (side + self.GAP) - self.GAP + self.BOTTOM
+        self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
+                                                   sharex=True, sharey=shares_vertical_axis,
+                                                   figsize=(self.width, self.height))
+        for panel, title in zip(self.panels.flat, titles):
+            panel.set_title(title, fontsize=9)
+        self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
+                                    1 - self.RIGHT / self.width, 1 - self.top / self.height,
+                                    self.GAP / side, self.GAP / side)
+        for unused in self.panels.flat[count:]:
+            unused.set_visible(False)
+        for lowest in self.panels.flat[max(count - columns, 0):count]:
+            lowest.tick_params(labelbottom=True)
+
+    def write(self, title, second_line, across, up):
+        left = self.LEFT / self.width
+        self.figure.text(left, 1 - 0.4 / self.height, title, fontsize=14)
+        self.figure.text(left, 1 - 0.67 / self.height, second_line, fontsize=11)
+        self.figure.supxlabel(across, fontsize=12, y=0.15 / self.height,
+                              x=(self.LEFT + self.width - self.RIGHT) / 2 / self.width)
+        self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,
+                              y=(self.BOTTOM + self.height - self.top) / 2 / self.height)
+
+    def explain(self, **entries):
+        corner = (1 - (self.RIGHT - 0.2) / self.width, 1 - self.top / self.height)
+        legend = self.figure.legend(
+            loc="upper left", bbox_to_anchor=corner, borderaxespad=0, frameon=False, fontsize=10.5,
+            handlelength=1.6, handleheight=1.2, labelspacing=0.7, alignment="left", **entries)
+        legend.get_title().set_fontsize(10.5)
+
+
+def layout(choices):
+    """Returns the indices of the spectra in the order of the panels, and the number of columns: the
+    last dimension of several values if there are two or more, otherwise nearly a square."""
+    spectra = list(itertools.product(*choices))
+    several = [len(places) for places in choices if len(places) > 1]
+    if len(several) > 1 and several[-1] <= 4:
+        return spectra, several[-1]
+    return spectra, math.ceil(math.sqrt(len(spectra)))
