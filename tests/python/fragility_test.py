@@ -192,6 +192,11 @@ class AnEdgeCase(unittest.TestCase):
         curve = overturn.fragility(result(region, scale), samples=20)
         self.assertTrue(np.isnan([curve.median, curve.beta, *curve.probability, *curve.band.ravel()]).all())
         self.assertTrue(any(note in each for each in curve.notes), curve.notes)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.csv"
+            curve.to_csv(path)
+            rows = list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+        self.assertEqual([row["probability"] for row in rows], [""] * len(curve.points))
         return curve
 
     def test_no_point_overturns(self):

@@ -66,8 +66,9 @@ class Fragility:
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes one row per bin, below the summary as comments that begin with #. The fitted columns are
         those of the middle of the bin."""
-        middle = np.sqrt(self.edges[:-1] * self.edges[1:])
-        fitted = [np.interp(np.log(middle), np.log(self.value), curve) for curve in (self.probability, *self.band)]
+        middle = np.log(self.edges[:-1] * self.edges[1:]) / 2
+        fitted = [np.interp(middle, np.log(self.value), curve) if len(middle) else middle
+                  for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
                     *fitted)
         with open(path, "w", newline="", encoding="utf-8") as file:
