@@ -78,19 +78,24 @@ class AnInstallation(unittest.TestCase):
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 
     def test_every_tool_works(self):
-        history, boundary, accuracy = (self.folder / f"{name}.h5" for name in ("history", "boundary", "accuracy"))
+        history, boundary, accuracy, recorded = (
+            self.folder / f"{name}.h5" for name in ("history", "boundary", "accuracy", "recorded"))
+        run(self.prefix / "bin/overturn-synthetic-record", "-o", self.folder / "record.AT2")
+        run(self.overturn, "run", self.folder / "job.toml", "-o", recorded, "--set",
+            'scene={record="record.AT2"}', "--set",
+            "plane={scale.values=[1,2], size.values=[1], slenderness=0.2, restitution.values=[0.8]}")
         run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
         run(self.overturn, "boundary", self.folder / "job.toml", "-o", boundary)
         run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
         outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
                    "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
                    "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
-                   "to-csv": (self.spectrum, "spectrum.csv"), "to-xdmf": (self.spectrum, "spectrum.xdmf2")}
+                   "plot-fragility": (recorded, "fragility.png"), "to-csv": (self.spectrum, "spectrum.csv"),
+                   "to-xdmf": (self.spectrum, "spectrum.xdmf2")}
         for tool, (argument, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", argument, "-o", self.folder / output)
             self.assertGreater((self.folder / output).stat().st_size, 100, tool)
-        tested = {f"overturn-{tool}" for tool in (*outputs, "join-spectra", "synthetic-record")}  # below, and a record
-        run(self.prefix / "bin/overturn-synthetic-record", "-o", self.folder / "record.AT2")
+        tested = {f"overturn-{tool}" for tool in (*outputs, "join-spectra", "synthetic-record")}  # below, and above
         self.assertEqual({path.name for path in (self.prefix / "bin").glob("overturn-*")}, tested)
 
     def test_a_tool_finds_the_program(self):

@@ -72,6 +72,41 @@ class TestASyntheticRecord(Written):
         self.assertGreater(within, 0.8 * power.sum())  # 0.87; of white noise, a fifth
 
 
+class TestASuite(Written):
+    def suite(self):
+        run = self.run_tool("--suite", "20")
+        self.assertEqual((run.returncode, run.stdout), (0, "suite\n"), run.stderr)
+        return sorted((self.folder / "suite").iterdir())
+
+    def test_consists_of_different_records(self):
+        paths = self.suite()
+        self.assertEqual([path.name for path in paths], [f"{number:02}.AT2" for number in range(1, 21)])
+        commands = [path.read_text().splitlines()[1] for path in paths]
+        self.assertEqual(len(set(commands)), 20)
+        # Of 20 records, 3 in 10 have a pulse; with a probability of 0.999 at least 1 and at most 12.
+        self.assertIn(sum("--pulse-period" in command for command in commands), range(1, 13))
+
+    def test_consists_of_records_that_the_command_in_their_header_writes(self):
+        for path in self.suite()[:4]:
+            words = path.read_text().splitlines()[1].replace(", seed", " --seed").split()
+            self.assertEqual(self.write(*words[1:]), path.read_bytes())
+
+
+class TestAPulse(Written):
+    def test_has_a_velocity_above_that_of_the_noise_and_ends_at_rest(self):
+        def velocity(*arguments):
+            _, values = self.values(*arguments)
+            return np.cumsum(values[1:] + values[:-1]) / 2 * 0.01 * GRAVITY
+        for period in ("1", "3"):
+            noise, pulse = velocity(), velocity("--pulse-period", period)
+            # The ratio of the peak velocities is 1.5, and the noise adds up to 1; the record is scaled to its PGA.
+            ratio = np.abs(pulse).max() / np.abs(noise).max()
+            self.assertGreater(ratio, 0.9)
+            window = slice(int(500 - 100 * float(period)), int(500 + 100 * float(period)))
+            self.assertIn(np.abs(pulse).argmax(), range(window.start, window.stop))
+            self.assertLess(abs(pulse[-1]), 0.01 * np.abs(pulse).max())
+
+
 class TestASyntheticRecordRefused(Written):
     def refuses(self, code, sentence, *arguments):
         run = self.run_tool(*arguments)
@@ -93,6 +128,11 @@ class TestASyntheticRecordRefused(Written):
     def test_of_a_peak_that_has_no_digits_or_too_many(self):
         for pga in ("1e-9", "1e9"):
             self.refuses(2, "is outside 0.001 to 1000", "--pga", pga)
+
+    def test_of_a_pulse_that_does_not_fit_or_a_suite_of_none(self):
+        self.refuses(2, "is above a quarter of the duration", "--pulse-period", "6")
+        self.refuses(2, "is outside 1 to 9999", "--suite", "0")
+        self.refuses(2, "cannot be combined with --suite", "--suite", "3", "--pulse-period", "1")
 
     def test_of_an_output_in_a_missing_folder(self):
         self.refuses(74, "cannot write \"nowhere/a.AT2\"", "-o", "nowhere/a.AT2")

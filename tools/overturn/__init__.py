@@ -16,6 +16,8 @@ _MODULE_OF = {
     "run": "program",
     "check": "program",
     "ProgramError": "program",
+    "fragility": "fragility_curve",
+    "Fragility": "fragility_curve",
     "read_record": "records",
     "Record": "records",
     "RecordError": "records",

@@ -1,7 +1,8 @@
 """Pictures of result files. Each function returns axes of Matplotlib."""
 
 from overturn.plot.boundaries import boundary
+from overturn.plot.fragility_curves import fragility
 from overturn.plot.histories import history
 from overturn.plot.spectra import spectrum
 
-__all__ = ["boundary", "history", "spectrum"]
+__all__ = ["boundary", "fragility", "history", "spectrum"]

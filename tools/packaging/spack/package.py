@@ -31,7 +31,7 @@ class Overturn(CMakePackage):
     depends_on("xxhash")
     depends_on("python@3.11:", when="+python", type=("build", "run"))
     depends_on("py-pybind11@2.10:", when="+python", type="build")
-    for package in ("py-numpy", "py-h5py", "py-matplotlib", "py-xarray", "py-h5netcdf"):
+    for package in ("py-numpy", "py-h5py", "py-matplotlib", "py-scipy", "py-xarray", "py-h5netcdf"):
         depends_on(package, when="+python", type="run")
 
     def cmake_args(self):

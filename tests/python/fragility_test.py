@@ -1,0 +1,241 @@
+"""overturn.fragility(). Requires the package on PYTHONPATH."""
+
+import csv
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+import overturn
+import xarray
+from overturn.lognormal_fit import Counts, fit
+from scipy.optimize import minimize
+from scipy.stats import norm
+
+MEDIAN, BETA = 0.4, 0.5
+AT = np.log([0.2, 0.4, 0.8])
+S, S_PLUS, U0, F, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 8, 254, 255
+
+
+def simulated(seed, motions=50, values=10, blocks=20, shared=0.5):
+    """Counts of blocks of lognormal capacity, whose logarithms have the correlation shared^2 under one
+    motion; all blocks meet all values."""
+    random = np.random.default_rng(seed)
+    log_measure = np.log(MEDIAN) + np.linspace(-1.2, 1.2, values)
+    of_motion, own = random.standard_normal((motions, 1)), random.standard_normal((motions, blocks))
+    capacity = np.log(MEDIAN) + BETA * (shared * of_motion + np.sqrt(1 - shared**2) * own)
+    exceeding = (capacity[:, :, None] <= log_measure).sum(axis=1)
+    return Counts(log_measure, np.full((motions, values), float(blocks)), exceeding.astype(float))
+
+
+class TheFit(unittest.TestCase):
+    def test_is_that_of_a_general_minimizer(self):
+        counts = simulated(1)
+
+        def cost(x):
+            z = (counts.log_measure - x[0]) / np.exp(x[1])
+            others = counts.points - counts.exceeding
+            return -(counts.exceeding * norm.logcdf(z) + others * norm.logsf(z)).sum()
+        log_median, log_beta = minimize(cost, [0.0, 0.0], method="BFGS").x
+        found = fit(counts, AT, 10, 1)
+        # A gradient of 1e-5 in BFGS over a curvature above 1e3, of 10,000 points, leaves 1e-8; differences of
+        # the cost, about 3e3, leave 1e-6.
+        self.assertAlmostEqual(np.log(found.median), log_median, delta=1e-5)
+        self.assertAlmostEqual(np.log(found.beta), log_beta, delta=1e-5)
+
+    def test_has_intervals_that_contain_the_parameters_as_often_as_they_claim(self):
+        repetitions = 400
+        truth = norm.cdf((AT - np.log(MEDIAN)) / BETA)
+        hits = np.zeros(5)
+        for seed in range(repetitions):
+            found = fit(simulated(seed), AT, 400, seed)
+            low, high = np.column_stack([found.median_interval, found.beta_interval, found.band])
+            true = [MEDIAN, BETA, *truth]
+            hits += (low <= true) & (true <= high)
+        # Three standard deviations of a binomial count around 380 of 400. Intervals of 90 % would contain the
+        # parameters 360 times, which is 4.6 deviations below.
+        deviation = np.sqrt(repetitions * 0.95 * 0.05)
+        np.testing.assert_array_less(abs(hits - 0.95 * repetitions), 3 * deviation, err_msg=f"{hits}")
+
+    def test_depends_on_the_seed_only_in_its_intervals(self):
+        first, same, other = (fit(simulated(1), AT, 100, seed) for seed in (1, 1, 2))
+        np.testing.assert_array_equal(first.band, same.band)
+        self.assertFalse(np.array_equal(first.band, other.band))
+        self.assertEqual(first.median, other.median)
+
+
+def result(region, scale, motions=None, pgv=1.0, **fields):
+    """A result as overturn.open returns it: region (motion, scale, block)."""
+    region = np.asarray(region, np.uint8)
+    motions = region.shape[0]
+    dims = ("motion", "scale", "block")
+    names = ["S", "S_plus", "S_minus", "U0_plus", "U0_minus", "U1_plus", "U1_minus", "F_plus", "F_minus", "undecided",
+             "not_computed"]
+    flags = {"flag_values": np.uint8([*range(9), 254, 255]), "flag_meanings": " ".join(names)}
+    data = {"region": (dims, region, flags), **{name: (dims, values) for name, values in fields.items()}}
+    measures = {"pga": 0.5, "pgv": pgv, "arias_intensity": 3.0, "significant_duration": 8.0}
+    return xarray.Dataset(data, coords={
+        "motion": np.arange(1.0, motions + 1), "scale": np.asarray(scale, float),
+        **{name: ("motion", np.full(motions, value), {"units": "m s-1"}) for name, value in measures.items()}})
+
+
+def graded(motions=10, blocks=8):
+    """More blocks overturn at larger scales; motions differ by one block."""
+    scale = np.array([0.5, 1.0, 2.0, 4.0])
+    counts = np.minimum(np.array([0, 2, 5, 7]) + np.arange(motions)[:, None] % 2, blocks)
+    region = np.where(np.arange(blocks) < counts[..., None], F, S_PLUS)
+    return region, scale
+
+
+class TheCurve(unittest.TestCase):
+    def test_counts_the_blocks_that_overturn_in_each_bin(self):
+        curve = overturn.fragility(result(*graded()), "pgv", bins=4, samples=50)
+        self.assertEqual(curve.points.tolist(), [80] * 4)
+        self.assertEqual(curve.exceeding.tolist(), [5, 25, 55, 75])
+        np.testing.assert_allclose(curve.fraction, np.array([5, 25, 55, 75]) / 80)
+        self.assertEqual((curve.motions, curve.undecided, curve.not_computed, curve.notes), (10, 0, 0, ()))
+        self.assertTrue(curve.median_interval[0] < curve.median < curve.median_interval[1])
+        self.assertTrue((curve.band[0] <= curve.probability).all() and (curve.probability <= curve.band[1]).all())
+
+    def test_scales_the_measures_like_the_motion(self):
+        by_pgv = overturn.fragility(result(*graded(), pgv=0.8), "pgv", samples=1)
+        by_pga = overturn.fragility(result(*graded()), "pga", samples=1)
+        by_arias = overturn.fragility(result(*graded()), "arias_intensity", samples=1)
+        self.assertAlmostEqual(by_pga.median / 0.5, by_pgv.median / 0.8, delta=1e-6)
+        self.assertAlmostEqual(by_arias.median / 3.0, (by_pgv.median / 0.8) ** 2, delta=1e-6)
+        self.assertAlmostEqual(by_arias.beta, 2 * by_pgv.beta, delta=1e-6)
+        duration = overturn.fragility(result(*graded()), "significant_duration", samples=1)
+        np.testing.assert_allclose(duration.edges, [8 / 1.05, 8 * 1.05])
+        self.assertIn("no fit: all points have the same significant_duration = 8", duration.notes)
+
+    def test_is_the_same_whether_scale_or_pga_is_the_axis(self):
+        data = result(*graded())
+        by_pga = data.rename(pga="record_pga").assign_coords(pga=("scale", 0.5 * data.scale.values))
+        scale = np.tile(data.scale.values, (10, 1))
+        by_pga = by_pga.swap_dims(scale="pga").assign_coords(scale=(("motion", "pga"), scale))
+        first, second = (overturn.fragility(each, "pga", samples=20) for each in (data, by_pga))
+        self.assertEqual((first.median, first.units), (second.median, "g"))
+        np.testing.assert_array_equal(first.band, second.band)
+
+    def test_of_blocks_with_motions_of_their_own_is_the_same(self):
+        data = result(*graded())
+        rows = data.stack(row=("motion", "scale", "block"))
+        own = xarray.Dataset({"region": ("block", rows.region.values, data.region.attrs)}, coords={
+            "motion": data.motion, "pgv": data.pgv, "scale": ("block", rows.scale.values),
+            "motion_number": ("block", rows.motion.values)})
+        first, second = (overturn.fragility(each, samples=20) for each in (data, own))
+        self.assertEqual((first.median, first.motions), (second.median, second.motions))
+        np.testing.assert_array_equal(first.band, second.band)
+
+    def test_counts_peaks_above_a_limit(self):
+        region, scale = graded()
+        peak = np.where(region == F, np.inf, 0.3)
+        peak[:, 0, 0] = 0.7
+        curve = overturn.fragility(result(region, scale, peak=peak), limit=0.5, bins=4, samples=1)
+        self.assertEqual(curve.exceeding.tolist(), [10, 25, 55, 75])
+        with self.assertRaisesRegex(ValueError, "no field peak"):
+            overturn.fragility(result(region, scale), limit=0.5)
+
+    def test_leaves_out_points_without_a_verdict_and_reports_them(self):
+        region, scale = graded()
+        region[0, :, 7] = UNDECIDED  # safe otherwise
+        region[9, 2:] = NOT_COMPUTED
+        peak = np.where(region >= UNDECIDED, np.nan, np.where(region == F, np.inf, 0.3))
+        for limit in (None, 0.5):
+            curve = overturn.fragility(result(region, scale, peak=peak), bins=4, samples=20, limit=limit)
+            self.assertEqual(curve.points.tolist(), [79, 79, 71, 71])
+            self.assertEqual(curve.exceeding.tolist(), [5, 25, 49, 67])
+            self.assertEqual(curve.without_verdict.tolist(), [1, 1, 9, 9])
+            self.assertEqual((curve.undecided, curve.not_computed), (4, 16))
+            self.assertIn("left out: 4 undecided and 16 points that are not computed, of 320", curve.notes)
+            self.assertIn("4 undecided, 16 not computed", curve.summary())
+
+    def test_leaves_out_points_whose_measure_has_no_logarithm(self):
+        region, scale = graded()
+        curve = overturn.fragility(result(region, [0.0, 1.0, 2.0, 4.0]), samples=20)
+        self.assertIn("left out: 80 points whose pgv is not positive", curve.notes)
+        self.assertEqual(curve.points.sum(), 240)
+
+    def test_of_one_motion_has_no_band(self):
+        for data in (result(*graded()).isel(motion=1), result(*graded()).isel(motion=[1])):
+            curve = overturn.fragility(data)
+            self.assertTrue(np.isfinite(curve.median) and np.isnan(curve.band).all())
+            self.assertIn("no confidence band: it needs 10 motions or more, not 1", curve.notes)
+
+    def test_refuses_what_has_no_motions_or_no_such_measure(self):
+        with self.assertRaisesRegex(ValueError, "no scale"):
+            overturn.fragility(result(*graded()).drop_vars("scale"))
+        with self.assertRaisesRegex(ValueError, "'mass' is not an intensity measure of the motions. This result has"):
+            overturn.fragility(result(*graded()), "mass")
+        with self.assertRaisesRegex(ValueError, "bins = 0"):
+            overturn.fragility(result(*graded()), bins=0)
+
+    def test_is_written_as_a_table(self):
+        region, scale = graded()
+        region[:, 1] = NOT_COMPUTED
+        curve = overturn.fragility(result(region, scale), bins=4, samples=20)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.csv"
+            curve.to_csv(path)
+            lines = path.read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        self.assertEqual([f"# {line}" for line in curve.summary().splitlines()], comments)
+        rows = list(csv.DictReader(lines[len(comments):]))
+        self.assertEqual([row["points"] for row in rows], ["80", "0", "80", "80"])
+        self.assertEqual([row["fraction"] for row in rows], ["0.0625", "", "0.6875", "0.9375"])
+
+
+class AnEdgeCase(unittest.TestCase):
+    """There is no fit, and the curve says why."""
+
+    def assert_no_fit(self, region, scale, note):
+        curve = overturn.fragility(result(region, scale), samples=20)
+        self.assertTrue(np.isnan([curve.median, curve.beta, *curve.probability, *curve.band.ravel()]).all())
+        self.assertTrue(any(note in each for each in curve.notes), curve.notes)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.csv"
+            curve.to_csv(path)
+            rows = list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+        self.assertEqual([row["probability"] for row in rows], [""] * len(curve.points))
+        return curve
+
+    def test_no_point_overturns(self):
+        curve = self.assert_no_fit(np.full((10, 4, 8), S), [0.5, 1, 2, 4], "no fit: no point overturns, up to pgv = 4")
+        self.assertEqual(curve.fraction[[0, -1]].tolist(), [0, 0])
+
+    def test_every_point_overturns(self):
+        self.assert_no_fit(np.full((10, 4, 8), U0), [0.5, 1, 2, 4], "no fit: every point overturns, down to pgv = 0.5")
+
+    def test_all_points_have_one_value(self):
+        region, scale = graded()
+        curve = self.assert_no_fit(region[:, 1:2], scale[1:2], "no fit: all points have the same pgv = 1")
+        self.assertEqual(curve.fraction.tolist(), [25 / 80])
+
+    def test_no_point_has_a_verdict(self):
+        curve = self.assert_no_fit(np.full((10, 4, 8), NOT_COMPUTED), [0.5, 1, 2, 4], "no fit: no point has a verdict")
+        self.assertEqual((len(curve.points), curve.not_computed), (0, 320))
+
+    def test_no_value_has_points_of_both_kinds(self):
+        region = np.full((10, 4, 8), S)
+        region[:, 2:] = F
+        self.assert_no_fit(region, [0.5, 1, 2, 4],
+                           "no point overturns up to pgv = 1, and every point does so from 2 on")
+
+    def test_fewer_points_overturn_at_larger_values(self):
+        region, scale = graded()
+        self.assert_no_fit(region[:, ::-1], scale, "no fit: the share of such points does not rise with pgv")
+
+    def test_too_many_samples_have_no_fit(self):
+        region = np.full((10, 4, 8), S)
+        region[:, 3] = F
+        region[0, 2, :3] = F  # only this motion has scatter
+        region[0, 3, 0] = S
+        curve = overturn.fragility(result(region, [0.5, 1, 2, 4]), samples=200)
+        self.assertTrue(np.isfinite(curve.median))
+        self.assertTrue(np.isnan([*curve.band.ravel(), *curve.beta_interval]).all())
+        # A sample of 10 motions lacks the first one with the probability 0.9^10 = 0.35.
+        self.assertRegex("".join(curve.notes), r"no confidence band: [5-9]\d of 200 samples of the motions have no fit")
+
+
+if __name__ == "__main__":
+    unittest.main()

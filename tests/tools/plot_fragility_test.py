@@ -1,0 +1,118 @@
+"""The pictures and numbers of tools/plot_fragility.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import csv
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from tool import run_tool
+
+JOB = """
+    scene.record = "*.AT2"
+    output.fields = ["region", "peak"]
+    [plane]
+    size = { first = 0.5, last = 2.0, count = 4 }
+    scale = { first = 0.5, last = 4.0, count = 5, spacing = "log" }
+    restitution = { values = [0.9], of = "maximum" }
+    slenderness = { first = 0.15, last = 0.3, count = 3 }
+    """
+
+
+class Curve(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-fragility-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        done = run_tool("synthetic_record", "--suite", "10", "-o", ".", cwd=cls.folder)
+        assert done.returncode == 0, done.stderr
+        cls.compute("result.h5")
+
+    @classmethod
+    def compute(cls, name, *overrides, job=JOB):
+        (cls.folder / "job.toml").write_text(job)
+        settings = [word for override in overrides for word in ("--set", override)]
+        subprocess.run([os.environ["OVERTURN"], "run", "job.toml", "-o", name, *settings], cwd=cls.folder, check=True,
+                       capture_output=True)
+
+    def plot(self, *arguments):
+        return run_tool("plot_fragility", *arguments, cwd=self.folder)
+
+    def words(self, *arguments):
+        done = self.plot(*arguments, "-o", "picture.svg")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture = (self.folder / "picture.svg").read_text("utf-8")
+        texts = re.findall(r"<!-- (.*?) -->|<text[^>]*>([^<]+)", picture)  # drawn as paths, or as text
+        return done.stdout, " ".join("".join(text) for text in texts)
+
+
+class TestAPicture(Curve):
+    def test_has_a_panel_for_each_measure(self):
+        text, words = self.words("result.h5", "--im", "pga", "pgv", "--csv", "curve.csv")
+        self.assertIn("overturning against pga [g]", text)
+        self.assertIn("overturning against pgv [m s-1]", text)
+        for label in ("PGA [g]", "PGV [m/s]", "95 % confidence of the curve"):
+            self.assertIn(label, words)
+        for measure in ("pga", "pgv"):
+            with open(self.folder / f"curve_{measure}.csv", encoding="utf-8") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            self.assertEqual(sum(int(row["points"]) for row in rows), 10 * 60)
+
+    def test_of_a_limit_counts_more_points(self):
+        overturning, _ = self.words("result.h5")
+        rocking, words = self.words("result.h5", "--limit", "0.3")
+        self.assertIn("fraction with a peak", words)
+        counts = [int(re.search(r": (\d+) of 600 points", text)[1]) for text in (overturning, rocking)]
+        self.assertLess(*counts)
+
+    def test_without_a_fit_says_why_and_draws_no_curve(self):
+        self.compute("safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")
+        text, words = self.words("safe.h5")
+        self.assertIn("no fit: no point overturns", text)
+        self.assertIn("no fit: no point overturns", words)
+        self.assertNotIn("lognormal", words)
+        self.assertNotIn("confidence", words)
+
+    def test_of_an_unfinished_file_reports_what_is_not_computed(self):
+        import h5py
+        shutil.copy(self.folder / "result.h5", self.folder / "part.h5")
+        with h5py.File(self.folder / "part.h5", "a") as file:
+            checksums = []
+            file.visititems(lambda name, item: checksums.append(item) if name.endswith("checksum") else None)
+            checksums[0][-1] = 0  # of the tile of the last spectrum
+        text, words = self.words("part.h5")
+        self.assertRegex(text, r"of 580 points with a verdict, 10 motions; 0 undecided, 20 not computed")
+        self.assertIn("20 points that are not computed, of 600", " ".join(text.split()))
+        self.assertIn("with points without a verdict", words)
+
+
+class TestACurveRefused(Curve):
+    def refuses(self, code, sentence, *arguments):
+        done = self.plot(*arguments, "-o", "refused.png")
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(sentence, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        self.assertFalse((self.folder / "refused.png").exists())
+
+    def test_of_what_is_not_a_result_under_records(self):
+        self.refuses(74, "cannot read", "missing.h5")
+        pulse = 'scene.pulse="one_sine"\n[plane]\nfrequency.values=[1, 2]\namplitude.values=[1, 2]\n' \
+            "slenderness=0.2\nrestitution.values=[0.8]\n"
+        self.compute("pulse.h5", job=pulse)
+        self.refuses(2, "a result under records", "pulse.h5")
+
+    def test_of_a_measure_or_a_field_that_is_not_there(self):
+        self.refuses(2, "'mass' is not an intensity measure", "result.h5", "--im", "mass")
+        self.compute("region.h5", 'output.fields=["region"]')
+        self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
+
+
+if __name__ == "__main__":
+    unittest.main()

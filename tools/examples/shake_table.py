@@ -1,0 +1,322 @@
+#!/usr/bin/env python3
+"""Compares rocking blocks with shake-table tests of rocks: fits a symmetric block to each rock on one set of
+tests, and predicts another set."""
+
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import sys
+import typing
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+
+from overturn.interpreter import run_elsewhere
+
+try:
+    import h5py
+    import numpy as np
+    import overturn
+    from scipy.optimize import differential_evolution, minimize
+    from scipy.special import expit, ndtr
+except ImportError as error:
+    run_elsewhere(error)
+
+EPILOG = """\
+The model: a rock topples with the probability that a symmetric block overturns whose slenderness is
+lognormal. Three numbers per rock are fitted by maximum likelihood: the median slenderness, its scatter, and
+the restitution r. The frequency parameter p is fixed. Verdicts are computed on a grid of slendernesses and
+restitutions; the probability is their weighted mean. A narrow range of r, fixed and not fitted, is included,
+because single verdicts change at tiny changes of r.
+
+The baseline is a logistic regression on ln PGA and ln(PGV/PGA). Cross-validation is by record.
+
+The file (HDF5): `acceleration` with the attributes dt [s] and units (g), all tests in a row; in the group `tests`
+`start` and `length` of each test [samples]; for scores `toppled_NAME` of each rock (1, 0, or another value if not
+known); for the fit also `record`, the name of the record. Other datasets are not used."""
+
+FREQUENCY_PARAMETER = 4.5  # p [1/s]
+SLENDERNESS = np.geomspace(0.03, 0.6, 161)  # [rad]; steps of 1.9 %: 32 or more between -3 and 3 least scatters
+RESTITUTION = np.linspace(0.5, 0.98, 25)  # r [1]
+RESTITUTION_RANGE = 0.12  # r varies by less, with triangular weights [1]
+BOUNDS = {"slenderness": (0.04, 0.5), "restitution": (0.5, 0.98), "scatter": (0.1, 0.6)}
+WRONG_FLAGS = 0.01  # probability that a flag is wrong: bounds the likelihood of a single test [1]
+CONVERGED = 1e-3  # difference of the mean log-likelihoods of two searches [1]
+LEAST_WEIGHT = 1e-5  # of a slenderness in a prediction: beyond 4 scatters
+GRAVITY = 9.81  # [m/s2]
+COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#5e8c61", "#7d7d85"), "os^D"
+
+
+class TestsError(Exception):
+    """Tests that cannot be used, with a message for the user."""
+
+
+class Tests:
+    """The tests of a file: records [g] at equal steps [s], flags of each rock (1, 0, NaN: unknown)."""
+
+    def __init__(self, path):
+        try:
+            with h5py.File(path) as file:
+                self._read(file)
+        except (OSError, KeyError, ValueError) as error:
+            raise TestsError(f"cannot read \"{path}\": {error}") from error
+        except TestsError as error:
+            raise TestsError(f"\"{path}\": {error}") from None
+
+    def _read(self, file):
+        for name in ("acceleration", "tests/start", "tests/length"):
+            if name not in file:
+                raise TestsError(f"there is no dataset {name}. --help describes the layout.")
+        acceleration, tests = file["acceleration"], file["tests"]
+        units = acceleration.attrs.get("units", "g")
+        if (units.decode() if isinstance(units, bytes) else units) != "g":
+            raise TestsError(f"acceleration is in {units}. Convert it to g.")
+        self.time_step = float(acceleration.attrs.get("dt", 0))
+        if not 0 < self.time_step < np.inf:
+            raise TestsError("acceleration needs the attribute dt, the time between two samples in seconds.")
+        samples, start, length = acceleration[:].astype(float), tests["start"][:], tests["length"][:]
+        if start.shape != length.shape or (length < 2).any() or (start < 0).any() or (
+                start + length > len(samples)).any():
+            raise TestsError("tests/start and tests/length do not lie within acceleration.")
+        self.records = [samples[first:first + count] for first, count in zip(start, length)]
+        for i, record in enumerate(self.records):
+            if not np.isfinite(record).all() or not record.any():
+                raise TestsError(f"the accelerations of test {i} are not finite, or all zero.")
+        self.toppled = {name.removeprefix("toppled_"): flags_of(tests[name][:], name, len(start))
+                        for name in sorted(tests) if name.startswith("toppled_")}
+        self.record_names = [name.decode() if isinstance(name, bytes) else str(name)
+                             for name in tests["record"]] if "record" in tests else None
+
+    def measures(self):
+        """Returns ln PGA and ln(PGV/PGA), PGV by the trapezoidal rule, of each test."""
+        pga = np.array([abs(record).max() for record in self.records])
+        pgv = np.array([abs(np.cumsum(record[1:] + record[:-1])).max() * self.time_step / 2 * GRAVITY
+                        for record in self.records])
+        return np.column_stack([np.log(pga), np.log(pgv / pga)])
+
+    def verdicts(self, slenderness, restitution):
+        """Returns the verdict of each test for each slenderness and restitution."""
+        def verdicts_of(record):
+            return overturn.evaluate(
+                slenderness=slenderness[:, None], restitution=restitution, frequency_parameter=FREQUENCY_PARAMETER,
+                record=record, time_step=self.time_step, scale=1.0)["verdict"]
+        with concurrent.futures.ThreadPoolExecutor() as threads:
+            verdicts = np.array(list(threads.map(verdicts_of, self.records)))
+        return Verdicts(*(table.astype(float) for table in (verdicts == overturn.Verdict.OVERTURNS,
+                                                            verdicts != overturn.Verdict.UNDECIDED)))
+
+
+class Verdicts(typing.NamedTuple):
+    """Whether points overturn and whether they are decided, 1 or 0: (tests, slendernesses, restitutions)."""
+
+    overturns: np.ndarray
+    decided: np.ndarray
+
+    def of(self, tests):
+        return Verdicts(self.overturns[tests], self.decided[tests])
+
+    def probability(self, by_slenderness, by_restitution):
+        """Returns the weighted share of the decided points that overturn; NaN if none is decided."""
+        overturns, decided = (table @ by_restitution @ by_slenderness for table in self)
+        return np.divide(overturns, decided, out=np.full(len(decided), np.nan), where=decided > 0)
+
+
+def flags_of(values, name, count):
+    if values.shape != (count,):
+        raise TestsError(f"tests/{name} has the shape {values.shape}, not one flag for each of {count} tests.")
+    return np.where(np.isin(values, (0, 1)), values, np.nan).astype(float)
+
+
+def weights(rock):
+    """Returns the weights of the nodes of the grid: lognormal in the slenderness, triangular in r."""
+    nodes = np.log(SLENDERNESS / rock["slenderness"]) / rock["scatter"]
+    edges = np.concatenate([[-np.inf], (nodes[1:] + nodes[:-1]) / 2, [np.inf]])
+    by_restitution = np.clip(1 - abs(RESTITUTION - rock["restitution"]) / RESTITUTION_RANGE, 0, None)
+    return np.diff(ndtr(edges)), by_restitution / by_restitution.sum()
+
+
+def fit_block(verdicts, toppled, seed):
+    """Returns the block with the largest likelihood. The two best of three global searches must agree."""
+    def rock_of(x):
+        return {"slenderness": float(np.exp(x[0])), "restitution": float(x[1]), "scatter": float(np.exp(x[2]))}
+
+    def cost(x):
+        p = WRONG_FLAGS + (1 - 2 * WRONG_FLAGS) * verdicts.probability(*weights(rock_of(x)))
+        return -np.nanmean(np.log(np.where(toppled == 1, p, 1 - p)))
+
+    bounds = [np.log(BOUNDS["slenderness"]), BOUNDS["restitution"], np.log(BOUNDS["scatter"])]
+    known = ~np.isnan(toppled)
+    verdicts, toppled = verdicts.of(known), toppled[known]
+    found = sorted((differential_evolution(cost, bounds, seed=np.random.default_rng([seed, search]), popsize=12,
+                                           tol=1e-4, maxiter=300, polish=False) for search in range(3)),
+                   key=lambda each: each.fun)
+    if not found[0].success or found[1].fun - found[0].fun > CONVERGED:
+        raise TestsError(f"the fit did not converge: searches found {[each.fun for each in found]}.")
+    return rock_of(found[0].x)
+
+
+def fit_logistic(measures, toppled):
+    """Returns intercept and coefficients of the logistic regression; a penalty of 1e-3 keeps them finite."""
+    x = np.column_stack([np.ones(len(measures)), measures])
+
+    def cost(b):
+        z = x @ b
+        return np.sum(np.logaddexp(0, z) - toppled * z) + 1e-3 * b @ b, x.T @ (expit(z) - toppled) + 2e-3 * b
+    return minimize(cost, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B").x.tolist()
+
+
+def logistic(coefficients, measures):
+    return expit(coefficients[0] + measures @ coefficients[1:])
+
+
+def scores(probability, toppled, bins=5):
+    """Returns accuracy, Brier score, confusion table and reliability curve over tests with a known flag."""
+    known = ~np.isnan(toppled) & ~np.isnan(probability)
+    p, y = probability[known], toppled[known] == 1
+    if not p.size:
+        return {"accuracy": None, "brier": None, "tests": 0, "left_out": len(known)}
+    predicted, place = p > 0.5, np.minimum((p * bins).astype(int), bins - 1)
+    filled = [k for k in range(bins) if (place == k).any()]
+    return {"accuracy": float(np.mean(predicted == y)), "brier": float(np.mean((p - y) ** 2)), "tests": int(p.size),
+            "left_out": int((~known).sum()),
+            "confusion": {name: int(both.sum()) for name, both in (
+                ("toppled_and_predicted", y & predicted), ("toppled_not_predicted", y & ~predicted),
+                ("predicted_not_toppled", ~y & predicted), ("neither", ~y & ~predicted))},
+            "reliability": [{"predicted": float(p[place == k].mean()), "toppled": float(y[place == k].mean()),
+                             "tests": int((place == k).sum())} for k in filled]}
+
+
+def folds_of(record_names, count, seed):
+    """Returns the fold of each test; tests of one record are in the same fold."""
+    names, number = np.unique(record_names, return_inverse=True)
+    if len(names) < count:
+        raise TestsError(f"{len(names)} records cannot be divided into {count} folds.")
+    return (np.random.default_rng(seed).permutation(len(names)) % count)[number]
+
+
+def fitted(verdicts, measures, toppled, chosen, seed):
+    """Returns the model of a rock from the chosen tests."""
+    known = chosen & ~np.isnan(toppled)
+    if len(set(toppled[known])) < 2:
+        raise TestsError("some tests must topple a rock, and others must not, in each fold.")
+    return {**fit_block(verdicts.of(known), toppled[known], seed),
+            "logistic": fit_logistic(measures[known], toppled[known])}
+
+
+def fit(path, folds, seed):
+    """Returns the model of all rocks, with its scores in cross-validation, and the probabilities of these."""
+    tests = Tests(path)
+    if tests.record_names is None or not tests.toppled:
+        raise TestsError(f"\"{path}\": a fit needs tests/record and tests/toppled_NAME.")
+    verdicts, measures = tests.verdicts(SLENDERNESS, RESTITUTION), tests.measures()
+    fold = folds_of(tests.record_names, folds, seed)
+    everything, rocks, predictions = np.ones(len(fold), bool), {}, {}
+    for name, toppled in tests.toppled.items():
+        block, baseline = np.empty(len(fold)), np.empty(len(fold))
+        for k in range(folds):
+            rock = fitted(verdicts, measures, toppled, fold != k, seed)
+            block[fold == k] = verdicts.of(fold == k).probability(*weights(rock))
+            baseline[fold == k] = logistic(rock["logistic"], measures[fold == k])
+        rocks[name] = {**fitted(verdicts, measures, toppled, everything, seed), **scores(block, toppled),
+                       "logistic_regression": scores(baseline, toppled)}
+        predictions[name] = block, toppled
+    return {"frequency_parameter": FREQUENCY_PARAMETER, "restitution_range": RESTITUTION_RANGE,
+            "scores": f"{folds}-fold cross-validation by record, seed {seed}", "rocks": rocks}, predictions
+
+
+def predict(model, path):
+    """Returns the scores of each rock of the model, null for a rock without flags, and the probabilities."""
+    tests, result, predictions = Tests(path), {}, {}
+    measures, unknown = tests.measures(), np.full(len(tests.records), np.nan)
+    for name, rock in model["rocks"].items():
+        by_slenderness, by_restitution = weights(rock)
+        rows, columns = by_slenderness > LEAST_WEIGHT, by_restitution > 0
+        verdicts = tests.verdicts(SLENDERNESS[rows], RESTITUTION[columns])
+        block = verdicts.probability(by_slenderness[rows], by_restitution[columns])
+        toppled = tests.toppled.get(name, unknown)
+        predictions[name] = block, toppled
+        result[name] = {**scores(block, toppled),
+                        "logistic_regression": scores(logistic(rock["logistic"], measures), toppled)}
+    return result, predictions
+
+
+def draw(predictions, path):
+    """Draws the reliability curve of each rock: how often it toppled against the predicted probability."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, ax = pyplot.subplots(figsize=(5.5, 5.2), layout="constrained")
+    ax.plot([0, 1], [0, 1], color="0.6", linewidth=1, label="perfect")
+    for i, (name, (probability, toppled)) in enumerate(predictions.items()):
+        score = scores(probability, toppled)
+        if not score["tests"]:
+            continue
+        predicted, share, count = (np.array([each[key] for each in score["reliability"]])
+                                   for key in ("predicted", "toppled", "tests"))
+        error = np.sqrt(predicted * (1 - predicted) / count)
+        ax.errorbar(predicted, share, error, color=COLOURS[i % 4], marker=MARKERS[i % 4], markersize=7, capsize=3,
+                    label=f"{name}: {score['accuracy']:.1%} correct, Brier score {score['brier']:.3f}")
+    ax.set_xlabel("predicted probability of toppling (mean of a bin)")
+    ax.set_ylabel("fraction of the tests that toppled the rock")
+    ax.legend(loc="upper left", fontsize=9)
+    ax.grid(color="0.9")
+    figure.savefig(path, dpi=150)
+
+
+def write_csv(predictions, path):
+    """Writes the probability that each rock topples, one row per test in the order of the file."""
+    columns = np.column_stack([probability for probability, _ in predictions.values()])
+    np.savetxt(path, columns, fmt="%.4f", delimiter=",", header=",".join(predictions), comments="")
+
+
+def read_model(path):
+    try:
+        model = json.loads(pathlib.Path(path).read_text())
+    except (OSError, ValueError) as error:
+        raise TestsError(f"cannot read \"{path}\": {error}") from error
+    if not isinstance(model, dict) or "rocks" not in model or (model.get("frequency_parameter"), model.get(
+            "restitution_range")) != (FREQUENCY_PARAMETER, RESTITUTION_RANGE):
+        raise TestsError(f"\"{path}\" is not a model of this program. Write one with fit.")
+    return model
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(prog="shake_table.py", description=__doc__, epilog=EPILOG,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    fitting = commands.add_parser("fit", help="fit a block to each rock; print the scores in cross-validation")
+    fitting.add_argument("file", metavar="TESTS.h5")
+    fitting.add_argument("-o", "--output", metavar="MODEL.json", default="model.json",
+                         help="the model (default: %(default)s)")
+    fitting.add_argument("--folds", type=int, default=5, metavar="N", help="default: %(default)s")
+    fitting.add_argument("--seed", type=int, default=1, metavar="N",
+                         help="of the folds and the search (default: %(default)s)")
+    predicting = commands.add_parser("predict", help="predict other tests; print the scores")
+    predicting.add_argument("model", metavar="MODEL.json", help="written by fit")
+    predicting.add_argument("file", metavar="TESTS.h5")
+    for command in (fitting, predicting):
+        command.add_argument("--plot", metavar="OUT.png", help="draw the reliability curve")
+        command.add_argument("--csv", metavar="OUT.csv", help="write the probability of each test")
+    return parser.parse_args()
+
+
+def main():
+    arguments = read_arguments()
+    try:
+        if arguments.command == "fit":
+            model, predictions = fit(arguments.file, arguments.folds, arguments.seed)
+            pathlib.Path(arguments.output).write_text(json.dumps(model, indent=1) + "\n")
+            result = model["rocks"]
+        else:
+            result, predictions = predict(read_model(arguments.model), arguments.file)
+        if arguments.plot:
+            draw(predictions, arguments.plot)
+        if arguments.csv:
+            write_csv(predictions, arguments.csv)
+    except (TestsError, OSError) as error:
+        sys.exit(f"shake_table: {error}")
+    print(json.dumps(result, indent=1))
+
+
+if __name__ == "__main__":
+    main()

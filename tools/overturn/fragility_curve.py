@@ -1,0 +1,249 @@
+"""Fragility curves: the share of the blocks that overturn against an intensity measure."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.special import ndtr
+
+from overturn import lognormal_fit
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import NDArray
+
+# How a measure grows with the scale of the motion: as scale^power.
+POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
+VALUES_OF_CURVE = 100
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Fragility:
+    """Points per bin of the intensity measure, and the lognormal curve fitted to the single points. A
+    point is one block under one motion at one scale. It exceeds if it overturns, or if peak is above
+    `limit`. NaN: there is no such number, see `notes`."""
+
+    im: str  #: name of the intensity measure
+    units: str  #: of the intensity measure
+    limit: float | None  #: of peak, the largest |theta| / alpha; None: overturning is counted
+    edges: NDArray[np.float64]  #: of the bins, evenly spaced in the logarithm; one more than bins
+    points: NDArray[np.int64]  #: with a verdict, per bin
+    exceeding: NDArray[np.int64]  #: per bin
+    without_verdict: NDArray[np.int64]  #: undecided or not computed, per bin; not in `points`
+    undecided: int  #: points of region 254
+    not_computed: int  #: points of region 255
+    motions: int  #: with at least one verdict
+    median: float  #: at which half of the points exceed
+    beta: float  #: scatter: standard deviation of the logarithm [1]
+    median_interval: NDArray[np.float64]  #: (2,), of 95 % confidence
+    beta_interval: NDArray[np.float64]  #: (2,)
+    value: NDArray[np.float64]  #: values of the intensity measure over the range of the bins
+    probability: NDArray[np.float64]  #: fitted, at `value`
+    band: NDArray[np.float64]  #: (2, values), of 95 % confidence at each value
+    notes: tuple[str, ...]  #: what was left out, and why there is no fit or no band
+
+    @property
+    def fraction(self) -> NDArray[np.float64]:
+        """Exceeding points / points with a verdict per bin; NaN in a bin without any."""
+        return np.divide(self.exceeding, self.points, out=np.full(len(self.points), np.nan), where=self.points > 0)
+
+    def summary(self) -> str:
+        """Returns the numbers as a text of several lines."""
+        what = "overturning" if self.limit is None else f"peak above {self.limit:g}"
+        lines = [f"{what} against {self.im} [{self.units}]: {self.exceeding.sum()} of {self.points.sum()} points with "
+                 f"a verdict, {self.motions} motions; {self.undecided} undecided, {self.not_computed} not computed"]
+        if np.isfinite(self.median):
+            lines += [f"{name} {number:.4g}" + (f" ({low:.4g} to {high:.4g})" if np.isfinite(low) else "")
+                      for name, number, (low, high) in (("median", self.median, self.median_interval),
+                                                        ("beta", self.beta, self.beta_interval))]
+        return "\n".join([*lines, *self.notes])
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Writes one row per bin, below the summary as comments that begin with #. The fitted columns are
+        those of the middle of the bin."""
+        middle = np.log(self.edges[:-1] * self.edges[1:]) / 2
+        fitted = [np.interp(middle, np.log(self.value), curve) if len(middle) else middle
+                  for curve in (self.probability, *self.band)]
+        table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
+                    *fitted)
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            file.writelines(f"# {line}\n" for line in self.summary().splitlines())
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow([f"{self.im}_from", f"{self.im}_to", "points", "exceeding", "without_verdict", "fraction",
+                             "probability", "probability_low", "probability_high"])
+            writer.writerows([*(f"{number:.6g}" for number in row[:2]), *row[2:5],
+                              *("" if np.isnan(number) else f"{number:.6g}" for number in row[5:])] for row in table)
+
+
+def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, bins: int = 10,
+              samples: int = 1000, seed: int = 1) -> Fragility:
+    """Returns the fragility curve of a result under records, see open(). All its blocks count alike: choose
+    some by dataset.isel() or dataset.sel() first.
+
+    im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable
+        over the dimension motion, which is taken to be proportional to the motion. The measures of the
+        records are scaled like the motions.
+    limit: counts points whose field peak is above it; None counts those that overturn.
+    bins: their number; they do not change the fit.
+    samples, seed: of the bootstrap over motions that gives the 95 % confidence.
+
+    Points without a verdict are left out and counted; they are never safe. Raises ValueError if the
+    dataset lacks what is needed.
+    """
+    if bins < 1 or samples < 1:
+        raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
+    measure = _measure(dataset, im)
+    cells = _cells(dataset, measure, limit)
+    edges = _edges(cells, bins)
+    counts = _counts(cells)
+    value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
+    reason = _why_no_fit(counts, im, "overturns" if limit is None else f"has a peak above {limit:g}")
+    fit = None if reason else lognormal_fit.fit(counts, np.log(value), samples, seed)
+    if not reason and not fit:
+        reason = f"no fit: the share of such points does not rise with {im}"
+    return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
+                     undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
+                     motions=counts.points.shape[0], **_fitted(fit, value),
+                     notes=(*_left_out(cells, im), *[reason] * bool(reason), *_without_band(fit, counts, samples)))
+
+
+def _measure(dataset, im):
+    """Returns the intensity measure of every motion at every scale."""
+    for name in ("region", "scale", "motion"):
+        if name not in dataset:
+            raise ValueError(f"this result has no {name}. A fragility curve needs the field region of a result under "
+                             "records.")
+    unscaled = "record_pga" if im == "pga" and "record_pga" in dataset else im
+    if unscaled not in dataset or dataset[unscaled].dims not in (("motion",), ()):
+        known = [name for name in POWERS if name in dataset]
+        raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}.")
+    measure = dataset[unscaled]
+    if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
+        measure = measure.sel(motion=dataset["motion_number"])
+    elif "motion" in measure.dims and "motion" not in dataset["region"].dims:
+        measure = measure.isel(motion=0)
+    return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
+
+
+def _units(measure, im):
+    return "g" if im == "pga" else str(measure.attrs.get("units", "1"))
+
+
+def _cells(dataset, measure, limit):
+    """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
+    of points of each kind."""
+    region = dataset["region"]
+    meanings = dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
+    not_computed = region == meanings["not_computed"]
+    decided = (region != meanings["undecided"]) & ~not_computed
+    if limit is None:
+        exceeding = decided & ~region.isin([code for name, code in meanings.items() if name.startswith("S")])
+    elif "peak" in dataset:
+        decided = decided & dataset["peak"].notnull()
+        exceeding = decided & (dataset["peak"] > limit)
+    else:
+        raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
+    motion = dataset["motion_number"] if "motion_number" in dataset else dataset["motion"]
+    kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]
+    kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
+             "undecided": ~decided & ~not_computed}
+    others = [name for name in region.dims if name not in kept]
+    like = region.isel(dict.fromkeys(others, 0), drop=True)
+    cells = {name: kind.astype(np.int32).sum(others).transpose(*kept).values.ravel() for name, kind in kinds.items()}
+    for name, values in (("measure", measure), ("motion", motion)):
+        cells[name] = values.broadcast_like(like).transpose(*kept).values.ravel()
+    return cells
+
+
+def _measurable(cells):
+    """Whether the logarithm of the measure exists."""
+    return np.isfinite(cells["measure"]) & (cells["measure"] > 0)
+
+
+def _edges(cells, bins):
+    """Returns the edges of the bins, over the range of the points with a verdict; none without such points."""
+    measure = cells["measure"][_measurable(cells) & (cells["points"] > 0)]
+    if not measure.size:
+        return np.empty(0)
+    low, high = measure.min(), measure.max()
+    if low == high:
+        return np.array([low / 1.05, high * 1.05])
+    edges = np.geomspace(low, high, bins + 1)
+    edges[0], edges[-1] = low, high
+    return edges
+
+
+def _histograms(cells, edges):
+    kinds = {"points": cells["points"], "exceeding": cells["exceeding"],
+             "without_verdict": cells["undecided"] + cells["not_computed"]}
+    if not len(edges):
+        return {name: np.zeros(0, int) for name in kinds}
+    kept = _measurable(cells)
+    return {name: np.histogram(cells["measure"][kept], edges, weights=kind[kept])[0].astype(int)
+            for name, kind in kinds.items()}
+
+
+def _counts(cells):
+    """Returns the numbers of points of each motion at each value of the measure."""
+    kept = _measurable(cells) & (cells["points"] > 0)
+    log_measure, column = np.unique(np.log(cells["measure"][kept]), return_inverse=True)
+    names, row = np.unique(cells["motion"][kept], return_inverse=True)
+    matrices = [coo_array((cells[kind][kept].astype(float), (row, column)), (len(names), len(log_measure))).tocsr()
+                for kind in ("points", "exceeding")]
+    return lognormal_fit.Counts(log_measure, *matrices)
+
+
+def _why_no_fit(counts, im, verb):
+    """Returns why there is no fit, or an empty text."""
+    points, exceeding = (np.asarray(kind.sum(axis=0)).ravel() for kind in (counts.points, counts.exceeding))
+    x = np.exp(counts.log_measure)
+    if not x.size:
+        return "no fit: no point has a verdict"
+    if not exceeding.any():
+        return f"no fit: no point {verb}, up to {im} = {x[-1]:.4g}"
+    if (exceeding == points).all():
+        return f"no fit: every point {verb}, down to {im} = {x[0]:.4g}"
+    if x.size == 1:
+        return f"no fit: all points have the same {im} = {x[0]:.4g}"
+    if not lognormal_fit.has_maximum(points[None], exceeding[None])[0]:
+        above, below = x[exceeding > 0], x[exceeding < points]
+        return (f"no fit, because there is no scatter: no point {verb} up to {im} = {below.max():.4g}, and every "
+                f"point does so from {above.min():.4g} on" if below.max() <= above.min() else
+                f"no fit: the share of such points does not rise with {im}")
+    return ""
+
+
+def _left_out(cells, im):
+    """Returns notes on the points that are not in the curve."""
+    undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
+    total = int(cells["points"].sum()) + undecided + not_computed
+    unmeasured = int(cells["points"][~_measurable(cells)].sum())
+    return ([f"left out: {undecided} undecided and {not_computed} points that are not computed, of {total}"]
+            * (undecided + not_computed > 0)
+            + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
+
+
+def _without_band(fit, counts, samples):
+    """Returns a note if a fit has no band."""
+    motions = counts.points.shape[0]
+    if fit and motions < lognormal_fit.LEAST_MOTIONS:
+        return [f"no confidence band: it needs {lognormal_fit.LEAST_MOTIONS} motions or more, not {motions}"]
+    if fit and np.isnan(fit.beta_interval[0]):
+        return [f"no confidence band: {fit.samples_without_fit} of {samples} samples of the motions have no fit"]
+    return []
+
+
+def _fitted(fit, value):
+    """Returns the fields of Fragility that the fit gives."""
+    if not fit:
+        unknown, pair = np.full(len(value), np.nan), np.full(2, np.nan)
+        return dict(median=np.nan, beta=np.nan, median_interval=pair, beta_interval=pair, value=value,
+                    probability=unknown, band=np.stack([unknown, unknown]))
+    return dict(median=fit.median, beta=fit.beta, median_interval=fit.median_interval,
+                beta_interval=fit.beta_interval, value=value, band=fit.band,
+                probability=ndtr(np.log(value / fit.median) / fit.beta))
