@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sweep_kernel.hpp"
+#include "tile_points.hpp"
 
 #include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/plane.hpp"
@@ -30,27 +31,6 @@ struct Ends {
     std::vector<std::uint8_t> flags, region;
     std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact;
 };
-
-/// The points of a tile of a plane: one per amplitude and frequency.
-struct TileAxes {
-    TileAxes(const Scene& scene, const Plane& plane, const Tile& tile);
-
-    PlanePoint operator()(std::size_t row, std::size_t column) const
-    {
-        return {slenderness, restitution, amplitudes[row], frequencies[column]};
-    }
-
-    double slenderness;
-    double restitution;
-    std::vector<double> amplitudes;
-    std::vector<double> frequencies;
-};
-
-/// The points of a tile, the last dimension fastest.
-std::vector<PlanePoint> points_of(const Scene& scene, const Plane& plane, const Tile& tile);
-
-/// The number of the record of a tile; 0 under a pulse. Not for blocks with motions of their own.
-std::int64_t motion_of(const Scene& scene, const Tile& tile);
 
 /// The pushes of a pulse in the order of the points; successive points with the same push share it.
 struct Pushes {
