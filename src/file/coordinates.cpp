@@ -72,8 +72,7 @@ Coordinate along(const char* dimension, const Axis& axis, const char* name, cons
             of_several};
 }
 
-/// Under a pulse, for blocks of known size: the period of every Omega, or Omega of every period or
-/// frequency in Hz.
+/// Under a pulse, for blocks of known size: the period of every Omega, or the other way round.
 Coordinate other_frequency(const Job& job)
 {
     const Plane& plane = job.plane;
