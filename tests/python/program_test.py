@@ -119,6 +119,18 @@ class AResultFile(InAFolder):
         np.testing.assert_array_equal(part.region, whole.region)
         self.assertEqual(part.region.dtype, np.uint8)
 
+    def test_that_is_an_unfinished_list_has_no_values_of_unmarked_tiles(self):
+        overturn.run(JOBS / "statues.toml", output="list.h5").close()  # with a column named kind
+        with h5py.File("list.h5", "r+") as file:
+            shape, tile = file["region"].shape, file["run/checksum"].attrs["tile_shape"]
+            file["run/checksum"][7] = 0
+        place = [along // side for along, side in zip(np.indices(shape), tile)]
+        number = np.ravel_multi_index(place, [-(-extent // side) for extent, side in zip(shape, tile)])
+        with overturn.open("list.h5") as part:
+            self.assertEqual(part.coords["kind"].dims, ("block",))
+            np.testing.assert_array_equal(part.region == 255, number == 7)
+            np.testing.assert_array_equal(np.isnan(part.peak), number == 7)
+
     def test_of_another_program_is_refused(self):
         with h5py.File("other.h5", "w") as file:
             file["x"] = [1.0]

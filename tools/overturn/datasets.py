@@ -27,7 +27,9 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
         file.close()
         raise ValueError(f"\"{path}\" was not written by overturn.")
     # Before format 3, texts, checksums and the scan of a boundary were in the root group.
-    dataset = _without_unmarked_tiles(file, path) if "spectrum" in file.kind or "boundary" in file.kind else file
+    # Attributes by their names in attrs: file.kind would be a column of that name in a list.
+    has_tiles = file.attrs["kind"] in ("overturning spectrum", "overturning boundary")
+    dataset = _without_unmarked_tiles(file, path) if has_tiles else file
     strangers = [name for name, variable in dataset.variables.items()
                  if not variable.dims or name in ("checksum", "tile") or name.startswith("scan_")]
     dataset = dataset.drop_vars(strangers)
@@ -50,7 +52,8 @@ def _without_unmarked_tiles(dataset, path):
             return dataset
         dimensions = dimensions_of(file)
         shape = [dataset.sizes[dimension] for dimension in dimensions]
-        tile = [1] * (len(shape) - len(tile_shape(file))) + list(tile_shape(file))
+        # Of the first format: tiles of the last two dimensions.
+        tile = checksums_of(file).attrs.get("tile_shape", [1, 1, *tile_shape(file)])
         fills = {name: fill_value(file[name]) for name, field in dataset.data_vars.items()
                  if dimensions[-1] in field.dims and set(field.dims) <= set(dimensions)}
     marks = marks.reshape([-(-extent // side) for extent, side in zip(shape, tile)])
