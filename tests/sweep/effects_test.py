@@ -116,7 +116,6 @@ class EveryField(unittest.TestCase):
         for field in MEASURED:
             with self.subTest(field=field):
                 other = "angle" if field == "status" else "status"
-                other = "angle" if field == "status" else "status"
                 beside_other = difference(sweep(other, field), sweep(other))
                 # A field that the region computes anyway would be cheaper together with it, and a
                 # field computed in any case would cost nothing.
