@@ -35,6 +35,13 @@ void split(int begin, int end, int parts, const Visitor& visit)
     }
 }
 
+/// The longest side of a cell along an axis of a plane [points]: up to 1/32 of the axis where the
+/// points are close.
+int longest_cell(const Axis& axis)
+{
+    return int(std::clamp<std::int64_t>(axis.size() / 32, 64, 256));
+}
+
 /// A share of 2^64.
 std::uint64_t threshold(double share)
 {
@@ -81,6 +88,7 @@ public:
     Filler(const Scene& scene, const Numerics& numerics, const Plane& plane, const Tile& tile,
            bool with_impacts, Kernel kernel, DropRequested drop_requested, const FillRule& rule)
         : theory_(scene.theory), numerics_(numerics), axes_(scene, plane, tile), rule_(rule),
+          longest_{longest_cell(plane.amplitude), longest_cell(plane.frequency)},
           run_(scene, {}, kernel, std::move(drop_requested)),
           node_at_(new int[std::size_t(tile.points())])
     {
@@ -134,11 +142,11 @@ private:
     std::vector<Cell> largest_cells() const
     {
         std::vector<Cell> cells;
-        const auto parts = [&](int points) {
-            return std::max(1, (points - 2 + rule_.longest) / rule_.longest);
+        const auto parts = [&](int points, int longest) {
+            return std::max(1, (points - 2 + longest) / longest);
         };
-        split(0, rows() - 1, parts(rows()), [&](int top, int bottom) {
-            split(0, columns() - 1, parts(columns()), [&](int left, int right) {
+        split(0, rows() - 1, parts(rows(), longest_[0]), [&](int top, int bottom) {
+            split(0, columns() - 1, parts(columns(), longest_[1]), [&](int left, int right) {
                 cells.push_back({{top, left}, {bottom, right}});
             });
         });
@@ -240,15 +248,29 @@ private:
     void fill(const Cell& cell)
     {
         const auto corner = std::size_t(place(cell.begin[0], cell.begin[1]));
-        for (int row = cell.begin[0]; row <= cell.end[0]; ++row) {
-            for (int column = cell.begin[1]; column <= cell.end[1]; ++column) {
-                const auto at = std::size_t(place(row, column));
-                if (!filled_.evaluated[at]) {
-                    filled_.region[at] = filled_.region[corner];
-                    if (with_impacts()) {
-                        filled_.impacts[at] = filled_.impacts[corner];
-                    }
+        const auto fill_row = [&](int row, auto& values) {
+            const auto value = values[corner];
+            const int first = place(row, cell.begin[1]);
+            const int last = place(row, cell.end[1]);
+            const auto fill_unless_integrated = [&](int at) {
+                if (!filled_.evaluated[std::size_t(at)]) {
+                    values[std::size_t(at)] = value;
                 }
+            };
+            if (first < last && row > cell.begin[0] && row < cell.end[0]) {
+                fill_unless_integrated(first);
+                std::fill(values.begin() + first + 1, values.begin() + last, value);
+                fill_unless_integrated(last);
+            } else { // neighbours may have nodes of their own on the sides
+                for (int at = first; at <= last; ++at) {
+                    fill_unless_integrated(at);
+                }
+            }
+        };
+        for (int row = cell.begin[0]; row <= cell.end[0]; ++row) {
+            fill_row(row, filled_.region);
+            if (with_impacts()) {
+                fill_row(row, filled_.impacts);
             }
         }
     }
@@ -257,7 +279,8 @@ private:
     const Numerics numerics_;
     const TileAxes axes_;
     const FillRule rule_;
-    const PointRun run_; // without points
+    const std::array<int, 2> longest_; // side of a cell along rows and columns [points]
+    const PointRun run_;               // without points
     FilledTile filled_;
     std::vector<Node> nodes_;
     std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is

@@ -34,8 +34,9 @@ Node node_of(const PointRun& run, const Ends& ends, int point)
     put(Switch::room, pi<double>() / 2 - ends.tilt[i]);
     put(Switch::time_left, run.end_of_pulse() - ends.phase[i]);
     put(Switch::fall_speed, u);
-    put(Switch::turn, ends.lowest_turn[i]);
+    put(Switch::turn, std::min(ends.lowest_turn[i], at.slenderness));
     put(Switch::softest, ends.softest_impact[i]);
+    put(Switch::last, ends.last_impact[i]);
     put(Switch::rebound, std::sqrt(at.restitution) * safe.outward - u);
     return node;
 }
@@ -141,7 +142,7 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
     const bool end_is_clear =
         !is_safe || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);
     return one_path && end_is_clear &&
-           (!rule.grazes || (clear(Switch::turn) && clear(Switch::softest)));
+           (!rule.grazes || (clear(Switch::turn) && clear(Switch::softest) && clear(Switch::last)));
 }
 
 } // namespace overturn

@@ -20,10 +20,11 @@ enum class Switch {
     fall_speed, ///< rate at the fall
     turn,       ///< lowest tilt at which the block turned outward: an impact could appear
     softest,    ///< speed of the softest impact before which it could turn: one could vanish
+    last,       ///< speed of the last impact: it depends on all others
     rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
                 ///< block in region S
 };
-inline constexpr std::size_t switches = 10;
+inline constexpr std::size_t switches = 11;
 
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {

@@ -22,14 +22,15 @@ Ends::Ends(std::size_t points, const Records& recorded)
       impacts(records.impacts ? points : 0), error(records.error ? points : 0),
       steps(records.steps ? points : 0), phase(records.phase ? points : 0),
       peak(records.peak ? points : 0), lowest_turn(records.grazes ? points : 0),
-      softest_impact(records.grazes ? points : 0)
+      softest_impact(records.grazes ? points : 0), last_impact(records.grazes ? points : 0)
 {}
 
 PointEnds Ends::pointers()
 {
-    return {tilt.data(),   rate.data(),        side.data(),          flags.data(), region.data(),
-            margin.data(), impacts.data(),     error.data(),         steps.data(), phase.data(),
-            peak.data(),   lowest_turn.data(), softest_impact.data()};
+    return {tilt.data(),           rate.data(),       side.data(),    flags.data(),
+            region.data(),         margin.data(),     impacts.data(), error.data(),
+            steps.data(),          phase.data(),      peak.data(),    lowest_turn.data(),
+            softest_impact.data(), last_impact.data()};
 }
 
 void Ends::set_free_fall(int point)

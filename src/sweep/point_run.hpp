@@ -29,7 +29,8 @@ struct Ends {
     Records records;
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
-    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact;
+    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact,
+        last_impact;
 };
 
 /// The pushes of a pulse in the order of the points; successive points with the same push share it.

@@ -92,6 +92,7 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
         ends.peak = std::move(with_peaks.peak);
         ends.lowest_turn = std::move(with_peaks.lowest_turn);
         ends.softest_impact = std::move(with_peaks.softest_impact);
+        ends.last_impact = std::move(with_peaks.last_impact);
     }
     return ends;
 }

@@ -56,6 +56,7 @@ template <Theory theory, Records records>
         if (task.records.grazes) {
             put(end.lowest_turn, to.lowest_turn);
             put(end.softest_impact, to.softest_impact);
+            put(end.last_impact, to.last_impact);
         }
     }
     if (task.records.impacts) {

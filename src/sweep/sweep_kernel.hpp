@@ -67,6 +67,7 @@ struct PointEnds {
     double* peak;           ///< the largest |theta| [rad]
     double* lowest_turn;    ///< see ForcedEnd [rad]
     double* softest_impact; ///< see ForcedEnd [rad]
+    double* last_impact;    ///< see ForcedEnd [rad]
 };
 
 using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);

@@ -126,7 +126,15 @@ std::vector<Problem> hard_problems()
     sine.plane.slenderness = Axis(AxisList{0.26662054772862431});
     sine.plane.restitution = Axis(AxisList{0.8025885124983132});
     sine.plane.restitution_of = RestitutionOf::absolute;
-    return {sine};
+    Problem cosine{.scene = {.pulse = PulseKind::cosine, .shape = {.cycles = 3}},
+                   .numerics = {.audit = 0},
+                   .plane = plane_of({.first = 0.05, .last = 1.5294371192114744, .count = 400},
+                                     {.first = 1.001, .last = 1.4381634078456134, .count = 400}),
+                   .with_impacts = true};
+    cosine.plane.slenderness = Axis(AxisList{0.14424994278535325});
+    cosine.plane.restitution = Axis(AxisList{0.9776654199149466});
+    cosine.plane.restitution_of = RestitutionOf::absolute;
+    return {sine, cosine};
 }
 
 /// The planes of the paper's figures: its block under a pulse, the restitution over the largest.
@@ -157,6 +165,7 @@ public:
         problem.numerics.method = uniform() < 0.5 ? Method::rk45 : Method::taylor;
         problem.numerics.tolerance =
             problem.numerics.method == Method::rk45 ? 1e-9 : (uniform() < 0.5 ? 1e-9 : 1e-6);
+        problem.numerics.resolve = uniform() < 0.1;
         problem.numerics.audit = 0;
         problem.with_impacts = uniform() < 0.2;
         const Spacing spacing = uniform() < 0.3 ? Spacing::log : Spacing::linear;

@@ -25,6 +25,7 @@ struct ForcedEnd {
     T softest_impact;   ///< the smallest speed of an impact that a smaller speed would prevent,
                         ///< because the block accelerates outward; under a pulse, as
                         ///< lowest_turn [rad]
+    T last_impact;      ///< the speed of the last impact; as softest_impact [rad]
     T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
                         ///< recorded with the peak, infinite if there is none [rad]
 

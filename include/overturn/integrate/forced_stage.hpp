@@ -60,6 +60,7 @@ public:
                        .in_doubt = none,
                        .peak = zero_,
                        .softest_impact = T(std::numeric_limits<S>::infinity()),
+                       .last_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
         wait_for_uplift(active_);
     }
@@ -184,6 +185,8 @@ private:
             T& softest = end_of_run_.softest_impact;
             softest =
                 select<T>(lanes && !rests && outward && -now_.rate < softest, -now_.rate, softest);
+            T& last = end_of_run_.last_impact;
+            last = select<T>(lanes && !rests, -now_.rate, last);
         }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);

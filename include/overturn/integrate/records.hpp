@@ -17,7 +17,7 @@ struct Records {
     bool margin = false;
     bool steps = false;
     bool phase = false;  ///< at the end of the pulse, or at the fall
-    bool grazes = false; ///< lowest turn and softest impact; only together with the peak
+    bool grazes = false; ///< lowest turn, softest and last impact; only together with the peak
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

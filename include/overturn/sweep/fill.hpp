@@ -24,7 +24,6 @@ struct FillRule {
     /// are stored [alpha].
     double low = 0.1;
     bool grazes = true; ///< whether impacts that could appear or vanish are considered
-    int longest = 64;   ///< the longest side of a cell [points]
 };
 
 /// Filled points that were integrated as well.
