@@ -3,8 +3,8 @@
 
     kills.py [--kills N] [--seed S]
 
-Half of the kills hit runs under a pulse, half runs under records. Each hits a run of 1, 2 or 4
-ranks that creates or resumes a file: at a random write to the file (including writes that create it
+A third of the kills hit runs under a pulse, a third runs of a filled spectrum, a third runs under
+records. Each hits a run of 1, 2, 3 or 5 ranks that creates or resumes a file: at a random write to the file (including writes that create it
 and those between a tile's values and its checksum; in half of the cases after half of the bytes),
 or a rank, mpirun, or all processes at a random time. After each kill, tiles marked as done must be
 correct, byte for byte, and each completed file must equal that of an undisturbed run. Requires
@@ -31,11 +31,10 @@ from program import (ENVIRONMENT, OVERTURN, PATIENCE, from_environment,  # noqa:
 
 LIBRARY = from_environment("FAULTY_DISK")
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
-FIELDS = ("region", "velocity", "margin")
-COMMON = f"""
+COMMON = """
 [output]
-fields = {list(FIELDS)}
-""".replace("'", '"')
+fields = ["region", "velocity", "margin"]
+"""
 PULSE = COMMON + """
 [scene]
 pulse = "one_sine"
@@ -46,6 +45,20 @@ amplitude = { first = 0.5, last = 12.0, count = 250 }
 restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
 slenderness = { values = [0.1745716] }
 [numerics]
+tolerance = 1e-12
+"""
+FILLED = """
+[output]
+fields = ["region", "impacts"]
+[scene]
+pulse = "one_sine"
+[plane]
+frequency = { first = 0.5, last = 8.0, count = 900 }
+amplitude = { first = 0.5, last = 12.0, count = 700 }
+restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
+slenderness = { values = [0.1745716] }
+[numerics]
+fill = true
 tolerance = 1e-12
 """
 RECORDS = COMMON + f"""
@@ -80,9 +93,10 @@ class Runs:
             self.values = values_of(file)
             self.tiles = len(file["run/checksum"])
             self.side = int(file["run/checksum"].attrs["tile_shape"][-1])
-        # A tile consists of whole rows of its chunk and takes a write per field and one for its
-        # checksum; the other writes create the file.
-        self.writes_of_tiles = self.tiles * (len(FIELDS) + 1)
+            per_tile = len({"checksum", "audit_checked", "audit_wrong"} & set(file["run"]))
+        # A tile consists of whole rows of its chunk and takes a write per field and one for each of
+        # its values in the group `run`, the checksum among them; the other writes create the file.
+        self.writes_of_tiles = self.tiles * (len(self.values) + per_tile)
         self.writes = self.count_writes()
 
     def command(self, ranks, output):
@@ -167,9 +181,9 @@ class Runs:
             done = np.flatnonzero(file["run/checksum"][:])
             stored = values_of(file)
         for tile in set(done) - self.torn_checksums:
-            for name in FIELDS:
+            for name, values in self.values.items():
                 place = self.place(tile)
-                if stored[name][place].tobytes() != self.values[name][place].tobytes():
+                if stored[name][place].tobytes() != values[place].tobytes():
                     raise Loss(f"tile {tile} is marked as done, but its {name} is wrong")
         return "with all tiles done" if len(done) == self.tiles else "between the tiles"
 
@@ -203,7 +217,7 @@ class Runs:
         self.counts["files finished"] += 1
 
     def kill_once(self):
-        ranks = self.chance.choice((1, 2, 4))
+        ranks = self.chance.choice((1, 2, 3, 5))
         way = self.chance.choice((self.kill_at_a_write, self.kill_at_a_time))(ranks)
         where = self.look()
         if self.last == 0:
@@ -218,7 +232,8 @@ class Runs:
 
 def values_of(file):
     """Returns the fields, with one plane per index of all outer dimensions."""
-    return {name: file[name][:].reshape(-1, *file[name].shape[-2:]) for name in FIELDS}
+    return {name: values[:].reshape(-1, *values.shape[-2:])
+            for name, values in file.items() if isinstance(values, h5py.Dataset) and values.ndim > 2}
 
 
 def children(pid):
@@ -253,10 +268,11 @@ def main():
     arguments = parser.parse_args()
     chance = random.Random(arguments.seed)
     counts = collections.Counter()
-    for name, job in (("a pulse", PULSE), ("records", RECORDS)):
+    for name, job in (("a pulse", PULSE), ("a pulse, filled", FILLED),
+                      ("records", RECORDS)):
         with tempfile.TemporaryDirectory() as folder:
             runs = Runs(folder, job, chance)
-            wanted = arguments.kills // 2
+            wanted = arguments.kills // 3
             try:
                 while runs.counts["kills"] < wanted:
                     before = runs.counts["kills"]
