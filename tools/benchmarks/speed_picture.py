@@ -20,6 +20,7 @@ LABELS = {
 OURS = {"overturn_rk45": "#1b6ca8", "overturn_taylor": "#c8422b"}
 PEERS = "#767676"
 RAISED = {"arkode_dopri5": 5, "cvode_adams": -5}  # labels that would overlap [points]
+COMPARED_AT = 1e-9  # [rad]
 MARKERS = {"odeint_dopri5": "o", "gsl_rk8pd": "s", "arkode_dopri5": "^", "cvode_adams": "v",
            "scipy_rk45": "D"}
 
@@ -53,15 +54,22 @@ def draw_peers(axes, found):
         axes.plot(errors, times, color=OURS.get(solver, PEERS), linewidth=2.4 if ours else 1.2,
                   marker="o" if ours else MARKERS[solver], markersize=6 if ours else 4.5)
         tightest = min(range(len(errors)), key=errors.__getitem__)
+        ratio = next((row["ratio_to_overturn_taylor"] for row in rows
+                      if row["target_error"] == COMPARED_AT), None)
+        if ratio and not ours:
+            label += f": {ratio:,.0f} x"
         axes.annotate(label, (errors[tightest], times[tightest]), (7, RAISED.get(solver, 0)),
                       textcoords="offset points", va="center", fontsize=8.5,
                       color=OURS.get(solver, "#333333"), weight="bold" if ours else "normal")
-    axes.set(xscale="log", yscale="log", xlim=(4e-6, 3e-17),
+    axes.set(xscale="log", yscale="log", xlim=(4e-6, 1e-18), ylim=(0.05, 1e5),
              xlabel="error of angle and velocity, 99th percentile [rad]",
              ylabel="time per point on one core [µs]")
     axes.set_xticks([1e-6, 1e-9, 1e-12])
     axes.minorticks_off()
-    axes.set_title("Cost of accuracy", fontsize=11)
+    axes.set_title("Time to compute the same motions at the same error", fontsize=11)
+    axes.text(0.985, 0.985, "grey: general solvers of differential equations\n"
+              "x: times as long as taylor, at an error of 1e-9", transform=axes.transAxes,
+              fontsize=8, ha="right", va="top", color="#333333")
 
 
 def draw_sizes(axes, found):
