@@ -51,8 +51,9 @@ Tile sample_tile(const Plane& plane, std::int64_t i)
 }
 
 /// Estimated time [s] to compute so many points or lines on one rank, from samples:
-/// compute_sample(i) returns the size of sample i, whose order is fixed. As many are computed as
-/// 0.3 s allow, and up to `fewest`, because their times differ, in four times as long.
+/// compute_sample(i) returns the size of sample i, whose order is fixed. Samples are computed
+/// for 0.3 s; if these are fewer than `fewest`, for up to 1.2 s until there are as many, because
+/// their times differ.
 template <class ComputeSample>
 double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample,
                          std::int64_t fewest = 1)

@@ -68,7 +68,8 @@ fields of the job are ignored. OUT.h5 contains these columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if the block falls in only one of
                    the two computations
-  wrong verdicts   share of wrong verdicts among the points whose true verdict is known
+  wrong verdicts   as a share of the points whose true verdict is known; OUT.h5 contains the
+                   number
   undecided        number of points without a verdict
   error > bound    share of the points whose error exceeds the field "error"
   bound / error    median of this ratio)";

@@ -32,7 +32,7 @@ void print_origin(const std::string& path, const FileOrigin& origin)
                                                origin.program_commit)));
 }
 
-/// The shape of a tile without dimensions before the last two of which it has one index.
+/// The shape of a tile, without leading dimensions of size 1; the last two are always shown.
 std::string tile_text(const Shape& shape)
 {
     auto begin = shape.begin();

@@ -50,7 +50,7 @@ inline std::string lines_text(const BoundaryLines& lines)
     add(lines.undecided, "with undecided amplitudes or more flips than are stored");
     if (lines.has_shares && lines.computed > 0) {
         text += fmt::format("{}overturning in {:.3g} % of the scanned interval, undecided in "
-                            "{:.2g} %; strips narrower than the steps of the scan exist",
+                            "{:.2g} %; strips narrower than the steps of the scan are missed",
                             text.empty() ? "" : "; ", 100 * lines.unsafe_share,
                             100 * lines.undecided_share);
     }

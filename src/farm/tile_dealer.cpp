@@ -8,9 +8,9 @@ namespace overturn {
 
 namespace {
 
-/// A range is at most 1/16 of a rank's fair share of what is left: costly tiles are neighbours, and
-/// a range of them may take ten times the average. (With 1/4, and 200 tiles of which the first
-/// tenth is costly, one of three ranks was busy 1.7 times as long as another.)
+/// A range is 1/16 of a rank's fair share of what is left, within the limits: costly tiles are
+/// neighbours, and a range of them may take ten times the average. (With 1/4, and 200 tiles of
+/// which the first tenth is costly, one of three ranks was busy 1.7 times as long as another.)
 constexpr std::size_t ranges_per_share = 16;
 
 constexpr double longest_range = 0.1;      // [s]

@@ -33,7 +33,7 @@ std::vector<Field> read_fields(const Entry& job);
 void expect_known_errors(const Entry& job, const Numerics& numerics,
                          const std::vector<Field>& fields);
 
-/// Throws JobError if the job asks for filling, which is not possible.
+/// Throws JobError if the job asks for filling but cannot be filled.
 void expect_fillable(const Entry& entry, const Job& job);
 
 /// Reads [blocks] and the table that it names. folder: of the job file. Sets plane.list; the scene,

@@ -32,7 +32,7 @@ double printed_unit(std::string_view word)
     return std::pow(10.0, std::clamp(double(exponent) - double(decimals), -400.0, 9.0));
 }
 
-/// The decimal of fewest digits after the point in [low, high], of these the nearest to `near`.
+/// The number in [low, high] with the fewest decimal digits; of several, the one nearest to `near`.
 double simplest_decimal(double low, double high, double near)
 {
     // 10^22 is the largest power of ten that is exact, so that the quotient is correctly rounded.

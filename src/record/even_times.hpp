@@ -9,8 +9,8 @@
 
 namespace overturn {
 
-/// Collects printed times t_i, i = 0, 1, ..., that must be even: with h_i half a unit of the last
-/// printed digit of t_i, each must satisfy
+/// Collects printed times t_i, i = 0, 1, ..., that must be evenly spaced: with h_i half a unit of
+/// the last printed digit of t_i, each must satisfy
 ///
 ///     |t_i - (t_0 + i step)| <= h_i
 ///
@@ -18,10 +18,10 @@ namespace overturn {
 class EvenTimes {
 public:
     /// Refuses a word of the current line that is not a number, or a time that is not after the one
-    /// before or cannot be even with those before.
+    /// before or cannot be evenly spaced with those before.
     void add(const Lines& lines, std::string_view word);
 
-    /// The step that is a decimal of fewest digits, of these the nearest to the mean step [s].
+    /// The step with the fewest decimal digits; of several, the one nearest to the mean step [s].
     /// Requires two times.
     double step() const;
 

@@ -54,7 +54,7 @@ Sampling read_sampling(const Lines& lines)
         step = first_word(line.substr(std::size_t(count->data() - line.data()) + count->size()));
     }
     if (!count || !step || count->empty() || step->empty()) {
-        lines.refuse(fmt::format("{} states no number of points or no time step. Write it as in "
+        lines.refuse(fmt::format("{} lacks the number of points or the time step. Write it as in "
                                  "NPTS= 4000, DT= .01 SEC.",
                                  quoted(line)));
     }

@@ -164,11 +164,11 @@ void for_each_value_of_row(Values& values, std::size_t columns, const Visit& vis
         }
         if (values.ends_row()) {
             if (i + 1 != columns) {
-                throw TableError(fmt::format("{}:{}: the number of values, {}, is not that of "
-                                             "the columns that the first line names, {}. Separate "
-                                             "values by commas; put a value that contains one in "
-                                             "quotes.",
-                                             values.name(), line, i + 1, columns));
+                throw TableError(fmt::format("{}:{}: the row has {} value{}, but the first line "
+                                             "names {} column{}. Separate values by commas; put "
+                                             "a value that contains one in quotes.",
+                                             values.name(), line, i + 1, i == 0 ? "" : "s", columns,
+                                             columns == 1 ? "" : "s"));
             }
             return;
         }

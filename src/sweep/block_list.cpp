@@ -174,8 +174,8 @@ void read_pulses(const Scene& scene, const ColumnReader& columns, BlockList& lis
     }
     if (strength == nullptr || rate == nullptr) {
         throw ListError(ListError::no_row, strength == nullptr ? rate : strength,
-                        fmt::format("is one half of a pulse. Add the column {}, or give both as "
-                                    "axes in [plane].",
+                        fmt::format("does not describe a pulse by itself. Add the column {}, or "
+                                    "give both as axes in [plane].",
                                     strength == nullptr ? "pga (or amplitude)"
                                                         : "pulse_period (or frequency)"));
     }

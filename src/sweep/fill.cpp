@@ -35,8 +35,8 @@ void split(int begin, int end, int parts, const Visitor& visit)
     }
 }
 
-/// The longest side of a cell along an axis of a plane [points]: up to 1/32 of the axis where the
-/// points are close.
+/// The longest side of a cell along an axis of a plane [points]: 1/32 of the axis, but at least 64
+/// and at most 256.
 int longest_cell(const Axis& axis)
 {
     return int(std::clamp<std::int64_t>(axis.size() / 32, 64, 256));

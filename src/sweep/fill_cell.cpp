@@ -87,13 +87,14 @@ bool is_clear(const CellNodes& cell, Switch which, double kappa)
         infinite += std::isinf(f[i]);
         positive += f[i] > 0;
     }
-    if (infinite > 0) { // at a node where the block did not turn
+    if (infinite > 0) { // softest, last: at a node without such an impact
         return infinite == 9;
     }
     return (positive == 0 || positive == 9) && least > kappa / 2 * differences(cell, f);
 }
 
-/// The switch functions that matter for a code, apart from `turn`.
+/// The switch functions that matter for a region; is_uniform() adds those of the path and of the
+/// end of the pulse.
 std::vector<Switch> relevant_to(Region region)
 {
     switch (region) {
@@ -124,9 +125,9 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         })) {
         return false;
     }
-    const bool is_safe = region == Region::S;
+    const bool is_s = region == Region::S;
     const bool low =
-        is_safe && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; });
+        is_s && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; });
     const double kappa = low ? rule.kappa : rule.kappa * std::max(1.0, first.impacts - 2);
     const auto clear = [&](Switch which) { return is_clear(cell, which, kappa); };
     const std::vector<Switch> relevant = relevant_to(region);
@@ -140,7 +141,7 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         return node.impacts == first.impacts && node.flags == first.flags;
     });
     const bool end_is_clear =
-        !is_safe || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);
+        !is_s || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);
     return one_path && end_is_clear &&
            (!rule.grazes || (clear(Switch::turn) && clear(Switch::softest) && clear(Switch::last)));
 }

@@ -32,7 +32,7 @@ struct Node {
     std::uint8_t flags;  ///< see end_flag
     std::uint32_t lobes; ///< bit set of those that lift a block at rest
     double impacts;      ///< counted
-    double peak;         ///< largest tilt [alpha]
+    double peak;         ///< largest tilt times exp(pi / Omega), see docs/filling.md [alpha]
     std::array<double, switches> values;
 };
 

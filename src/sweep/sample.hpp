@@ -14,7 +14,7 @@ namespace overturn {
 Plane sample_of(const Plane& plane, std::int64_t points);
 
 /// About `wanted` points, spread over all rows and columns of a plane: for each tile, their numbers
-/// row by row, in ascending order. All points if there are less than twice as many.
+/// row by row, in ascending order. All points if there are fewer than twice as many.
 std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t wanted);
 
 } // namespace overturn

@@ -82,8 +82,8 @@ Shape tile_of(const Plane& plane)
 
 Tiling::Tiling(const Plane& plane) : Tiling(shape_of(plane), tile_of(plane)) {}
 
-// Large cells need large tiles: 256 x 256 points take a few milliseconds, few of which are needed
-// inside the regions of fine spectra.
+// Large cells need large tiles. A tile of 256 x 256 points still takes only a few milliseconds,
+// because few of its points are integrated inside the regions of fine spectra.
 Tiling filled_tiling(const Plane& plane)
 {
     const std::int64_t side =

@@ -178,7 +178,7 @@ class Lists(Scratch):
         self.refused(f"name,width,height,restitution\n{rows}\nb,,2,1\n",
                      "statues.csv:17:2: width is empty")
         self.refused(f"name,width,height,restitution\n{rows}\nb,2,1\n",
-                     "statues.csv:17: the number of values, 3, is not that of the columns that the first line names, 4")
+                     "statues.csv:17: the row has 3 values, but the first line names 4 columns")
         self.refused("width,height\n1,2\n", "statues.csv:1: the restitution is missing")
         self.refused("name,restitution\na,1\n", "statues.csv:1: the blocks are not described")
         self.refused("width,half_width,height,restitution\n1,1,2,1\n",
@@ -186,7 +186,7 @@ class Lists(Scratch):
         self.refused("width,height,restitution,region\n1,2,1,1\n",
                      "statues.csv:1:4: region is the name of a variable of the result")
         self.refused("width,height,restitution,pga\n1,2,1,1\n",
-                     "statues.csv:1:4: pga is one half of a pulse")
+                     "statues.csv:1:4: pga does not describe a pulse by itself")
         self.refused("slenderness,restitution\n0.3,0.9\n", "plane.pga needs the dimensions of the "
                      "blocks")
 

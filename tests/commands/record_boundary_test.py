@@ -14,7 +14,7 @@ TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 
 class ABoundaryUnderARecord(ScratchWithRecords):
     SIZES = "plane.size.values=[0.4, 0.6, 0.9]"
-    STRIPS = "strips narrower than the steps of the scan exist"
+    STRIPS = "strips narrower than the steps of the scan are missed"
 
     def boundary(self, *arguments, out="boundary.h5", ranks=None):
         result = self.overturn("boundary", "job.toml", "-o", out, "--set", self.SIZES, "--set",

@@ -88,7 +88,7 @@ bool bounces_on_to_rest(const AfterImpact<GroundOf>& start, double end)
     const double alpha = start.block.slenderness;
     double phase = start.phase;
     double side = start.side;
-    Motion<double> motion{0, start.rate, 0};
+    StepMotion<double> motion{0, start.rate, 0};
     const auto pull = [&](double tilt, double at, double on) {
         return rocking_acceleration<theory>(tilt, alpha, on * start.excitation.ground(at));
     };

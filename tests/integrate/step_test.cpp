@@ -9,7 +9,7 @@
 namespace overturn {
 namespace {
 
-using Motion50 = Motion<Digits50>;
+using Motion50 = StepMotion<Digits50>;
 
 /// x'' = sin x + cos(2 t) cos x from x = 0.2 at rest, over 2 units of time: an inverted pendulum
 /// under a smooth push. In double it reaches round-off at 64 steps; 50 digits avoid this.
@@ -112,8 +112,8 @@ TEST(DenseOutput, BetweenExactEndsHasOrderSix)
 
 TEST(DenseOutput, MatchesPositionRateAndAccelerationAtBothEnds)
 {
-    const Motion<double> start{0.3, -0.7, 1.1};
-    const Motion<double> end{0.1, 0.2, -0.4};
+    const StepMotion<double> start{0.3, -0.7, 1.1};
+    const StepMotion<double> end{0.1, 0.2, -0.4};
     const double h = 0.5;
     const Quintic<double> c = dense_output(start, end, h);
     const double ulp = 1e-15; // a few roundings of numbers of order 1

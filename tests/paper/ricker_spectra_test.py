@@ -13,7 +13,7 @@ from spectra import (COUNT, MOST, PRACTICALLY_ALL, history, largest_part, moved,
 
 
 class SymmetricRicker(unittest.TestCase):
-    """Figures 14 and 15, with a window of one period."""
+    """Figures 14 and 15, with window = 1: one period to each side of the middle."""
 
     FIRST_SWING = np.exp(1.5) / 2  # least amplitude at which the first, smaller push lifts: 2.24
     TURN = np.sqrt(2)  # phase from the middle of the second change of sign
@@ -114,7 +114,7 @@ class SymmetricRicker(unittest.TestCase):
 
 
 class AntisymmetricRicker(unittest.TestCase):
-    """Figures 16 and 17, with a window of one period."""
+    """Figures 16 and 17, with window = 1: one period to each side of the middle."""
 
     # The least amplitude at which the first, smaller push lifts: 3.68.
     CREST = np.sqrt(3 + np.sqrt(6))

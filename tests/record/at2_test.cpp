@@ -168,10 +168,10 @@ INSTANTIATE_TEST_SUITE_P(Of, At2Refusal, testing::Values(
             "a.txt:4: NPTS is \"99999999999999999999999\", but must be an integer from 1 to 10000000. Correct it, "
             "or give another record."},
     Refusal{"NoTimeStep", at2("NPTS= 3"),
-            "a.txt:4: \"NPTS= 3\" states no number of points or no time step. Write it as in NPTS= 4000, DT= .01 "
+            "a.txt:4: \"NPTS= 3\" lacks the number of points or the time step. Write it as in NPTS= 4000, DT= .01 "
             "SEC."},
     Refusal{"AnEmptyTimeStep", at2("NPTS= 3, DT="),
-            "a.txt:4: \"NPTS= 3, DT=\" states no number of points or no time step. Write it as in NPTS= 4000, DT= "
+            "a.txt:4: \"NPTS= 3, DT=\" lacks the number of points or the time step. Write it as in NPTS= 4000, DT= "
             ".01 SEC."},
     Refusal{"ATimeStepOfZero", at2("NPTS= 3, DT= 0.00 SEC"),
             "a.txt:4: the time step is 0 s, but must be above 0. Correct it."},

@@ -80,12 +80,13 @@ TEST(Table, IsRefusedWithLineAndColumn)
     EXPECT_TRUE(refusal_of("a,b,a\n1,2,3\n").starts_with("t.csv:1:3: the name \"a\" is repeated"))
         << refusal_of("a,b,a\n1,2,3\n");
     EXPECT_TRUE(
-        refusal_of("a,b\n1,2\n1\n").starts_with("t.csv:3: the number of values, 1, is not "))
+        refusal_of("a,b\n1,2\n1\n").starts_with("t.csv:3: the row has 1 value, but the first "))
         << refusal_of("a,b\n1,2\n1\n");
-    EXPECT_TRUE(refusal_of("a,b\n1,2,3\n").starts_with("t.csv:2: the number of values, 3, is not "))
+    EXPECT_TRUE(
+        refusal_of("a,b\n1,2,3\n").starts_with("t.csv:2: the row has 3 values, but the first "))
         << refusal_of("a,b\n1,2,3\n");
     EXPECT_TRUE(
-        refusal_of("a,b\n1,2\n\n1,2\n").starts_with("t.csv:3: the number of values, 1, is not "))
+        refusal_of("a,b\n1,2\n\n1,2\n").starts_with("t.csv:3: the row has 1 value, but the first "))
         << refusal_of("a,b\n1,2\n\n1,2\n");
     EXPECT_TRUE(refusal_of("a,b\n1,\"2\n").starts_with("t.csv:2:2: the quotes are not closed. Ad"))
         << refusal_of("a,b\n1,\"2\n");

@@ -93,7 +93,7 @@ TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
 
 TEST(History, ObeysTheEquationOfMotionBetweenEvents)
 {
-    // By Simpson's rule over pairs of intervals of the even times: h^5 / 90 times a fourth
+    // By Simpson's rule over pairs of intervals of the evenly spaced times: h^5 / 90 times a fourth
     // derivative, which is at most that of the pulse, Omega^4 (Ricker: 30 Omega^4), and round-off.
     for_random_points([](const Scene& scene, const PlanePoint& point) {
         HistoryView view;

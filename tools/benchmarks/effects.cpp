@@ -101,7 +101,8 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                          .phase = nullptr,
                          .peak = nullptr,
                          .lowest_turn = nullptr,
-                         .softest_impact = nullptr};
+                         .softest_impact = nullptr,
+                         .last_impact = nullptr};
     const Integrator integrator =
         work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
     sweep_kernel(work.kernel, integrator, Theory::nonlinear, records, false)(task, ends);

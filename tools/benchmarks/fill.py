@@ -11,9 +11,10 @@ from launching import add_program_argument, measured_run, program
 
 EXPLANATION = """\
 Runs the nine planes of the paper (jobs/figure_*.toml, region only) with and without numerics.fill,
-on one rank, and prints the time in the kernel and that of the whole run with file and audit. The
-time without filling above --direct points a side follows from that at --direct points, as the
-number of points. Then fits the exponent: time grows as side^exponent. Plots the times."""
+on one rank, and prints the time in the kernel and that of the whole run with file and audit. Above
+--direct points a side, the time without filling is extrapolated from that at --direct, in
+proportion to the number of points. Then fits the exponent: time grows as side^exponent. Plots the
+times."""
 
 SIDES = (512, 1024, 2048, 4096, 8192, 16384)
 

@@ -24,8 +24,9 @@ struct RangeLimits {
 };
 
 /// With many ranks and quick tiles, answering requests could occupy rank 0 completely: ranges are
-/// long enough that it takes at most half of the time. While many tiles are left, a range takes a
-/// tenth of a second: longer ones save nothing, and delay a stop, because workers finish them.
+/// long enough that it takes at most half of the time. A range takes at most a tenth of a second,
+/// or 16 tiles or `least` if that is longer: longer ones save nothing, and delay a stop, because
+/// workers finish them.
 RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile);
 
 class TileDealer {

@@ -126,7 +126,8 @@ struct TurnsInStep {
           twice(start.rate * end.rate > T(S(0)) && speed < stop)
     {}
 
-    /// An estimate of the turn, of the lower one of two.
+    /// An estimate of the share of the step at which the rate changes its sign; if it does so
+    /// twice, at the lower turn.
     T share() const
     {
         const T one(S(1));
@@ -141,9 +142,9 @@ struct TurnsInStep {
     mask_t<T> once;
     T speed;
     T stop; ///< the change of the rate over the step by the acceleration below
-    /// The rate has the same sign at both ends, and may change it after the start of a step that
-    /// begins inward, or before the end of one that ends outward, where an outward acceleration
-    /// would stop the block.
+    /// The rate has the same sign at both ends but may change it twice in between: the acceleration
+    /// at the start (inward) or at the end (outward) would change the rate by more than its size
+    /// within the step.
     mask_t<T> twice;
 };
 

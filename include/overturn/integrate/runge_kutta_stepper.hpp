@@ -70,7 +70,7 @@ public:
     /// and lowest turn of the previous steps, if recorded.
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far)
     {
-        const Motion<T> start{now.tilt, now.rate, acceleration_};
+        const StepMotion<T> start{now.tilt, now.rate, acceleration_};
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / excitation_.frequency;
         const T longest = longest_step(now);
@@ -218,12 +218,12 @@ private:
     ///
     /// delay: time from the end of the step to the event. If the variation did not include it,
     /// errors of the time would become errors of the energy at each of thousands of bounces.
-    StepErrors<T> errors(const Rocking<T>& now, const Motion<T>& start, const Step<T>& step,
+    StepErrors<T> errors(const Rocking<T>& now, const StepMotion<T>& start, const Step<T>& step,
                          const T& h, const T& delay, const Sample& last) const
     {
         using arithmetic::fma;
         using std::abs;
-        const Motion<T>& end = step.end;
+        const StepMotion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);
         const T middle_tilt =
             ((tilt[0] + tilt[5]) + T(S(5)) * (tilt[1] + tilt[4]) + T(S(10)) * (tilt[2] + tilt[3])) *
@@ -278,7 +278,7 @@ private:
 
     /// Finds the first impact or fall within an accepted step. In lanes with an event, the next
     /// step ends at it.
-    Mask find_event(const Motion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
+    Mask find_event(const StepMotion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
         const T noise = dip_of_round_off(block_.slenderness, h);
         const Quintic<T> tilt = dense_output(start, step.end, h);

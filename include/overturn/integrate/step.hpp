@@ -10,9 +10,9 @@
 
 namespace overturn {
 
-/// The motion at the beginning of a step; the acceleration is the last stage of the previous step.
+/// The motion at the start or at the end of a step.
 template <Number T>
-struct Motion {
+struct StepMotion {
     T position;
     T rate;
     T acceleration;
@@ -28,7 +28,7 @@ using Quintic = std::array<T, 6>;
 /// Dormand and Prince has order 4, costs more, and does not match the acceleration at the start: a
 /// block at uplift (position, rate and acceleration 0) would sink into the ground first.
 template <Number T>
-Quintic<T> dense_output(const Motion<T>& start, const Motion<T>& end, const T& h)
+Quintic<T> dense_output(const StepMotion<T>& start, const StepMotion<T>& end, const T& h)
 {
     using arithmetic::fma;
     using S = scalar_t<T>;
@@ -46,7 +46,7 @@ Quintic<T> dense_output(const Motion<T>& start, const Motion<T>& end, const T& h
 
 template <Number T>
 struct Step {
-    Motion<T> end;
+    StepMotion<T> end;
     T position_error; ///< local error estimates
     T rate_error;
 };
@@ -72,7 +72,7 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 /// A step of length h from `start`. acceleration(stage, position) returns x'' at the time of a
 /// stage, 1 to 6: node[stage] h after the start.
 template <Number T, class Acceleration>
-Step<T> runge_kutta_step(const Motion<T>& start, const T& h, const Acceleration& acceleration)
+Step<T> runge_kutta_step(const StepMotion<T>& start, const T& h, const Acceleration& acceleration)
 {
     using arithmetic::fma;
     using Table = DormandPrince;

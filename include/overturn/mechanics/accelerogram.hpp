@@ -1,5 +1,5 @@
-// A recorded ground motion: accelerations at even times, linear in between. The first is at t = 0;
-// the ground is at rest before and after.
+// A recorded ground motion: accelerations at evenly spaced times, linear in between. The first is
+// at t = 0; the ground is at rest before and after.
 #pragma once
 
 #include <cstdint>

@@ -81,7 +81,7 @@ inline double peak_velocity(std::span<const double> a)
 ///
 ///     Arias = pi/(2 gravity) integral of (gravity a)^2 dt,  exact for piecewise linear a
 ///
-/// With less than two samples, or if all are 0, only the pga may differ from 0.
+/// With fewer than two samples, or if all are 0, only the pga may differ from 0.
 inline IntensityMeasures intensity_measures(std::span<const double> acceleration, double time_step,
                                             double gravity)
 {

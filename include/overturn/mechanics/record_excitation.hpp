@@ -134,26 +134,26 @@ struct RecordExcitation {
         const T peak = gathered<T>(motion.record->horizontal().data(), there);
         const T towards = select<T>(peak < zero, -scale, scale);
         const auto excess = [&](const T& number) -> T {
-            T lifting_down = threshold;
+            T needed = threshold;
             if constexpr (upwards) {
                 if (!motion.record->upwards().empty()) {
                     const T v = gathered<T>(motion.record->upwards().data(), number);
-                    lifting_down = threshold * (one + scale * v);
+                    needed = threshold * (one + scale * v);
                 }
             }
-            return towards * gathered<T>(motion.record->horizontal().data(), number) - lifting_down;
+            return towards * gathered<T>(motion.record->horizontal().data(), number) - needed;
         };
         const T low = excess(before);
         const T high = excess(there);
         const mask_t<T> crosses = low < zero && high > low;
         const T share = select<T>(crosses, -low, zero) / select<T>(crosses, high - low, one);
         const T crossing = select<T>(sample == zero, zero, before + lesser<T>(share, one));
-        const T latest_possible = greater<T>(crossing, phase);
+        const T earliest = greater<T>(crossing, phase);
         // Rounding must not lift the block at the same phase again.
-        const T earlier = greater<T>(latest, -one);
+        const T previous = greater<T>(latest, -one);
         const T after_latest =
-            earlier + T(std::numeric_limits<S>::epsilon()) * (one + abs(earlier));
-        const T uplift = select<T>(latest_possible > latest, latest_possible, after_latest);
+            previous + T(std::numeric_limits<S>::epsilon()) * (one + abs(previous));
+        const T uplift = select<T>(earliest > latest, earliest, after_latest);
         return select<T>(lifts, uplift, T(std::numeric_limits<S>::infinity()));
     }
 };

@@ -27,7 +27,7 @@ struct Flip {
     double amplitude() const { return below + (above - below) / 2; }
 };
 
-/// How closely a line is searched for flips; both over the amplitude [1].
+/// How closely a line is searched for flips; step and width over the amplitude [1].
 struct SearchResolution {
     /// Steps of the scan that are smaller are not halved. Under a record all steps are divided
     /// evenly until each is at most this.
@@ -68,7 +68,7 @@ struct Boundary {
 /// amplitudes, all of which are computed.
 /// Steps are halved where the margin is not linear or the number of impacts changes, down to the
 /// finest step of the search resolution.
-/// If the verdicts of two neighbours differ, there is a flip between them. If both overturn to
+/// If the verdicts of two neighbours differ, there is a flip between them. If they overturn to
 /// different sides, there is a safe strip between them, however narrow. If |margin| has a local
 /// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
 /// narrower than two steps of the scan that satisfies none of these criteria can be missed.

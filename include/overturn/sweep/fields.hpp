@@ -41,7 +41,7 @@ inline constexpr std::array<std::string_view, 17> field_names{
     "fall_time",    "impacts",  "steps",        "status",          "flip_amplitude", "region_below",
     "region_above", "flip_pga", "unsafe_share", "undecided_share", "evaluated"};
 
-/// The fields that a job can request: all except those of a boundary.
+/// The fields that a job can request: all except those of a boundary and `evaluated`.
 inline constexpr auto spectrum_field_names = [] {
     std::array<std::string_view, 10> names{};
     std::copy_n(field_names.begin(), names.size(), names.begin());
@@ -62,8 +62,8 @@ constexpr std::string_view name_of(Field field)
     return field_names[std::size_t(field)];
 }
 
-/// The values of one field in one tile, row by row, frequency fastest. Regions and status: uint8;
-/// impacts: uint16; steps: uint32; all others: double.
+/// The values of one field in one tile, row by row, frequency fastest. Regions, status and
+/// evaluated: uint8; impacts: uint16; steps: uint32; all others: double.
 using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
                                  std::vector<std::uint32_t>, std::vector<double>>;
 

@@ -17,11 +17,12 @@ namespace overturn {
 /// When a cell is filled. Tests weaken it.
 struct FillRule {
     /// Each switch function exceeds kappa/2 times its second differences between the nodes of a
-    /// cell; kappa = 0.25 is the nominal error of an interpolation. It is multiplied by the number
-    /// of impacts above 3, less 2: every impact of a series increases small differences [1].
+    /// cell; kappa = 0.25 is the nominal error of an interpolation. After
+    /// n > 3 impacts it is multiplied by n - 2, except where `low` applies: every impact of a
+    /// series increases small differences [1].
     double kappa = 4;
-    /// In a cell of region S, impacts of blocks that stay below this tilt are ignored, unless they
-    /// are stored [alpha].
+    /// In a cell of region S, impacts are ignored, unless they are stored, if the largest tilt
+    /// times exp(pi / Omega) is below this at every node [alpha].
     double low = 0.1;
     bool grazes = true; ///< whether impacts that could appear or vanish are considered
 };

@@ -25,8 +25,9 @@ TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane&
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested = nullptr);
 
-/// Makes the allocator of this process keep freed memory. By default, the C library of GNU returns
-/// the memory of a tile to the system; new pages for the next tile then take a fifth of the time.
+/// Makes the allocator of this process keep freed memory. By default, the GNU C library returns
+/// the memory of a tile to the system; obtaining new pages for the next tile then takes up a fifth
+/// of the run time.
 void keep_freed_memory();
 
 } // namespace overturn
