@@ -53,8 +53,8 @@ fields = ["region", "impacts"]
 [scene]
 pulse = "one_sine"
 [plane]
-frequency = { first = 0.5, last = 8.0, count = 900 }
-amplitude = { first = 0.5, last = 12.0, count = 700 }
+frequency = { first = 0.5, last = 8.0, count = 600 }
+amplitude = { first = 0.5, last = 12.0, count = 500 }
 restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
 slenderness = { values = [0.1745716] }
 [numerics]

@@ -25,6 +25,8 @@ def add_arguments(parser):
                         help="points of the frequency and of the amplitude axis")
     parser.add_argument("--direct", type=int, default=4096,
                         help="largest side at which every point is integrated (default: 4096)")
+    parser.add_argument("--audit", type=float, default=1e-3,
+                        help="share of the filled points that is integrated as well (default: 1e-3)")
     parser.add_argument("--jobs", nargs="+", type=pathlib.Path,
                         default=sorted((SOURCE / "jobs").glob("figure_*.toml")),
                         help="the planes (default: those of the paper)")
@@ -33,22 +35,23 @@ def add_arguments(parser):
                              ".png (default: bench_fill.json)")
 
 
-def measured(overturn, job, side, fill):
+def measured(overturn, job, side, *settings):
     """Seconds in the kernel, of writing, and of the whole run."""
-    settings = ['output.fields=["region"]', f"numerics.fill={'true' if fill else 'false'}"]
-    wall, sidecar = measured_run(overturn, side, settings, job=job)
+    wall, sidecar = measured_run(overturn, side, ['output.fields=["region"]', *settings],
+                                 job=job.resolve())
     return {"kernel": sum(rank["compute_seconds"] for rank in sidecar["ranks"]),
             "writing": sum(rank["write_seconds"] for rank in sidecar["ranks"]), "run": wall}
 
 
 def compared(overturn, job, options):
-    direct = {side: measured(overturn, job, side, False)
+    filling = ("numerics.fill=true", f"numerics.audit={options.audit}")
+    direct = {side: measured(overturn, job, side)
               for side in options.sides if side <= options.direct}
     last = max(direct)
     rows = []
     for side in options.sides:
         by_area = {key: value * (side / last)**2 for key, value in direct[last].items()}
-        rows.append({"job": job.stem, "side": side, "filled": measured(overturn, job, side, True),
+        rows.append({"job": job.stem, "side": side, "filled": measured(overturn, job, side, *filling),
                      "direct": direct.get(side, by_area), "direct_is_measured": side in direct})
         filled, every = rows[-1]["filled"], rows[-1]["direct"]
         print(f"{job.stem:12}{side:>7}{filled['kernel']:>10.3f} s{filled['writing']:>8.3f} s"
@@ -66,8 +69,6 @@ def exponent(rows, side):
 
 
 def plot(rows, path):
-    import matplotlib
-    matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
@@ -88,6 +89,8 @@ def plot(rows, path):
 
 
 def run(options):
+    import matplotlib  # before the runs: if it is missing, the command starts again elsewhere
+    matplotlib.use("Agg")
     overturn = program(options)
     print(f"{'plane':12}{'side':>7}{'kernel':>12}{'writing':>10}{'run':>11}{'direct kernel':>13}"
           f"{'run':>12}{'ratio':>9}{'run':>7}")
