@@ -12,7 +12,7 @@
 
 namespace overturn {
 
-/// Such as "0.1.0".
+/// Such as "1.0.0".
 std::string_view program_version();
 
 /// The commit from which the program was built, with "-dirty" if the sources differed from it;
