@@ -115,6 +115,15 @@ class TestThePage(unittest.TestCase):
         self.addCleanup(self.browser.resize, 1280, 1000)
         self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 420)
 
+    def test_prints_every_picture_whole(self):
+        self.browser.resize(794, 1123)  # A4
+        self.addCleanup(self.browser.resize, 1280, 1000)
+        self.browser.ask("Emulation.setEmulatedMedia", media="print")
+        self.addCleanup(self.browser.ask, "Emulation.setEmulatedMedia", media="")
+        widest = self.browser.evaluate("""Math.max(...[...document.querySelectorAll("img")]
+            .map((picture) => picture.getBoundingClientRect().right))""")
+        self.assertLessEqual(widest, 794)
+
     def test_links_its_contents_to_every_figure(self):
         lost = self.browser.evaluate("""[...document.querySelectorAll("nav a")]
             .filter((link) => !document.querySelector(link.getAttribute("href"))).length""")
