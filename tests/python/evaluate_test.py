@@ -13,14 +13,14 @@ import overturn
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 FIELDS = ["region", "status", "peak", "margin"]
 BLOCK = {"width": 0.6, "height": 2.4, "restitution": 0.87}
-PULSE = {"period": 0.9, "pga": 0.4}
+PULSE = {"pulse_period": 0.9, "pga": 0.4}
 
 
 def random_blocks(count, seed=1):
     random = np.random.default_rng(seed)
     return {"width": random.uniform(0.2, 1, count), "height": random.uniform(1, 4, count),
             "restitution_of_maximum": random.uniform(0.7, 1, count),
-            "period": random.uniform(0.2, 2, count), "pga": random.uniform(0.05, 1.2, count)}
+            "pulse_period": random.uniform(0.2, 2, count), "pga": random.uniform(0.05, 1.2, count)}
 
 
 class WithTheSameBits(unittest.TestCase):
@@ -59,7 +59,7 @@ class TheBitsOfAPlane(WithTheSameBits):
                       "pga": {"first": 0.1, "last": 1, "count": 11},
                       "restitution": {"values": [0.9], "of": "maximum"}}})
         outcome = overturn.evaluate(width=BLOCK["width"], height=BLOCK["height"], restitution_of_maximum=0.9,
-                                    period=spectrum.pulse_period.values, pga=spectrum.pga.values[:, None],
+                                    pulse_period=spectrum.pulse_period.values, pga=spectrum.pga.values[:, None],
                                     pulse="one_cosine")
         self.assert_same(outcome, spectrum, kinds=4)
 
@@ -117,7 +117,7 @@ class TheShape(unittest.TestCase):
 
     def test_integers_lists_and_slices_are_accepted(self):
         pga = np.arange(12, dtype=np.float32)[::3] / 10
-        outcome = overturn.evaluate(**{**BLOCK, "height": 2, "period": [1, 2, 1, 2], "pga": pga})
+        outcome = overturn.evaluate(**{**BLOCK, "height": 2, "pulse_period": [1, 2, 1, 2], "pga": pga})
         self.assertEqual(outcome["verdict"].shape, (4,))
 
     def test_verdicts_follow_from_the_regions(self):
@@ -130,10 +130,10 @@ class TheShape(unittest.TestCase):
         p = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 1.2)))
         slenderness = np.arctan(0.25)
         first = overturn.evaluate(**BLOCK, **PULSE)
-        for other in ({"half_width": 0.3, "half_height": 1.2, "period": 0.9, "pga": 0.4},
+        for other in ({"half_width": 0.3, "half_height": 1.2, "pulse_period": 0.9, "pga": 0.4},
                       {"slenderness": slenderness, "size": np.hypot(0.3, 1.2), "pulse_frequency": 1 / 0.9,
                        "pga": 0.4},
-                      {"slenderness": slenderness, "frequency_parameter": p, "period": 0.9, "amplitude": 1.6},
+                      {"slenderness": slenderness, "frequency_parameter": p, "pulse_period": 0.9, "amplitude": 1.6},
                       {"slenderness": slenderness, "frequency": 2 * np.pi / (0.9 * p), "amplitude": 1.6}):
             outcome = overturn.evaluate(restitution=0.87, **other)
             # A few roundings of the arguments; they grow by less than a thousand.

@@ -11,16 +11,16 @@ except ImportError:
     solve_ivp = None
 
 
-def largest_tilt(width, height, restitution, period, pga):
+def largest_tilt(width, height, restitution, pulse_period, pga):
     """Returns the largest |theta| / alpha under a one-sine pulse, infinite if the block overturns; None if it
     comes to rest during the pulse."""
     alpha = np.arctan(width / height)
     p = np.sqrt(3 * 9.81 / (4 * np.hypot(width / 2, height / 2)))
-    omega = 2 * np.pi / period
+    omega = 2 * np.pi / pulse_period
 
     def slope(t, y):
         lean = side * alpha - y[0]
-        ground = pga * np.sin(omega * t) if t < period else 0.0
+        ground = pga * np.sin(omega * t) if t < pulse_period else 0.0
         return [y[1], -p * p * (np.sin(lean) + ground * np.cos(lean))]
 
     def impact(t, y):
@@ -35,9 +35,9 @@ def largest_tilt(width, height, restitution, period, pga):
     impact.terminal, impact.direction, fall.terminal = True, -1, True
     t, y = np.arcsin(np.tan(alpha) / pga) / omega, [0.0, 0.0]
     side, largest = -1, 0.0
-    while t < period + 10 / p:
+    while t < pulse_period + 10 / p:
         # No step crosses the end of the pulse.
-        end = period if t < period else period + 20 / p
+        end = pulse_period if t < pulse_period else pulse_period + 20 / p
         motion = solve_ivp(slope, (t, end), y, method="DOP853", rtol=1e-11, atol=1e-13, events=(impact, turn, fall),
                            first_step=1e-5 / p)
         largest = max([largest, *(abs(turned[0]) for turned in motion.y_events[1]), *abs(motion.y[0])])
@@ -48,7 +48,7 @@ def largest_tilt(width, height, restitution, period, pga):
             y = [0.0, np.sqrt(restitution) * y[1]]
             side = np.sign(y[1])
             if abs(y[1]) < 0.02 * p * alpha:
-                return None if t < period else largest / alpha
+                return None if t < pulse_period else largest / alpha
     return largest / alpha
 
 
@@ -59,7 +59,7 @@ class AgainstSciPy(unittest.TestCase):
         compared = []
         for _ in range(25):
             block = dict(width=random.uniform(0.4, 0.8), height=random.uniform(1.5, 3),
-                         restitution=random.uniform(0.6, 0.8), period=random.uniform(0.2, 0.8),
+                         restitution=random.uniform(0.6, 0.8), pulse_period=random.uniform(0.2, 0.8),
                          pga=random.uniform(0.3, 1.5))
             expected = largest_tilt(**block)
             if expected is None:

@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 import overturn
 
-GOOD = {"width": 0.6, "height": 2.4, "restitution": 0.87, "period": 0.9, "pga": 0.4}
+GOOD = {"width": 0.6, "height": 2.4, "restitution": 0.87, "pulse_period": 0.9, "pga": 0.4}
 RECORD = {"width": 0.6, "height": 2.4, "restitution": 0.87, "record": [0.0, 0.3, 0.0], "time_step": 0.1, "scale": 1}
 
 
@@ -23,8 +23,8 @@ class ARefusal(Refused):
         self.assert_refused(ValueError, "at index (1,): width = -1 is outside (0, inf)", width=[1, -1])
         self.assert_refused(ValueError, "at index (1, 2): pga = nan is outside [0, inf)",
                             pga=[[0, 0, 0], [0, 0, np.nan]])
-        self.assert_refused(ValueError, "at index (1, 0): period = inf is outside (0, inf)",
-                            period=[[1], [np.inf]], pga=[0.1, 0.2, 0.3])
+        self.assert_refused(ValueError, "at index (1, 0): pulse_period = inf is outside (0, inf)",
+                            pulse_period=[[1], [np.inf]], pga=[0.1, 0.2, 0.3])
         self.assert_refused(ValueError, "at index (0, 1): scale = -1 is outside", RECORD, scale=[[1, -1]])
 
     def test_names_no_index_of_a_number(self):
@@ -64,8 +64,8 @@ class AnArgumentError(Refused):
         self.assert_refused(TypeError, "Give width and height", width=None)
         self.assert_refused(TypeError, "the restitution is missing", restitution=None)
         self.assert_refused(TypeError, "the ground motion is incomplete", pga=None)
-        self.assert_refused(TypeError, "the ground motion is incomplete", period=None)
-        self.assert_refused(TypeError, "period needs the size of the blocks", width=None, height=None,
+        self.assert_refused(TypeError, "the ground motion is incomplete", pulse_period=None)
+        self.assert_refused(TypeError, "pulse_period needs the size of the blocks", width=None, height=None,
                             slenderness=0.2)
         self.assert_refused(TypeError, "a record needs time_step", RECORD, time_step=None)
         self.assert_refused(TypeError, "either scale or pga", RECORD, scale=None)
@@ -73,8 +73,8 @@ class AnArgumentError(Refused):
     def test_of_arguments_that_contradict_each_other(self):
         self.assert_refused(TypeError, "half_width cannot be combined with width", half_width=1)
         self.assert_refused(TypeError, "pga cannot be combined with amplitude", amplitude=1)
-        self.assert_refused(TypeError, "period cannot be combined with frequency", frequency=1)
-        self.assert_refused(TypeError, "period cannot be combined with record", RECORD, period=1)
+        self.assert_refused(TypeError, "pulse_period cannot be combined with frequency", frequency=1)
+        self.assert_refused(TypeError, "pulse_period cannot be combined with record", RECORD, pulse_period=1)
         self.assert_refused(TypeError, "scale has no meaning without record", scale=1)
         self.assert_refused(TypeError, "either scale or pga", RECORD, pga=1)
 

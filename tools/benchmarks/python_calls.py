@@ -15,7 +15,7 @@ same blocks. Shortest times of five rounds. Do not run other programs at the sam
 
 ROUNDS = 5
 COLUMNS = {"width": (0.2, 1), "height": (1, 4), "restitution_of_maximum": (0.8, 1), "pga": (0.1, 1),
-           "period": (0.2, 2)}
+           "pulse_period": (0.2, 2)}
 
 
 def add_arguments(parser):

@@ -35,16 +35,13 @@ _VERDICT_OF_REGION = np.full(256, Verdict.UNDECIDED, np.uint8)
 _VERDICT_OF_REGION[list(core.safe_regions.values())] = Verdict.SAFE
 _VERDICT_OF_REGION[list(core.unsafe_regions.values())] = Verdict.OVERTURNS
 
-# Arguments whose names in lists and result files differ.
-_COLUMN_OF = {"period": "pulse_period"}
-
 
 def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              half_width: ArrayLike | None = None, half_height: ArrayLike | None = None,
              slenderness: ArrayLike | None = None, size: ArrayLike | None = None,
              frequency_parameter: ArrayLike | None = None,
              restitution: ArrayLike | None = None, restitution_of_maximum: ArrayLike | None = None,
-             period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
+             pulse_period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
              frequency: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None,
              pulse: str = "one_sine", window: float | None = None, cycles: float | None = None,
@@ -65,7 +62,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             alone under a pulse given by frequency.
         restitution*: energy ratio r at an impact [1]; or restitution_of_maximum*, r / r_max [1].
     A pulse:
-        period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
+        pulse_period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
         pga*: peak ground acceleration over g [1]; or amplitude*, over that which lifts the block [1].
         pulse: its kind; window, cycles, gamma, nu: numbers that complete some kinds, see docs/jobs.md.
     Or a record:
@@ -86,7 +83,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
                      slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
                      restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
-    of_pulse = _given(period=period, pulse_frequency=pulse_frequency, frequency=frequency, amplitude=amplitude)
+    of_pulse = _given(pulse_period=pulse_period, pulse_frequency=pulse_frequency, frequency=frequency,
+                      amplitude=amplitude)
     shape_numbers = _given(window=window, cycles=cycles, gamma=gamma, nu=nu)
     numbers = {name: _number(name, value) for name, value in _given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
@@ -94,8 +92,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     if record is None:
         _refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
-            raise TypeError("the ground motion is incomplete. Give period (or pulse_frequency or frequency) and "
-                            "pga (or amplitude), or a record.")
+            raise TypeError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
+                            "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
         scene = core.scene_of_pulse(pulse, theory, numbers["gravity"], {name: numbers[name] for name in shape_numbers})
     else:
@@ -150,7 +148,7 @@ def _accelerations(record, vertical):
 
 
 def _evaluated(scene, numerics, columns):
-    arrays = {_COLUMN_OF.get(name, name): _numbers(name, value) for name, value in columns.items()}
+    arrays = {name: _numbers(name, value) for name, value in columns.items()}
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:
@@ -168,9 +166,6 @@ def _evaluated(scene, numerics, columns):
 
 def _error_of(row, column, message, shape):
     """Returns the error of a list with the names of the arguments and the index of the point."""
-    for argument, name in _COLUMN_OF.items():
-        message = message.replace(name, argument)
-        column = argument if column == name else column
     if row < 0:
         return TypeError(f"{column} {message}".lstrip())
     index = tuple(map(int, np.unravel_index(row, shape)))
