@@ -81,8 +81,9 @@ inline constexpr const char* history = R"(Example:
 Prints region, margin, peak tilt, the times of fall and rest, and the first 24 events; for each
 event, the velocity before and after it, and q (Eq. 12) after it. Times and angles are in seconds
 and degrees if the job gives the size of the block, otherwise in 1/p and rad; q is in rad2. OUT.h5
-contains angle, velocity, acceleration, q and the ground acceleration over tau = p t, in rad. The
-motion is integrated as accurately as doubles allow, regardless of [numerics].)";
+contains angle, velocity and acceleration [rad], q [rad2] and the ground acceleration over g as
+functions of tau = p t. The motion is integrated as accurately as doubles allow, regardless of
+[numerics].)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";
@@ -99,7 +100,7 @@ recomputes damaged tiles.)";
 namespace overturn::manual {
 
 /// The date of these texts. With the date of the build, equal sources would give different bytes.
-inline constexpr const char* date_of_texts = "2026-11-22";
+inline constexpr const char* date_of_texts = "2026-11-23";
 
 inline constexpr const char* description =
     R"(A rigid block that stands free on the ground rocks when the ground shakes, and may overturn.

@@ -48,7 +48,7 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
         if (!(job.largest_scale(motion) < motion.largest_scale)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
-                "are not computed (status 16, free_fall)",
+                "are undecided (status 16, free_fall)",
                 motion.file, motion.largest_scale)));
         }
     }

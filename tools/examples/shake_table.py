@@ -23,8 +23,8 @@ except ImportError as error:
     run_elsewhere(error)
 
 EPILOG = """\
-The model: a rock topples with the probability that a symmetric block overturns whose slenderness is
-lognormal. Three numbers per rock are fitted by maximum likelihood: the median slenderness, its scatter, and
+The model: a rock topples with the probability that a symmetric block with lognormally distributed
+slenderness overturns. Three numbers per rock are fitted by maximum likelihood: the median slenderness, its scatter, and
 the restitution r. The frequency parameter p is fixed. Verdicts are computed on a grid of slendernesses and
 restitutions; the probability is their weighted mean. A narrow range of r, fixed and not fitted, is included,
 because single verdicts change at tiny changes of r.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Verdict(enum.IntEnum):
-    """The codes of `verdict`. An undecided point is neither safe nor does it overturn."""
+    """The codes of `verdict`. An undecided point counts neither as safe nor as overturning."""
 
     SAFE = 0
     OVERTURNS = 1
@@ -50,7 +50,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              time_step: float | None = None, scale: ArrayLike | None = None,
              theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
              resolve: bool = False, gravity: float = 9.81) -> Outcome:
-    """Computes what becomes of blocks, each under its own ground motion.
+    """Computes what becomes of blocks, each under its own pulse, or all under one record.
 
     The arguments marked with * are numbers or arrays and broadcast by the rules of NumPy. The values
     are those of `overturn run`, bit for bit. Threads may call this function at the same time: it does

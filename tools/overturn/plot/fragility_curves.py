@@ -18,7 +18,7 @@ example:
   overturn run jobs/suite/fragility.toml             # writes fragility.h5
   tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility.png, a panel for each measure
 
-The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence at each
+The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence interval at each
 value, by bootstrap over the motions. beta is the scatter: the smaller, the better the measure predicts
 the outcome. Points without a verdict (undecided, or not computed yet) are left out, counted and reported.
 
