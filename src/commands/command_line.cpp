@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -78,8 +79,19 @@ CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& p
 const CLI::Validator is_positive(
     [](const std::string& text) {
         double value = 0;
-        const bool is_valid = CLI::detail::lexical_cast(text, value) && value > 0;
-        return is_valid ? "" : fmt::format("{} is not a positive number.", text);
+        const bool is_valid =
+            CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
+        return is_valid ? "" : fmt::format("{} is not a positive, finite number.", text);
+    },
+    "");
+
+/// The steps of a search to a much larger acceleration would be too long, or too many.
+constexpr double largest_pga_max = 1000; // [g]
+const CLI::Validator is_searchable(
+    [](const std::string& text) {
+        double value = 0;
+        const bool is_valid = CLI::detail::lexical_cast(text, value) && value <= largest_pga_max;
+        return is_valid ? "" : fmt::format("{} is above {} g.", text, largest_pga_max);
     },
     "");
 
@@ -120,6 +132,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
         ->type_name("X")
         ->check(is_positive);
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search")
+        ->check(is_searchable)
         ->capture_default_str();
     command.add_option("--set", options.overrides, "Set a key of [scene]; repeatable")
         ->type_name("scene.KEY=VALUE")

@@ -9,6 +9,7 @@
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/kernel.hpp"
 
 #include <fmt/format.h>
 
@@ -173,6 +174,7 @@ void print_outcome(const History& history, double slenderness, double peak,
 
 int history(const HistoryOptions& options)
 {
+    widest_kernel(); // throws if this processor supports none
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
     const int refusal =

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,8 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
 {
     std::vector<std::string> lines;
     for (const Motion& motion : job.motions) {
-        if (!(job.largest_scale(motion) < motion.largest_scale)) {
+        if (std::isfinite(motion.largest_scale) &&
+            !(job.largest_scale(motion) < motion.largest_scale)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
                 "are undecided (status 16, free_fall)",

@@ -8,6 +8,7 @@
 #include "toppling_ranges.hpp"
 
 #include "overturn/file/study_files.hpp"
+#include "overturn/sweep/kernel.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -163,10 +164,11 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     const bool is_recorded = job.scene.is_recorded();
     print_row("block", fmt::format("{} m x {} m, {}", options.width, options.height,
                                    dimension_lines(job)[0]));
-    print_row("motion", is_recorded
-                            ? printable(fmt::format("{}, unscaled peak {:.4g} g", options.record,
-                                                    job.motions.front().measures.pga))
-                            : fmt::format("{}, period {} s", options.pulse, *options.period));
+    print_row("motion",
+              is_recorded
+                  ? printable(fmt::format("{}, unscaled peak {:.4g} g", options.record,
+                                          job.motions.front().measures.pga))
+                  : fmt::format("{}, period {} s", name_of(job.scene.pulse), *options.period));
     print_row("restitution",
               requested.share == 1
                   ? fmt::format("r = r_max = {:.4g}", requested.ratio)
@@ -281,6 +283,7 @@ void plot(const Job& job, const std::string& picture)
 
 int topple(const ToppleOptions& options)
 {
+    widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
     const Job job = read_job_text(job_text(options), "the command line", options.overrides);
     const Answer answer = answer_of(job, options);

@@ -84,12 +84,13 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
     }
     for (Coordinate coordinate : coordinates_of(job)) {
         coordinate.name = stored_name_of(coordinate.name, stored);
-        std::vector<double> values(coordinate.values.size());
-        if (has_shape(coordinate.name, coordinate.shape)) {
-            const Handle dataset = open_own_dataset(stored.file, coordinate.name);
-            check(
-                H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+        if (!has_shape(coordinate.name, coordinate.shape)) {
+            foreign.push_back(coordinate.name);
+            continue;
         }
+        std::vector<double> values(coordinate.values.size());
+        const Handle dataset = open_own_dataset(stored.file, coordinate.name);
+        check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
         const double tolerance = coordinate.roundings * std::numeric_limits<double>::epsilon();
         const auto is_as_good_as = [=](double value, double computed) {
             return std::abs(value - computed) <= tolerance * std::abs(computed) ||

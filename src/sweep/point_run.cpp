@@ -165,6 +165,10 @@ template <class T>
 void PointRun::run_exactly(int point, Ends& ends) const
 {
     throw_if_dropped();
+    if (falls_freely(point)) {
+        ends.set_free_fall(point);
+        return;
+    }
     with_theory(scene_.theory, [&]<Theory theory>() {
         const auto i = std::size_t(point);
         const Block<T> block{T(points_[i].slenderness), T(points_[i].restitution)};

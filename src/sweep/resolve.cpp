@@ -39,14 +39,19 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
     return in_doubt;
 }
 
+/// Whether a computation in T may settle a point. With more digits, a series of bounces takes as
+/// many steps as in double.
+template <class T>
+bool may_settle_in(const PointRun& run, int point, const Ends& ends)
+{
+    return std::numeric_limits<T>::digits > std::numeric_limits<double>::digits &&
+           ends.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + double(run.intervals());
+}
+
 template <class T>
 bool settle_in(const PointRun& run, int point, Ends& ends)
 {
-    // With more digits, a series of bounces takes as many steps as in double.
-    const bool hopeless =
-        std::numeric_limits<T>::digits <= std::numeric_limits<double>::digits ||
-        ends.steps[std::size_t(point)] > MoreDigits<T>::most_steps + double(run.intervals());
-    if (hopeless) {
+    if (!may_settle_in<T>(run, point, ends)) {
         return false;
     }
     run.run_exactly<T>(point, ends);
@@ -66,7 +71,8 @@ void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
     for (const int point : in_doubt) {
         const bool settled = run.settle_low_bounces(point, ends) ||
                              settle_in<long double>(run, point, ends) ||
-                             (left-- > 0 && settle_in<Digits50>(run, point, ends));
+                             (may_settle_in<Digits50>(run, point, ends) && left-- > 0 &&
+                              settle_in<Digits50>(run, point, ends));
         if (!settled) {
             give_up(point, ends);
         }

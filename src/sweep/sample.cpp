@@ -31,7 +31,7 @@ Plane sample_of(const Plane& plane, std::int64_t points)
     sample.restitution = spread(plane.restitution, most_of_a_block);
     const double left = double(points) / double(std::max<std::int64_t>(1, plane.motions)) /
                         double(sample.slenderness.size()) / double(sample.restitution.size());
-    const auto side = std::int64_t(std::sqrt(left));
+    const std::int64_t side = std::max<std::int64_t>(1, std::int64_t(std::sqrt(left)));
     const std::int64_t amplitudes = std::clamp<std::int64_t>(
         std::int64_t(left / double(std::min(side, plane.frequency.size()))), 1,
         plane.amplitude.size());

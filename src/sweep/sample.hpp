@@ -10,7 +10,8 @@
 namespace overturn {
 
 /// A plane of at most `points` points, spread evenly over this one, including the ends of each
-/// axis, with at most three slendernesses and three restitutions. points: at least 9.
+/// axis, with at most three slendernesses and three restitutions; one point for each of these and
+/// each motion if that is more. points: at least 9.
 Plane sample_of(const Plane& plane, std::int64_t points);
 
 /// About `wanted` points, spread over all rows and columns of a plane: for each tile, their numbers

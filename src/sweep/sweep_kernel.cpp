@@ -1,8 +1,9 @@
 // Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER,
 // OVERTURN_RECORDED (whether the ground motion is a record) and OVERTURN_KERNEL, the name of the
-// only function with external linkage. Apart from it, only
-// templates over OVERTURN_NUMBER may be instantiated here: a function in double would be shared
-// with the rest of the program, which also runs on machines without these instructions.
+// only function with external linkage. Apart from it, only templates over OVERTURN_NUMBER may be
+// instantiated here: with packs, a function in double would be shared with the rest of the program,
+// whose commands must be able to refuse a processor without these instructions. The kernel `double`
+// shares functions: every command calls widest_kernel() before it computes.
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"

@@ -14,6 +14,7 @@ import xarray
 from program import Scratch, checksum
 
 PLOT_ACCURACY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_accuracy"
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 FEW = ("--points", "1024", "--digits", "16")
 
 
@@ -34,6 +35,17 @@ class AnAccuracyStudy(Scratch):
             self.assertEqual(sum(map(bool, rows)), file["resolve"][:].sum())
             self.assertEqual(file.attrs["points_in_50_digits"], 16)
             self.assertTrue((file["seconds_per_point"][:] > 0).all())
+
+    def test_leaves_out_points_at_which_gravity_vanishes(self):
+        result = self.overturn("accuracy", JOBS / "synthetic.toml", "-o", "study.h5", "--points", "32",
+                               "--digits", "32", "--set", f'scene.vertical="{JOBS}/synthetic_vertical.AT2"',
+                               "--set", "plane.scale={ first = 1, last = 20, count = 8 }",
+                               "--set", "plane.size.count=4")
+        self.assert_exit(result, 0)
+        with h5py.File(self.folder / "study.h5") as file:
+            self.assertLess(0, file.attrs["points_in_50_digits"])
+            self.assertLess(file.attrs["points_in_50_digits"], 32)
+            self.assertTrue(np.isfinite(file["margin_error"][:]).all())
 
     def test_is_described_by_info(self):
         self.study()

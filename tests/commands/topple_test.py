@@ -123,8 +123,10 @@ class Toppling(Scratch):
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
                 ((*PULSE, "--plot", "a.png"), "Give --pga or --scale"),
                 ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
-                ((*PULSE, "--width", "0"), "0 is not a positive number"),
-                ((*PULSE, "--pga-max", "nan"), "nan is not a positive number")):
+                ((*PULSE, "--width", "0"), "0 is not a positive, finite number"),
+                ((*PULSE, "--pga-max", "nan"), "nan is not a positive, finite number"),
+                ((*PULSE, "--pga-max", "inf"), "inf is not a positive, finite number"),
+                ((*PULSE, "--pga-max", "1e4"), "1e4 is above 1000 g.")):
             self.assert_exit(self.overturn("topple", *arguments), 2, words)
         self.assert_exit(self.overturn("topple", *PULSE, "--restitution", "1.2"), 65,
                          "outside (0, 1]")

@@ -20,7 +20,8 @@ struct TileFields {
 
 /// Computes every point of a tile, or fills it, see fill.hpp. Without filling, the values of a
 /// point depend only on the point, the scene and the numerics, not on the shape of the tile, the
-/// other points, or the kernel.
+/// other points, or the kernel; except that under a record with `resolve`, whether a point is left
+/// undecided also depends on the other points of the tile, see Numerics::most_in_50_digits.
 TileFields sweep_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
                       const Tile& tile, const std::vector<Field>& fields, Kernel kernel,
                       DropRequested drop_requested = nullptr);
