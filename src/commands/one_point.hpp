@@ -15,10 +15,6 @@
 
 namespace overturn {
 
-/// The most accurate setting, with verdicts resolved.
-inline constexpr Numerics best_numerics{
-    .method = Method::taylor, .tolerance = 1e-13, .resolve = true};
-
 inline PlanePoint only_point_of(const Job& job)
 {
     const Plane& plane = job.plane;
@@ -41,7 +37,7 @@ inline History history_of_only_point(const Job& job, HistoryView view = {})
 /// The largest |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
 inline double peak_of_only_point(const Job& job)
 {
-    const TileFields fields = sweep_tile(job.scene, best_numerics, job.plane, Tiling(job.plane)[0],
+    const TileFields fields = sweep_tile(job.scene, most_accurate, job.plane, Tiling(job.plane)[0],
                                          {Field::peak}, widest_kernel());
     return std::get<std::vector<double>>(fields.values[0])[0];
 }

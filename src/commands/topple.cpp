@@ -248,14 +248,30 @@ fs::path plotting_tool()
                      "Install it, or leave out --plot.");
 }
 
+/// Removed with its contents when it goes out of scope.
+struct TemporaryFolder {
+    std::string path = (fs::temp_directory_path() / "overturn-XXXXXX").string();
+
+    TemporaryFolder()
+    {
+        if (mkdtemp(path.data()) == nullptr) {
+            throw FileError(fmt::format("cannot create a folder in {}.", path));
+        }
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder()
+    {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+};
+
 void plot(const Job& job, const std::string& picture)
 {
     const std::string tool = plotting_tool().string();
-    std::string folder = (fs::temp_directory_path() / "overturn-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) {
-        throw FileError(fmt::format("cannot create a folder in {}.", folder));
-    }
-    std::string file = folder + "/history.h5";
+    const TemporaryFolder folder;
+    std::string file = folder.path + "/history.h5";
     write_history_file(file, job, history_of_only_point(job));
     std::string units = "--units=physical";
     std::string output = "-o";
@@ -272,8 +288,6 @@ void plot(const Job& job, const std::string& picture)
         posix_spawn(&child, tool.c_str(), &silent, nullptr, arguments.data(), environ) == 0 &&
         waitpid(child, &status, 0) == child;
     posix_spawn_file_actions_destroy(&silent);
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
     if (!ran || status != 0) {
         throw FileError(fmt::format("{} could not draw \"{}\".", tool, picture));
     }

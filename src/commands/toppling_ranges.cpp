@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::vector<double> scan(const Scene& scene, double first, double last)
 {
     const double steps = scene.is_recorded() ? std::log(last / first) / toppling_step
-                                             : (last - first) / (0.1 * first);
-    const std::int64_t count = 1 + std::int64_t(std::ceil(std::clamp(steps, 50.0, 2000.0)));
+                                             : std::min((last - first) / (0.1 * first), 2000.0);
+    const std::int64_t count = 1 + std::int64_t(std::ceil(std::max(steps, 50.0)));
     return Axis(AxisRange{first, last, count, scene.is_recorded() ? Spacing::log : Spacing::linear})
         .values();
 }
@@ -33,8 +33,9 @@ TopplingRanges toppling_ranges(const Scene& scene, const BoundaryLine& line, dou
         return ranges;
     }
     SearchResolution resolution = search_resolution(scene);
-    if (scene.is_recorded()) {                      // an answer in seconds
-        resolution.finest_step = 2 * toppling_step; // the steps of the scan are not divided
+    if (scene.is_recorded()) { // an answer in seconds
+        // Above every step of the scan, which is therefore not divided.
+        resolution.finest_step = 2 * toppling_step;
         resolution.most_in_50_digits = 0;
     }
     std::vector<double> accelerations = scan(scene, first, last);

@@ -109,10 +109,8 @@ private:
     std::int64_t motion_named(const std::string& name, const std::vector<Motion>& motions,
                               std::int64_t row) const
     {
-        if (!numbers_.empty()) {
-            if (const auto known = numbers_.find(name); known != numbers_.end()) {
-                return known->second;
-            }
+        if (const auto known = numbers_.find(name); known != numbers_.end()) {
+            return known->second;
         }
         std::int64_t found = -1;
         for (std::size_t i = 0; i < motions.size(); ++i) {

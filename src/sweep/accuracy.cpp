@@ -11,8 +11,6 @@ namespace overturn {
 
 namespace {
 
-constexpr Numerics settling{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
-
 bool fell(std::uint8_t region)
 {
     return region == std::uint8_t(Region::F_plus) || region == std::uint8_t(Region::F_minus);
@@ -88,7 +86,7 @@ void AccuracyStudy::settle_verdicts()
 {
     const Tiling tiling(sample_.plane);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        truth_.push_back(sweep_tile(scene_, settling, sample_.plane, tiling[i],
+        truth_.push_back(sweep_tile(scene_, most_accurate, sample_.plane, tiling[i],
                                     {Field::region, Field::margin}, kernel_));
         const auto& regions = values_of<std::uint8_t>(truth_.back(), 0);
         for (std::size_t point = 0; point < regions.size(); ++point) {

@@ -17,7 +17,6 @@ namespace {
 
 /// Verdicts must be right. The scan uses a loose tolerance and resolves verdicts in doubt.
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
-constexpr Numerics searching{.method = Method::taylor, .tolerance = 1e-13, .resolve = true};
 
 /// An undecided verdict may take a second. After this many, the scan is not refined further.
 constexpr std::size_t most_undecided = 16;
@@ -59,7 +58,7 @@ public:
         return probes;
     }
 
-    Probe at(double amplitude) { return at(std::vector{amplitude}, searching)[0]; }
+    Probe at(double amplitude) { return at(std::vector{amplitude}, most_accurate)[0]; }
 
     /// The amplitudes below that at which the vertical motion of the record cancels gravity; all
     /// others are undecided.

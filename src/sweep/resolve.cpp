@@ -10,9 +10,6 @@ namespace overturn {
 
 namespace {
 
-/// Settles almost every point that is in doubt after the first pass, still in double.
-constexpr Numerics finest_in_doubles{.method = Method::taylor, .tolerance = 1e-13};
-
 void give_up(int point, Ends& ends)
 {
     ends.flags[std::size_t(point)] |= end_flag::unresolved;
@@ -64,7 +61,8 @@ void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
     std::iota(all.begin(), all.end(), 0);
     std::vector<int> in_doubt = settle_capped(run, all, ends);
     if (!in_doubt.empty()) {
-        run.run(finest_in_doubles, ends, OnUnknownError::go_on, &in_doubt);
+        // Settles almost every point, still in double.
+        run.run(most_accurate, ends, OnUnknownError::go_on, &in_doubt);
     }
     in_doubt = settle_capped(run, in_doubt, ends);
     int left = run.intervals() > 0 ? numerics.most_in_50_digits : run.size();

@@ -77,6 +77,10 @@ struct Numerics {
     double audit = 1e-3; ///< share of the filled points that are integrated as well
 };
 
+/// For answers about single points and for references.
+inline constexpr Numerics most_accurate{
+    .method = Method::taylor, .tolerance = 1e-13, .resolve = true};
+
 /// The default tolerance if verdicts are resolved: about one in a thousand needs more digits; at
 /// looser tolerances errors are not known well.
 inline constexpr double tolerance_to_resolve_from = 1e-4;
