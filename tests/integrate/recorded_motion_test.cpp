@@ -1,5 +1,5 @@
-// A block under a strong ground motion that was recorded: runs where the file of GeoNet is there,
-// see OVERTURN_RECORDS.
+// A block under a strong ground motion as published by GeoNet.
+#include "support/published_record.hpp"
 #include "support/record_point.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 /// numbers in fields of eight columns [mm/s^2].
 std::vector<double> first_component(const std::string& name, std::size_t samples)
 {
-    std::ifstream file(OVERTURN_RECORDS "/" + name);
+    std::ifstream file(published_record(name));
     std::string line;
     for (int i = 0; i < 26; ++i) {
         std::getline(file, line);
@@ -36,7 +36,7 @@ protected:
     {
         const std::vector<double> samples = first_component("WTMC.V2A", 8192);
         if (samples.empty()) {
-            GTEST_SKIP() << "no file WTMC.V2A in " OVERTURN_RECORDS;
+            GTEST_SKIP() << "$OVERTURN_RECORDS has no file WTMC.V2A";
         }
         ASSERT_EQ(samples.size(), 8192);
         const double half_width = 0.25; // [m]

@@ -1,7 +1,7 @@
 """tools/examples/shake_table.py, with simulated tests of known blocks.
 
 Requires OVERTURN (the binary) in the environment. `shake_table_test.py TestTheCalibrationHalf` fits real tests in
-$SHAKE_TABLE, by default those in ../shared/records/shake_table, in two minutes.
+$OVERTURN_RECORDS/shake_table, in two minutes.
 """
 
 import importlib.util
@@ -20,7 +20,7 @@ spec = importlib.util.spec_from_file_location("shake_table", TOOLS / "examples/s
 example = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(example)
 
-DATA = pathlib.Path(os.environ.get("SHAKE_TABLE", TOOLS.parents[1] / "shared/records/shake_table/calibration_half.h5"))
+DATA = pathlib.Path(os.environ.get("OVERTURN_RECORDS", ""), "shake_table/calibration_half.h5")
 TIME_STEP = 0.01  # [s]
 ROCKS = {"a": {"slenderness": 0.12, "restitution": 0.8, "scatter": 0.2},
          "b": {"slenderness": 0.2, "restitution": 0.7, "scatter": 0.15}}
