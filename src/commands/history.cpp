@@ -45,13 +45,30 @@ std::string override_of(const std::string& at)
     return fmt::format("plane.{}.values=[{}]", name, value);
 }
 
-Job read_job_of_one_point(const HistoryOptions& options)
+/// Messages name the --at argument, not the override that it stands for.
+Job read_job_at(const HistoryOptions& options)
 {
     std::vector<std::string> overrides = options.job.overrides;
     for (const std::string& at : options.at) {
         overrides.push_back(override_of(at));
     }
-    Job job = read_job(options.job.path, overrides);
+    try {
+        return read_job(options.job.path, overrides);
+    } catch (const JobError& error) {
+        const std::string_view message = error.what();
+        for (const std::string& at : options.at) {
+            const std::string place = "--set " + override_of(at);
+            if (message.starts_with(place)) {
+                throw JobError(fmt::format("--at {}{}", at, message.substr(place.size())));
+            }
+        }
+        throw;
+    }
+}
+
+Job read_job_of_one_point(const HistoryOptions& options)
+{
+    Job job = read_job_at(options);
     if (job.blocks) {
         throw UsageError(fmt::format("{} lists its blocks in {}, but a history follows one block. "
                                      "Give [block] and [plane] instead of [blocks].",

@@ -4,7 +4,7 @@
 #include "exit_code.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
-#include "printable.hpp"
+#include "record_lines.hpp"
 #include "toppling_ranges.hpp"
 
 #include "overturn/file/study_files.hpp"
@@ -162,28 +162,30 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     const double alpha = job.plane.slenderness.first();
     const RestitutionAnswer& requested = answer.by_restitution.front();
     const bool is_recorded = job.scene.is_recorded();
+    const int decimals = requested.ranges.decimals(answer.pga);
     print_row("block", fmt::format("{} m x {} m, {}", options.width, options.height,
                                    dimension_lines(job)[0]));
-    print_row("motion",
-              is_recorded
-                  ? printable(fmt::format("{}, unscaled peak {:.4g} g", options.record,
-                                          job.motions.front().measures.pga))
-                  : fmt::format("{}, period {} s", name_of(job.scene.pulse), *options.period));
+    print_row("motion", is_recorded ? record_lines(job).front()
+                                    : fmt::format("{}, period {} s", name_of(job.scene.pulse),
+                                                  *options.period));
     print_row("restitution",
               requested.share == 1
                   ? fmt::format("r = r_max = {:.4g}", requested.ratio)
                   : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
     if (!answer.verdict.empty()) {
-        print_row("verdict", fmt::format("{} at {:.4g} g", answer.verdict, answer.pga));
+        print_row("verdict", options.pga ? fmt::format("{} at {} g", answer.verdict, *options.pga)
+                                         : fmt::format("{} at {:.{}f} g", answer.verdict,
+                                                       answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
     }
     print_row("lifts from", fmt::format("{:.4f} g", answer.lifting_pga));
-    print_row("topples", requested.ranges.text());
+    print_row("topples", requested.ranges.text(decimals));
     fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration, up to {} g, of\n", "r/r_max",
                "r", options.pga_max);
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
-        fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio, other.ranges.text(6));
+        fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
+                   other.ranges.text(other.ranges.decimals(answer.pga), 6));
     }
     if (is_recorded) {
         fmt::print(
@@ -299,7 +301,7 @@ int topple(const ToppleOptions& options)
 {
     widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
-    const Job job = read_job_text(job_text(options), "the command line", options.overrides);
+    const Job job = read_job_text(job_text(options), command_line, options.overrides);
     const Answer answer = answer_of(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
     if (!options.plot.empty()) {

@@ -64,6 +64,11 @@ TopplingRanges toppling_ranges(const Scene& scene, const BoundaryLine& line, dou
         topples = !topples;
         if (topples) {
             begin = was_undecided ? settled_until : flip.amplitude();
+            // The safe accelerations between two ranges may all have been undecided.
+            if (!ranges.toppling.empty() && ranges.toppling.back().last >= begin) {
+                begin = ranges.toppling.back().first;
+                ranges.toppling.pop_back();
+            }
         } else {
             ranges.toppling.push_back({begin, flip.amplitude()});
         }
@@ -74,7 +79,7 @@ TopplingRanges toppling_ranges(const Scene& scene, const BoundaryLine& line, dou
     return ranges;
 }
 
-std::string TopplingRanges::text(std::size_t most) const
+std::string TopplingRanges::text(int decimals, std::size_t most) const
 {
     std::string line;
     for (std::size_t i = 0; i < toppling.size(); ++i) {
@@ -87,10 +92,30 @@ std::string TopplingRanges::text(std::size_t most) const
             line += fmt::format("{} more, ", toppling.size() - most);
         }
         const auto& [first, last] = toppling[i];
-        line += std::isinf(last) ? fmt::format("above {:.4f} g", first)
-                                 : fmt::format("{:.4f} to {:.4f} g", first, last);
+        line += std::isinf(last)
+                    ? fmt::format("above {:.{}f} g", first, decimals)
+                    : fmt::format("{:.{}f} to {:.{}f} g", first, decimals, last, decimals);
     }
     return line.empty() ? "none" : line;
+}
+
+int TopplingRanges::decimals(double pga) const
+{
+    std::vector<double> numbers{pga};
+    for (const Range& range : toppling) {
+        numbers.push_back(range.first);
+        numbers.push_back(range.last);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    int decimals = 4;
+    const auto look_the_same = [&](double a, double b) {
+        return a != b && fmt::format("{:.{}f}", a, decimals) == fmt::format("{:.{}f}", b, decimals);
+    };
+    while (decimals < std::numeric_limits<double>::digits10 &&
+           std::adjacent_find(numbers.begin(), numbers.end(), look_the_same) != numbers.end()) {
+        ++decimals;
+    }
+    return decimals;
 }
 
 std::string TopplingRanges::json() const

@@ -22,7 +22,11 @@ struct TopplingRanges {
     double undecided_share = 0;  ///< of the scanned accelerations [1]
 
     /// Such as "1.1110 to 1.6440 g, above 2.1300 g"; at most this many ranges, including the last.
-    std::string text(std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+    std::string text(int decimals,
+                     std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+
+    /// At least 4, and enough to tell all ends of the ranges, and the acceleration `pga`, apart.
+    int decimals(double pga) const;
 
     /// A list of [first, last], in which null stands for an infinite end.
     std::string json() const;

@@ -73,7 +73,9 @@ SoleWriter::SoleWriter(const std::string& path) : lock_(lock_of(path))
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             ::close(descriptor_);
             throw FileError(fmt::format("\"{}\" is being written by another run. Wait until it has "
-                                        "ended, or choose another name with -o.",
+                                        "ended, or choose another name with -o. After a kill, the "
+                                        "last ranks end within a few seconds; then repeat the "
+                                        "command.",
                                         path));
         }
     } while (!is_in_place(descriptor_, lock_));

@@ -105,12 +105,15 @@ void expect_gravity(const Entry& entry, const Job& job)
         const auto plane = find(entry, "plane");
         const Entry place =
             plane ? *find(*plane, name_of(job.plane.amplitude_is)) : *find(entry, "blocks");
+        const bool is_range = !plane || job.plane.amplitude.size() > 1;
         refuse(place,
-               fmt::format(" begins at {}, where the vertical motion of \"{}\" cancels gravity. "
-                           "Begin below the scale {}.",
+               fmt::format(" {} {}, where the vertical motion of \"{}\" cancels gravity. {} below "
+                           "the scale {:.6g}.",
+                           is_range ? "begins at" : "is",
                            plane ? job.plane.amplitude.first()
                                  : job.smallest_scale(job.motions.front()),
-                           job.motions.front().file, job.motions.front().largest_scale));
+                           job.motions.front().file, is_range ? "Begin" : "Choose a value",
+                           job.motions.front().largest_scale));
     }
 }
 

@@ -71,7 +71,7 @@ const Value& value_of(const Entry& entry, std::string_view wanted)
 std::string place_of(const toml::source_region& source)
 {
     const std::string& path = *source.path;
-    if (path.starts_with(override_prefix)) {
+    if (path.starts_with(override_prefix) || path == command_line) {
         return path;
     }
     return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);

@@ -213,7 +213,7 @@ class VerticalMotion(ScratchWithRecords):
         self.assert_exit(self.overturn("check", "job.toml", *up, "--set", "plane.scale.last=8"), 0,
                          "one.AT2: from the scale 5", "cancels gravity")
         self.assert_exit(self.overturn("run", "job.toml", *up, "--set", "plane.scale=9"), 65,
-                         "plane.scale begins at 9", "cancels gravity")
+                         "plane.scale is 9", "cancels gravity")
 
 
 class ABadRecord(ScratchWithRecords):

@@ -57,6 +57,15 @@ class Toppling(Scratch):
         self.assertIsNone(end)
         self.assertTrue(first < 1.2 < last and answer["topples"])
 
+    def test_beside_a_flip_is_told_with_enough_decimals(self):
+        for side in (-2e-7, 2e-7):
+            pga = self.answer(*PULSE)["toppling_pga"][0][1] + side
+            text = self.topple(*PULSE, "--pga", repr(pga))
+            row = next(row for row in text.splitlines() if row.startswith("topples"))
+            last = float(row.split(" to ")[1].split()[0])
+            self.assertEqual(f"verdict      topples at {pga} g" in text, pga < last)
+            self.assertIn("0.9035 to 1.8397 g", self.topple(*PULSE, "--pga", "1.8"))
+
     def test_without_an_acceleration_gives_the_ranges_only(self):
         answer = self.answer(*PULSE)
         self.assertIsNone(answer["topples"])
@@ -69,7 +78,8 @@ class Toppling(Scratch):
         began = time.monotonic()
         text = self.topple(*RECORD, "--scale", "1.5")
         self.assertLess(time.monotonic() - began, 60)
-        self.assertIn("does not topple at 0.6 g", text)
+        self.assertIn("does not topple at 0.6000 g", text)
+        self.assertIn("synthetic.AT2: 2001 samples, 20 s, 0.4 g", text)
         self.assertIn("ranges narrower than the steps of 0.5 % may be missed", text)
         self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["narrower_ranges_exist"])
 
@@ -90,6 +100,9 @@ class Toppling(Scratch):
         with h5py.File(self.folder / "s.h5") as file:
             for pga, code in zip(file["pga"][:], file["region"][:].ravel()):
                 answer = self.answer(*RECORD, "--pga", str(pga))
+                for each in answer["by_restitution"]:  # ranges do not touch
+                    ends = [end or math.inf for ends in each["toppling_pga"] for end in ends]
+                    self.assertEqual(ends, sorted(set(ends)))
                 self.assertEqual(answer["topples"], bool(code > 2))
                 self.assertEqual(answer["topples"],
                                  any(first <= pga <= (last or math.inf)

@@ -97,6 +97,9 @@ std::vector<std::string> override_keys();
 /// string) and replaces a key of the file; keys that contradict it are dropped. Throws JobError.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});
 
+/// The name of a job whose text is made from options. Messages do not state its lines.
+inline constexpr const char* command_line = "the command line";
+
 /// The same for a text; `name` replaces the path in messages. Records are searched for in
 /// its folder.
 Job read_job_text(std::string text, const std::string& name,
