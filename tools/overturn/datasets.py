@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -19,8 +20,8 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
     try:
         import xarray
     except ImportError as error:
-        raise ImportError(f"{error}. Install xarray and h5netcdf (Debian: python3-xarray "
-                          "python3-h5netcdf).") from error
+        raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5netcdf (Debian: "
+                          "python3-xarray and python3-h5netcdf, for /usr/bin/python3).") from error
     os.stat(path)  # xarray reports a missing file as an unknown format
     file = xarray.open_dataset(path)
     if "program_version" not in file.attrs:

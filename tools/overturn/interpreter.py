@@ -27,8 +27,6 @@ def run_elsewhere(error, packages="plot"):
     tool = os.path.basename(os.path.realpath(sys.argv[0]))
     module = (error.name or "").split(".")[0]
     if module and sys.executable != SYSTEM and system_has(module):
-        print("{}: {} cannot import {}; running in {} instead.".format(
-            tool, sys.executable, module, SYSTEM), file=sys.stderr, flush=True)
         os.execv(SYSTEM, [SYSTEM] + sys.argv)
     sys.exit("{}: {} (Python: {}); to install it: tools/install_dependencies {}".format(
         tool, error, sys.executable, packages))
