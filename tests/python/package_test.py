@@ -28,6 +28,11 @@ class ThePackage(unittest.TestCase):
         self.assertIn("ImportError: the compiled module of overturn is not in", done.stderr)
         self.assertIn("/nowhere/python", done.stderr)
 
+    def test_names_the_python_that_lacks_numpy(self):
+        done = run_python("import sys; sys.modules['numpy'] = None; import overturn; overturn.evaluate")
+        self.assertIn(f"(Python: {sys.executable}). Install it for this Python; Debian's python3-numpy is for",
+                      done.stderr)
+
     def test_tells_if_the_program_is_missing(self):
         done = run_python("import overturn; overturn.check('job.toml')", OVERTURN="/nowhere/overturn")
         self.assertIn('ProgramError: there is no program "/nowhere/overturn"', done.stderr)

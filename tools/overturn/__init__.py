@@ -5,6 +5,7 @@ by the tools.
 Modules are imported when they are used, because every tool imports this package."""
 
 import importlib
+import sys
 
 from overturn.checkout import overturn_path
 
@@ -29,12 +30,22 @@ __all__ = [*_MODULE_OF, "plot"]
 __path__.append(str(overturn_path().parent / "python"))
 
 
+def _module(name):
+    try:
+        return importlib.import_module(f"{__name__}.{name}")
+    except ModuleNotFoundError as error:
+        if error.name not in ("numpy", "scipy", "matplotlib", "h5py"):
+            raise
+        raise ImportError(f"{error} (Python: {sys.executable}). Install it for this Python; Debian's "
+                          f"python3-{error.name} is for /usr/bin/python3.", name=error.name) from error
+
+
 def __getattr__(name):
     if name == "plot":
-        return importlib.import_module("overturn.plot")
+        return _module("plot")
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
+    return getattr(_module(_MODULE_OF[name]), name)
 
 
 def __dir__():
