@@ -80,7 +80,7 @@ const CLI::Validator is_positive(
     [](const std::string& text) {
         double value = 0;
         const bool is_valid =
-            CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
+            CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
         return is_valid ? "" : fmt::format("{} is not a positive, finite number.", text);
     },
     "");
@@ -90,7 +90,8 @@ constexpr double largest_pga_max = 1000; // [g]
 const CLI::Validator is_searchable(
     [](const std::string& text) {
         double value = 0;
-        const bool is_valid = CLI::detail::lexical_cast(text, value) && value <= largest_pga_max;
+        const bool is_valid =
+            CLI::detail::lexical_cast(text, value) && std::islessequal(value, largest_pga_max);
         return is_valid ? "" : fmt::format("{} is above {} g.", text, largest_pga_max);
     },
     "");

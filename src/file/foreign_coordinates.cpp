@@ -93,7 +93,7 @@ std::vector<std::string> find_foreign_coordinates(const StoredSpectrum& stored, 
         check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
         const double tolerance = coordinate.roundings * std::numeric_limits<double>::epsilon();
         const auto is_as_good_as = [=](double value, double computed) {
-            return std::abs(value - computed) <= tolerance * std::abs(computed) ||
+            return std::islessequal(std::abs(value - computed), tolerance * std::abs(computed)) ||
                    (std::isnan(value) && std::isnan(computed));
         };
         if (!std::equal(values.begin(), values.end(), coordinate.values.begin(), is_as_good_as)) {

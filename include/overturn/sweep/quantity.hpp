@@ -2,6 +2,7 @@
 // allowed values.
 #pragma once
 
+#include <cmath>
 #include <string_view>
 
 namespace overturn {
@@ -11,8 +12,10 @@ struct Quantity {
     std::string_view name;
     std::string_view units;    ///< as in result files; "1" if dimensionless
     std::string_view interval; ///< of the allowed values
-    bool (*allows)(double);
-    std::string_view reason; ///< for the interval
+    bool (*is_inside)(double); ///< for all values except NaN
+    std::string_view reason;   ///< for the interval
+
+    bool allows(double value) const { return !std::isnan(value) && is_inside(value); }
 };
 
 /// The quantity of this name, or nullptr.
