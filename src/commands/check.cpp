@@ -50,7 +50,7 @@ Tile sample_tile(const Plane& plane, std::int64_t i)
     return tile;
 }
 
-/// Estimated time [s] to compute so many points or lines on one rank, from samples:
+/// Estimated time [s] to compute this many points or lines on one rank, from samples:
 /// compute_sample(i) returns the size of sample i, whose order is fixed. Samples are computed
 /// for 0.3 s; if these are fewer than `fewest`, for up to 1.2 s until there are as many, because
 /// their times differ.

@@ -35,8 +35,8 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
 }
 
 /// What a reader of a boundary must know: the number of lines without a minimum overturning
-/// amplitude, and of those with undecided verdicts, if there are any; under a record, the share of
-/// overturning, and that the flips depend on the scan.
+/// amplitude and of those with undecided verdicts, if there are any; under a record, also the share
+/// of the interval in which the block overturns, and a note that the flips depend on the scan.
 inline std::string lines_text(const BoundaryLines& lines)
 {
     std::string text;

@@ -74,16 +74,16 @@ void expect_consistent(const ToppleOptions& options)
     };
     const bool is_recorded = !options.record.empty();
     refuse_if(is_recorded && options.period,
-              "--period is that of a pulse, and --record gives a recorded motion. Remove one.");
+              "--period applies to a pulse, but --record gives a recorded motion. Remove one.");
     refuse_if(is_recorded && options.has_pulse,
               "--pulse and --record exclude each other. Remove one.");
     refuse_if(!is_recorded && !options.period,
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
     refuse_if(!is_recorded && options.scale,
-              "--scale is a factor on a record. Give --pga for a pulse, or --record.");
+              "--scale applies to a record. Give --pga for a pulse, or --record.");
     refuse_if(!is_recorded && !options.component.empty(),
-              "--component is that of a record. Remove it, or give --record.");
+              "--component applies to a record. Remove it, or give --record.");
     refuse_if(options.scale && options.pga, "--scale and --pga exclude each other. Remove one.");
     for (const std::string& argument : options.overrides) {
         refuse_if(!argument.starts_with("scene.") || argument.starts_with("scene.pulse") ||

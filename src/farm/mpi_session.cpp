@@ -46,9 +46,9 @@ void prepare_for_one_rank()
 }
 
 /// overturn uses no shared file pointers. Two of Open MPI's components for them create and remove
-/// OUT.h5.locktest.0, OUT.h5.data.0, ... even where these are other files, and the first one
-/// overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file can be
-/// opened.
+/// OUT.h5.locktest.0, OUT.h5.data.0, ... even if unrelated files have these names, and the first
+/// one overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file
+/// can be opened.
 void limit_shared_file_pointers()
 {
     constexpr int replace = 1;
@@ -74,8 +74,8 @@ void prepare_for_one_host()
 #endif
 }
 
-/// A message if the launcher belongs to another MPI, else empty: each process would be the only
-/// rank, and compute everything.
+/// A message if the launcher belongs to another MPI, because each process would then be the only
+/// rank and compute everything; otherwise empty.
 std::string launch_fault(int size)
 {
     const char* started = first_of(size_variables);

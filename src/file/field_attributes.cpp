@@ -59,7 +59,7 @@ Description description_of(Field field, const Job& job)
     case Field::margin:
         return {"margin, positive where safe", "1", "distance from the other verdict"};
     case Field::error:
-        return {"bound of the error of the margin", "1",
+        return {"bound on the error of the margin", "1",
                 "to first order; infinite where it is unknown: an impact or a fall may or may "
                 "not have happened, or was only just avoided; a verdict is certain where |margin| "
                 "is larger"};

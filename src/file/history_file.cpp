@@ -68,7 +68,7 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
         kinds.push_back(std::uint8_t(event.kind));
     }
     const char* const dimension = "events/event";
-    add_group(file, "events"); // of another length than the samples
+    add_group(file, "events"); // of a different length from the samples
     add_bare_dimension(file, dimension, std::int64_t(events.size()));
     add_quantity(file, dimension, "events/time", time_of_sample, after);
     add_codes(file, "events/kind", dimension, kinds, "kind of the event", event_names);

@@ -31,7 +31,8 @@ struct Variable {
     bool is_dimension() const { return dimensions.front() == name; }
 };
 
-/// Adds a variable whose dimensions exist in the file, unless it is a dimension itself.
+/// Adds a variable. Its dimensions must exist in the file, unless the variable is itself a
+/// dimension.
 void add_variable(hid_t file, const Variable& variable);
 
 /// Adds a variable of codes along one dimension. A code is the index of its name in `names`.

@@ -135,7 +135,7 @@ void add_run_token(hid_t file)
                                           H5T_STD_U64LE, {}, early_allocated());
     write_attribute(dataset, "long_name", "random number of the ranks, or 0");
     write_attribute(dataset, "comment",
-                    "by it, the ranks check at the start that they share the file");
+                    "used by the ranks to check at the start that they share the file");
 }
 
 /// A number per tile, along the dimension of the checksums.
@@ -170,7 +170,8 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
         add_numbers(file, layout::audit_checked, tiling,
                     "number of filled points of the tile that were integrated as well");
         add_numbers(file, layout::audit_wrong, tiling,
-                    "number of them with another value; if there is one, all points of the tile "
+                    "number of checked points whose integrated value differs from the filled one; "
+                    "if there is one, all points of the tile "
                     "were integrated");
     }
 }

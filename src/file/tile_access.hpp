@@ -14,8 +14,8 @@
 
 namespace overturn {
 
-/// One entry per dimension of the field, given one per dimension of the points: a field of a line
-/// lacks the last but one.
+/// Converts a list with one entry per dimension of the points to one per dimension of the field: a
+/// field of a line lacks the second-to-last dimension.
 template <class List>
 List dimensions_of(Field field, List of_points)
 {

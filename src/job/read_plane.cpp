@@ -19,9 +19,10 @@ std::optional<Entry> only_one_of(const Entry& table, std::string_view one, std::
     const auto first = find(table, one);
     const auto second = find(table, other);
     if (first && second) {
-        refuse(*second, fmt::format(" cannot be combined with {}, which gives the same. Remove one "
-                                    "of them.",
-                                    first->key));
+        refuse(*second,
+               fmt::format(" cannot be combined with {}, which gives the same quantity. Remove one "
+                           "of them.",
+                           first->key));
     }
     return first ? first : second;
 }
@@ -199,7 +200,7 @@ std::optional<double> read_size_of_blocks(const Entry& entry, const Plane& plane
     return axis.first();
 }
 
-/// The axes that a list of blocks leaves.
+/// The axes that are not replaced by a list of blocks.
 void read_axes_of_list(const Entry& job, Plane& plane)
 {
     if (const auto block = find(job, "block")) {

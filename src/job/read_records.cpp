@@ -39,8 +39,8 @@ ComponentChoice component_choice(const Entry& entry)
         return {entry, string_of(entry), false};
     }
     if (!entry.node->is_integer()) {
-        refuse(entry, " must be a string, the name of a component, or an integer, its number "
-                      "counted from 1.");
+        refuse(entry, " must be a string (the name of a component) or an integer (its number, "
+                      "counted from 1).");
     }
     return {entry, fmt::format("{}", integer_of(entry)), true};
 }

@@ -122,8 +122,8 @@ std::string reason_not_to_fill(const Job& job)
          {std::pair{name_of(job.plane.amplitude_is), &job.plane.amplitude},
           {name_of(job.plane.frequency_is), &job.plane.frequency}}) {
         if (axis->size() > 1 && std::holds_alternative<AxisList>(axis->definition())) {
-            return fmt::format("plane.{} lists its values, which may have any distance; a filled "
-                               "axis has first, last and count",
+            return fmt::format("plane.{} lists its values, whose spacing is arbitrary; the axes of "
+                               "a filled spectrum need first, last and count",
                                name);
         }
     }

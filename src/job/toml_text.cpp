@@ -82,7 +82,7 @@ std::string blocks_text(const BlockTable& blocks, const BlockList& list)
                        list.has_own_motions, in_quotes(blocks.checksum));
 }
 
-/// The axes that a list leaves.
+/// The axes that are not replaced by a list of blocks.
 std::string axes_text(const Plane& plane)
 {
     if (plane.list->has_own_motions) {

@@ -1,5 +1,5 @@
-// The module overturn._core: what the Python package calls of the program's libraries. It knows
-// nothing of shapes and optional arguments; tools/overturn/evaluation.py and records.py do.
+// The module overturn._core: the functions of the program's libraries that the Python package
+// calls. Shapes and optional arguments are handled in tools/overturn/evaluation.py and records.py.
 #include "evaluate.hpp"
 
 #include "overturn/mechanics/region.hpp"

@@ -22,7 +22,8 @@ double printed_unit(std::string_view word)
     const std::size_t end = std::min(word.find_first_of("eEdD"), word.size());
     const std::size_t point = std::min(word.find('.'), end);
     const std::size_t decimals = point == end ? 0 : end - point - 1;
-    int exponent = 0; // stays 0 if there is none; one beyond int belongs to the number 0 only
+    // Stays 0 if there is none, or if it is beyond int, which only the number 0 may have.
+    int exponent = 0;
     if (end < word.size()) {
         const std::string_view digits =
             word.substr(word[end + 1] == '+' ? end + 2 : end + 1); // a number has digits here
@@ -63,7 +64,7 @@ void EvenTimes::add(const Lines& lines, std::string_view word)
     if (size_ == 0) {
         first_ = time;
     } else if (!(time > last_)) {
-        lines.refuse(fmt::format("the time {} s does not follow {} s, the time before. Give "
+        lines.refuse(fmt::format("the time {} s is not after the previous time, {} s. Give "
                                  "ascending times with enough digits, or one column and time_step.",
                                  word, last_));
     } else {
@@ -75,8 +76,8 @@ void EvenTimes::add(const Lines& lines, std::string_view word)
         const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
         if (!(least <= most)) {
             lines.refuse(fmt::format(
-                "the time is {} s, but must be {:.9g} s within half a unit of its last "
-                "digit: times must be evenly spaced, and those before have the step {:.9g} s. "
+                "the time is {} s, but must be within half a unit of its last digit of {:.9g} s: "
+                "times must be evenly spaced, and those before have the step {:.9g} s. "
                 "Resample the record, or give one column and time_step.",
                 word, first_ + double(size_) * step(), step()));
         }

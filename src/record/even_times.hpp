@@ -14,11 +14,11 @@ namespace overturn {
 ///
 ///     |t_i - (t_0 + i step)| <= h_i
 ///
-/// for one step. Each time bounds the step on both sides; what is kept is the range that is left.
+/// for one step. Each time bounds the step on both sides; the intersection of these ranges is kept.
 class EvenTimes {
 public:
-    /// Refuses a word of the current line that is not a number, or a time that is not after the one
-    /// before or cannot be evenly spaced with those before.
+    /// Refuses a word of the current line that is not a number, and a time that is not after the
+    /// previous one or is not evenly spaced with the previous ones.
     void add(const Lines& lines, std::string_view word);
 
     /// The step with the fewest decimal digits; of several, the one nearest to the mean step [s].

@@ -48,7 +48,7 @@ public:
     /// Keeps the current line.
     void add(const Lines& lines);
 
-    /// Proceeds by `count` lines and keeps them. Refuses a file that ends before.
+    /// Proceeds by `count` lines and keeps them. Refuses a file that ends earlier.
     void take(Lines& lines, std::size_t count);
 
     std::vector<std::string> kept() && { return std::move(kept_); }

@@ -35,7 +35,7 @@ Parsed parse(std::string_view word)
         std::replace(with_e.begin(), with_e.end(), 'D', 'E');
         word = with_e;
     }
-    if (word.starts_with('+')) { // std::from_chars knows no plus
+    if (word.starts_with('+')) { // std::from_chars does not accept a plus sign
         word.remove_prefix(1);
         if (word.starts_with('-')) {
             return {0, std::errc::invalid_argument};
@@ -172,7 +172,7 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
         const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
         if (found != expected) {
             lines.refuse(fmt::format("the line has {} column{} of {} characters, but must have {}: "
-                                     "line {} announces {} values of {}, {} in a line. Give the "
+                                     "line {} announces {} values of {}, {} per line. Give the "
                                      "file as it was published.",
                                      found, plural(found), columns.width, expected, announced.line,
                                      announced.count, announced.name, columns.per_line));

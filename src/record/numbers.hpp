@@ -12,9 +12,9 @@ namespace overturn {
 /// Whether a word is a number, as number_of reads it; it may be infinite, NaN or out of range.
 bool is_number(std::string_view word);
 
-/// The number that a word is, correctly rounded: as in C, or with the exponent letter D of Fortran,
-/// which also omits zeros (-.5D-01). Refuses other words, and numbers that are not finite or beyond
-/// double precision.
+/// Converts a word to a number, correctly rounded. The syntax is that of C, or of Fortran with the
+/// exponent letter D and without leading zeros (-.5D-01). Refuses other words, and numbers that are
+/// not finite or beyond double precision.
 double number_of(const Lines& lines, std::string_view word);
 
 /// A number of points, from `least` to most_samples. Refuses other words. `what` precedes it in

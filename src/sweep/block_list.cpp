@@ -26,10 +26,11 @@ public:
         const char* found = nullptr;
         for (const char* name : names) {
             if (has(name) && found != nullptr) {
-                throw ListError(ListError::no_row, name,
-                                fmt::format("cannot be combined with {}, which gives the same. "
-                                            "Remove one of them.",
-                                            found));
+                throw ListError(
+                    ListError::no_row, name,
+                    fmt::format("cannot be combined with {}, which gives the same quantity. "
+                                "Remove one of them.",
+                                found));
             }
             found = has(name) ? name : found;
         }

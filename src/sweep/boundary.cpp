@@ -255,7 +255,7 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
         const double share = (above.amplitude - below.amplitude) / interval;
         if (!below.is_settled() || !above.is_settled()) {
             boundary.undecided_share += share;
-        } else { // a flip is in the middle between them
+        } else { // the flip is taken to be halfway between them
             boundary.unsafe_share +=
                 share * (is_unsafe(below.region) + is_unsafe(above.region)) / 2;
         }

@@ -57,7 +57,7 @@ std::uint64_t hashed(std::uint64_t number)
     return number ^ (number >> 31);
 }
 
-/// Calls visit(column) for the columns from `begin` to before `end` that a row's audit may check.
+/// Calls visit(column) for the columns in [begin, end) that the audit of a row may check.
 /// Each column is among them with the probability `share`, by a hash of its index and that of the
 /// row: at most one in a block of columns, as hashing every point would take as long as the rest.
 template <class Visitor>
@@ -197,8 +197,8 @@ private:
         return places;
     }
 
-    /// Integrates points and stores them; nodes, if all of their records are requested. Returns how
-    /// many were stored with another value before.
+    /// Integrates points and stores them, as nodes if all records of a node are requested. Returns
+    /// the number of points whose stored value has changed.
     std::int64_t integrate(const std::vector<int>& places, Records records)
     {
         records.region = true;

@@ -65,7 +65,8 @@ Shape tile_of(const Plane& plane)
     if (!plane.list) {
         return {side, side};
     }
-    // As many points of a list, in whatever shape: as many blocks as the other dimensions leave.
+    // A tile of a list has at most as many points, in any shape: the other dimensions first, then
+    // as many blocks as possible.
     Shape tile = shape_of(plane);
     if (plane.motions > 0 && !plane.list->has_own_motions) {
         tile.erase(tile.begin());

@@ -55,7 +55,7 @@ class Dimensions(Scratch):
             self.assertTrue(np.array_equal(data[name].values[..., order],
                                            equivalent[name].values[0], equal_nan=True), name)
 
-    def test_a_period_and_a_peak_acceleration_have_the_bits_of_dimensionless_axes(self):
+    def test_a_period_and_a_peak_acceleration_are_bit_identical_to_dimensionless_axes(self):
         for theory in ("nonlinear", "linear"):
             theory = ("--set", f"scene.theory={theory}")
             data = self.compute("run", f"{theory[1][-9:]}.h5", *theory)

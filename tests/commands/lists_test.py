@@ -63,7 +63,7 @@ class Lists(Scratch):
         with xarray.open_dataset(self.folder / name) as data:
             return data.load()
 
-    def test_has_the_bits_of_a_plane_per_block(self):
+    def test_is_bit_identical_to_a_plane_per_block(self):
         data = self.compute("job.toml", "list.h5")
         self.assertEqual(data.region.dims, ("block", "pga", "pulse_period"))
         for row in range(3):
@@ -117,7 +117,7 @@ class Lists(Scratch):
             self.assertEqual((self.folder / one).read_bytes(), whole)
             self.assert_exit(self.overturn("verify", one), 0, "checksums match")
 
-    def test_under_a_record_has_the_bits_of_a_plane_per_block(self):
+    def test_under_a_record_is_bit_identical_to_a_plane_per_block(self):
         rise = np.sin(np.linspace(0, 12, 300)) * 4
         (self.folder / "a.txt").write_text("".join(f"{value!r}\n" for value in rise))
         (self.folder / "b.txt").write_text("".join(f"{value!r}\n" for value in rise[::-1] / 2))

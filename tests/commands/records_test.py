@@ -180,7 +180,7 @@ class OtherAxes(ScratchWithRecords):
         twice = data.region.sel(scale=2).values[1], data.region.sel(scale=1).values[2]
         self.assertTrue(np.array_equal(*twice))
 
-    def test_units_of_a_column_are_divided_by_gravity(self):
+    def test_accelerations_of_a_column_are_divided_by_gravity(self):
         values = [float(word) for word in
                   (self.folder / "one.AT2").read_text().split(" SEC\n")[1].split()]
         (self.folder / "column.txt").write_text("\n".join(repr(9.81 * value) for value in values))

@@ -127,11 +127,11 @@ class Toppling(Scratch):
 
     def test_refuses_what_contradicts_itself(self):
         for arguments, words in (
-                ((*RECORD, "--period", "0.5"), "--period is that of a pulse"),
+                ((*RECORD, "--period", "0.5"), "--period applies to a pulse"),
                 ((*RECORD, "--pulse", "one_sine"), "exclude each other"),
                 ((*STATUE, "--pga", "0.4"), "Give --period"),
-                ((*PULSE, "--scale", "2"), "--scale is a factor on a record"),
-                ((*PULSE, "--component", "2"), "--component is that of a record"),
+                ((*PULSE, "--scale", "2"), "--scale applies to a record"),
+                ((*PULSE, "--component", "2"), "--component applies to a record"),
                 ((*RECORD, "--scale", "2", "--pga", "1"), "exclude each other"),
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
                 ((*PULSE, "--plot", "a.png"), "Give --pga or --scale"),

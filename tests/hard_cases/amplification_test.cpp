@@ -79,7 +79,7 @@ TEST(Amplification, InFiftyDigitsKeepsTheErrorWithinItsBound)
     EXPECT_NEAR(truth_of(point).margin, -0.002851210435169135554626, 4e-19);
 }
 
-TEST(Amplification, ThatIsReversedOnTheWayDownLeavesRoundOffOfTheBound)
+TEST(Amplification, ThatIsReversedOnTheWayDownEndsBelowTheRoundOffOfTheBound)
 {
     // Twice from top to top without loss: errors grow to a tenth of alpha, and shrink to less than
     // the round-off of a bound in doubles.

@@ -1,4 +1,4 @@
-// The bound of the error where it is unknown: infinite, never NaN.
+// The bound on the error where it is unknown: infinite, never NaN.
 #include "verdicts.hpp"
 
 #include <gtest/gtest.h>

@@ -99,7 +99,7 @@ void expect_equal_uplifts()
     }
 }
 
-TEST(RecordInLanes, LiftsLikeInADouble)
+TEST(RecordInLanes, LiftsAsInADouble)
 {
     expect_equal_uplifts<false>();
     expect_equal_uplifts<true>();
@@ -131,7 +131,7 @@ void expect_equal_ends()
     }
 }
 
-TEST(RecordInLanes, EndsLikeInADouble)
+TEST(RecordInLanes, EndsAsInADouble)
 {
     expect_equal_ends<false, Records{.impacts = true, .error = true}>();
     expect_equal_ends<true, Records{.impacts = true, .error = true}>();

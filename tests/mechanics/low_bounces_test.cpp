@@ -63,7 +63,7 @@ TEST(LowBounces, UnderAConstantPushAreCloseToTheClosedForm)
     EXPECT_LE(bounds->rate, rate * 1.02);
 }
 
-TEST(LowBounces, AreNoneForABlockThatIsNotLifted)
+TEST(LowBounces, HaveNoHeightIfTheBlockIsNotLifted)
 {
     const auto bounds = bounds_of<Theory::nonlinear>(PulseKind::one_sine, {0.2, 1, 3, 1});
     ASSERT_TRUE(bounds);

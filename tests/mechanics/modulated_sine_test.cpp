@@ -40,7 +40,7 @@ void expect_one_cycle_of(PulseKind kind, PulseKind cycles)
     }
 }
 
-TEST(ModulatedSine, OfOneCycleHasTheBitsOfTheOneSineAndOfTheOneCosine)
+TEST(ModulatedSine, OfOneCycleIsBitIdenticalToTheOneSineAndTheOneCosine)
 {
     expect_one_cycle_of(PulseKind::one_sine, PulseKind::sine);
     expect_one_cycle_of(PulseKind::one_cosine, PulseKind::cosine);

@@ -89,7 +89,7 @@ TEST(SineAndCosineOfCycles, AgreeWithTheReferenceOverManyPeriods)
     }
 }
 
-TEST(SineAndCosineOfCycles, HaveTheBitsOfOnePeriod)
+TEST(SineAndCosineOfCycles, AreBitIdenticalToThoseOfOnePeriod)
 {
     for (int i = 0; i <= 10000; ++i) {
         const double x = 2 * pi<double>() * i / 10000; // includes pi/2 and 3 pi/2

@@ -45,7 +45,7 @@ class SymmetricRicker(unittest.TestCase):
             self.assertLess(one.angle[slow].max(), -one.slenderness)
             self.assertLess(one.velocity[slow].max(), 0.2 * one.slenderness)
 
-    def test_region_I_has_a_single_impact_in_the_forced_stage_but_for_a_few_weakest_pulses(self):
+    def test_region_I_has_a_single_impact_in_the_forced_stage_except_for_a_few_of_the_weakest_pulses(self):
         for one in self.both:
             i = self.region_i(one)
             self.assertGreater(share(one.impacts == 1, i), PRACTICALLY_ALL)  # 0.998 and 0.993

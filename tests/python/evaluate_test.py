@@ -103,7 +103,7 @@ class TheShape(unittest.TestCase):
                          {"verdict": "uint8", "region": "uint8", "status": "uint8", "peak": "float64",
                           "margin": "float64"})
 
-    def test_is_that_of_numpys_rules(self):
+    def test_follows_the_rules_of_numpy(self):
         width, pga = np.array([0.4, 0.5, 0.6]), np.array([[0.1], [0.9]])
         outcome = overturn.evaluate(**{**BLOCK, **PULSE, "width": width, "pga": pga})
         self.assertEqual(outcome["peak"].shape, (2, 3))

@@ -23,7 +23,7 @@ class ThePackage(unittest.TestCase):
                           " or name not in dir(overturn)])")
         self.assertEqual(done.stdout, "[]\n", done.stderr)
 
-    def test_tells_what_to_do_if_its_module_is_missing(self):
+    def test_says_what_to_do_if_its_module_is_missing(self):
         done = run_python("import overturn; overturn.evaluate()", OVERTURN="/nowhere/overturn")
         self.assertIn("ImportError: the compiled module of overturn is not in", done.stderr)
         self.assertIn("/nowhere/python", done.stderr)
@@ -33,7 +33,7 @@ class ThePackage(unittest.TestCase):
         self.assertIn(f"(Python: {sys.executable}). Install it for this Python; Debian's python3-numpy is for",
                       done.stderr)
 
-    def test_tells_if_the_program_is_missing(self):
+    def test_reports_a_missing_program(self):
         done = run_python("import overturn; overturn.check('job.toml')", OVERTURN="/nowhere/overturn")
         self.assertIn('ProgramError: there is no program "/nowhere/overturn"', done.stderr)
 

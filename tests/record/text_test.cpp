@@ -169,9 +169,9 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "a.txt:1: the line has 4 columns. Give one column of accelerations, or two of times and accelerations; "
             "the decimal mark is a point."},
     Refusal{"ASecondColumnFromSomeLineOn", "1\n2 3\n", one_column,
-            "a.txt:2: the line has 2 columns, but the lines before have 1. Correct it."},
+            "a.txt:2: the line has 2 columns, but the previous lines have 1. Correct it."},
     Refusal{"AMissingColumn", "0 1\n1\n", in_g,
-            "a.txt:2: the line has 1 column, but the lines before have 2. Correct it."},
+            "a.txt:2: the line has 1 column, but the previous lines have 2. Correct it."},
     Refusal{"AnEmptyColumn", "0,1\n1,\n", in_g,
             "a.txt:2: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
     Refusal{"AWord", "1\nend\n", one_column,
@@ -191,16 +191,16 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "a.txt:1: the file has one sample, but the time step can be determined only from two or more. Give the complete "
             "file."},
     Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
-            "a.txt:4: the time is 0.040 s, but must be 0.03 s within half a unit of its last digit: times must be "
+            "a.txt:4: the time is 0.040 s, but must be within half a unit of its last digit of 0.03 s: times must be "
             "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
     Refusal{"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
-            "a.txt:101: the time is 0.505 s, but must be 0.5 s within half a unit of its last digit: times must be "
+            "a.txt:101: the time is 0.505 s, but must be within half a unit of its last digit of 0.5 s: times must be "
             "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
     Refusal{"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
-            "a.txt:2: the time 0.0 s does not follow 0 s, the time before. Give ascending times with enough digits, "
+            "a.txt:2: the time 0.0 s is not after the previous time, 0 s. Give ascending times with enough digits, "
             "or one column and time_step."},
     Refusal{"DescendingTimes", "0.1 0\n0.0 0\n", in_g,
-            "a.txt:2: the time 0.0 s does not follow 0.1 s, the time before. Give ascending times with enough "
+            "a.txt:2: the time 0.0 s is not after the previous time, 0.1 s. Give ascending times with enough "
             "digits, or one column and time_step."},
     Refusal{"AbsurdTimes", "0.1 0\n1e300 0\n", in_g,
             "a.txt:2: the time 1e300 s is outside -1000000000 to 1000000000 s. The first of two columns must be the "

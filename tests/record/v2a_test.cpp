@@ -4,7 +4,7 @@
 namespace overturn {
 namespace {
 
-/// Twelve numbers in columns of 8 characters, ten in a line.
+/// Twelve numbers in columns of 8 characters, ten per line.
 std::string block(double first)
 {
     std::string text;
@@ -143,13 +143,13 @@ const std::string counts = "   65536     250     250      12      12      12";
 INSTANTIATE_TEST_SUITE_P(Of, V2aRefusal, testing::Values(
     Refusal{"FewerSamples", with(sound, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
             "a.txt:27: the line has 9 columns of 8 characters, but must have 10: line 20 announces 12 values of "
-            "acceleration, 10 in a line. Give the file as it was published."},
+            "acceleration, 10 per line. Give the file as it was published."},
     Refusal{"MoreSamples", with(sound, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
             "a.txt:28: the line has 3 columns of 8 characters, but must have 2: line 20 announces 12 values of "
-            "acceleration, 10 in a line. Give the file as it was published."},
+            "acceleration, 10 per line. Give the file as it was published."},
     Refusal{"AMissingLine", with(sound, "     7.0     8.0\n", ""),
             "a.txt:28: the line has 10 columns of 8 characters, but must have 2: line 20 announces 12 values of "
-            "acceleration, 10 in a line. Give the file as it was published."},
+            "acceleration, 10 per line. Give the file as it was published."},
     Refusal{"AnEarlyEnd", sound.substr(0, sound.size() - block(-1).size()),
             "a.txt:94: the file ends after 0 of the 12 values of displacement that line 84 announces. Give the "
             "complete file."},

@@ -37,7 +37,7 @@ inline Point<Digits50> in_digits(const Point<double>& point)
     return {point.slenderness, point.restitution, point.frequency, point.amplitude};
 }
 
-/// run_forced_stage(), for each of EveryMethod; with_error: with a bound of the error. Compiled
+/// run_forced_stage(), for each of EveryMethod; with_error: with a bound on the error. Compiled
 /// once, in one_point.cpp.
 template <class Method, Theory theory, bool with_error = false>
 ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<double>& excitation,

@@ -109,7 +109,7 @@ class TestThePlane(Recorded):
         self.assertNotIn("a_$1$.AT2", words)
         self.assertIn("a_$1$.AT2, PGA 0.4 g,  α = 0.1 rad,  r = 0.7 r_max = 0.625", words)
 
-    def test_is_explained_at_the_end_of_the_record(self):
+    def test_has_a_legend_that_names_the_end_of_the_record(self):
         self.recorded([[S, F_MINUS]])
         words = self.words()
         self.assertIn("At the end of the record", words)

@@ -208,7 +208,7 @@ class TestAnOverlaidBoundary(Sized):
         self.overturn("boundary", "boundary.h5", *SIZELESS)
         self.refuses(74, "does not give the size of the block", "--boundary", "boundary.h5")
 
-    def test_is_that_of_blocks_of_the_same_size_only_if_the_axes_depend_on_it(self):
+    def test_must_have_blocks_of_the_same_size_only_if_the_axes_depend_on_it(self):
         sized = (*SIZELESS, "plane.size=2")
         self.overturn("boundary", "boundary.h5", *sized)
         self.overturn("run", "spectrum.h5", *DIMENSIONLESS)
@@ -222,7 +222,7 @@ class TestAnOverlaidBoundary(Sized):
         self.refuses(74, "covers pulse_period from 2.5 to 3, the spectrum only from 0.158",
                      "--boundary", "boundary.h5")
 
-    def test_under_a_record_is_of_the_same_record(self):
+    def test_under_a_record_must_have_the_same_record(self):
         for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
             (self.folder / name).write_bytes((TOOLS.parent / "jobs" / name).read_bytes())
         over_pga = "plane.pga={first=0.3, last=1, count=5}"
@@ -234,7 +234,7 @@ class TestAnOverlaidBoundary(Sized):
         (self.folder / "spectrum.h5").unlink()
         self.overturn("run", "spectrum.h5", over_pga, "scene.record='synthetic_vertical.AT2'",
                       job=RECORDED)
-        self.refuses(74, "is under other records than the spectrum", "--boundary", "boundary.h5")
+        self.refuses(74, "was computed under different records from the spectrum", "--boundary", "boundary.h5")
 
 
 class TestAPhysicalHistory(Sized):

@@ -16,8 +16,9 @@ struct Gap {
 };
 
 /// Whether a gap may close and open again within a step h at whose ends it is open: it narrows and
-/// widens, or its rate changes its sign twice. The latter needs rates that exceed the mean rate:
-/// for a cubic, their sum is more than 3 times as large; the rest is for what is left out.
+/// widens, or its rate changes its sign twice. In the latter case the rates exceed the mean rate:
+/// for a cubic, their sum is more than 3 times the mean rate. The lower limit used here allows for
+/// the neglected terms.
 template <class S>
 bool may_dip(const S& width, const S& rate, const S& width_after, const S& rate_after, const S& h)
 {
@@ -56,7 +57,8 @@ S guessed_event(const Gap<S>& before, const Gap<S>& after, const S& h)
         return 2 * c[2] + s * (6 * c[3] + s * (12 * c[4] + s * 20 * c[5]));
     };
     // Where the function changes its sign, accurate to 1/1024 of the step: at this distance from
-    // the lowest point of a dip, the gap is higher by 1e-6 of its bend. rises: to positive.
+    // the lowest point of a dip, the gap exceeds its minimum by 1e-6 of its second derivative.
+    // rises: whether it changes from negative to positive.
     const auto root = [](const auto& function, S low, S high, bool rises) {
         while (high - low > S(1) / 1024) {
             const S middle = (low + high) / 2;

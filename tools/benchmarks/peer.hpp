@@ -52,7 +52,7 @@ std::vector<PeerEnd<double>> solve_by_overturn(const Problem& problem, const Num
 
 /// What overturn knows about its solution of a point.
 struct PointEffort {
-    double error; ///< bound of the error of the margin [1]
+    double error; ///< bound on the error of the margin [1]
     double steps;
 };
 std::vector<PointEffort> efforts_of_overturn(const Problem& problem, const Numerics& numerics);

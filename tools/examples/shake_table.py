@@ -27,7 +27,7 @@ The model: a rock topples with the probability that a symmetric block with logno
 slenderness overturns. Three numbers per rock are fitted by maximum likelihood: the median slenderness, its scatter, and
 the restitution r. The frequency parameter p is fixed. Verdicts are computed on a grid of slendernesses and
 restitutions; the probability is their weighted mean. A narrow range of r, fixed and not fitted, is included,
-because single verdicts change at tiny changes of r.
+because single verdicts change with tiny changes of r.
 
 The baseline is a logistic regression on ln PGA and ln(PGV/PGA). Cross-validation is by record.
 
@@ -36,7 +36,8 @@ The file (HDF5): `acceleration` with the attributes dt [s] and units (g), all te
 known); for the fit also `record`, the name of the record. Other datasets are not used."""
 
 FREQUENCY_PARAMETER = 4.5  # p [1/s]
-SLENDERNESS = np.geomspace(0.03, 0.6, 161)  # [rad]; steps of 1.9 %: 32 or more between -3 and 3 least scatters
+# [rad]; steps of 1.9 %: 32 or more between -3 and 3 times the smallest scatter.
+SLENDERNESS = np.geomspace(0.03, 0.6, 161)
 RESTITUTION = np.linspace(0.5, 0.98, 25)  # r [1]
 RESTITUTION_RANGE = 0.12  # r varies by less, with triangular weights [1]
 BOUNDS = {"slenderness": (0.04, 0.5), "restitution": (0.5, 0.98), "scatter": (0.1, 0.6)}

@@ -28,7 +28,7 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
         file.close()
         raise ValueError(f"\"{path}\" was not written by overturn.")
     # Before format 3, texts, checksums and the scan of a boundary were in the root group.
-    # Attributes by their names in attrs: file.kind would be a column of that name in a list.
+    # Attributes are read through attrs, because file.kind is a column if a table of blocks has one of that name.
     has_tiles = file.attrs["kind"] in ("overturning spectrum", "overturning boundary")
     dataset = _without_unmarked_tiles(file, path) if has_tiles else file
     strangers = [name for name, variable in dataset.variables.items()

@@ -63,7 +63,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         restitution*: energy ratio r at an impact [1]; or restitution_of_maximum*, r / r_max [1].
     A pulse:
         pulse_period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
-        pga*: peak ground acceleration over g [1]; or amplitude*, over that which lifts the block [1].
+        pga*: peak ground acceleration over g [1]; or amplitude*, over the acceleration that lifts the block [1].
         pulse: its kind; window, cycles, gamma, nu: numbers that complete some kinds, see docs/jobs.md.
     Or a record:
         record: horizontal accelerations over g [1], one-dimensional, linear between samples.

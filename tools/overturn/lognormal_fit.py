@@ -20,7 +20,7 @@ LEVEL = 0.95  # of the intervals
 LEAST_MOTIONS = 10  # with fewer, intervals are erratic: some samples consist of nearly equal motions
 MOST_WITHOUT_FIT = 1 - LEVEL  # share of the samples; above it, there are no intervals
 MOST_ITERATIONS = 60
-CONVERGED = 1e-8  # step of a and b, whose standard errors are above 1e-4 for less than 1e8 motions
+CONVERGED = 1e-8  # step of a and b, whose standard errors are above 1e-4 for fewer than 1e8 motions
 LARGEST_STEP = 1.0  # of a and b
 LARGEST_Z = 30.0  # Phi(-30) = 5e-198 is a normal number
 CHUNK = 1_000_000  # samples times values computed at once: 8 MB an array
@@ -48,7 +48,7 @@ class Fit:
 
 
 def fit(counts, log_at, samples, seed):
-    """Returns the fit, with intervals from so many samples and the band at log_at; or None if the
+    """Returns the fit, with intervals from this many samples and the band at log_at; or None if the
     likelihood has no maximum with a rising curve."""
     motions, values = counts.points.shape
     total = np.asarray(counts.points.sum(axis=0)).ravel()

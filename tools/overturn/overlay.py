@@ -19,7 +19,7 @@ def expect_same_motion(file, spectrum):
         raise PlotError(f"\"{file.filename}\" is a boundary under a {ground_word(file)}, but the "
                         f"spectrum is one under a {ground_word(spectrum)}. Omit --boundary.")
     if is_recorded(file) and checksums_of_records(file) != checksums_of_records(spectrum):
-        raise PlotError(f"\"{file.filename}\" is under other records than the spectrum.")
+        raise PlotError(f"\"{file.filename}\" was computed under different records from the spectrum.")
 
 
 def expect_same_settings(file, spectrum, names):
@@ -38,8 +38,8 @@ def expect_overlap(file, spectrum, across):
 
 
 def open_boundary(path, spectrum, units):
-    """Opens the boundary file if it has the same blocks and ground motion as the spectrum. Its axes
-    may be others: its flips are converted to the quantities on the axes of the spectrum."""
+    """Opens the boundary file if it has the same blocks and ground motion as the spectrum. Its axes may differ:
+    its flips are converted to the quantities on the axes of the spectrum."""
     file = open_result(path, "overturning boundary", "a boundary written by overturn boundary")
     expect_same_motion(file, spectrum)
     shown = quantities(spectrum, units)
@@ -51,7 +51,7 @@ def open_boundary(path, spectrum, units):
     expect_same_settings(file, spectrum, ("pulse", "theory", *PULSE_NUMBERS, *sizes, *gravity))
     for name in ("slenderness", "restitution_ratio"):
         if not np.array_equal(file[name][:], spectrum[name][:]):
-            raise PlotError(f"\"{path}\" has other blocks than the spectrum: {name} differs.")
+            raise PlotError(f"\"{path}\" has different blocks from the spectrum: {name} differs.")
     expect_overlap(file, spectrum, shown[0])
     return file
 

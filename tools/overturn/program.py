@@ -48,8 +48,7 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
     job, overrides: as in check().
     ranks: number of processes; above 1 they are started by mpirun, or by $MPIEXEC.
     output: path of the result file, from which the data set is read when it is used. Running the same
-        job again resumes a run that was stopped. Without it, the data set is in memory and no file
-        remains.
+        job again resumes a run that was stopped. Without `output`, the data set is in memory and no file remains.
 
     Raises ProgramError if the program fails.
     """

@@ -97,8 +97,8 @@ def open_result(path, kind, wanted):
 
 
 def path_of(result):
-    """Returns the path of a result file, given by its path or by the data set that overturn.open() made
-    of it. Raises ValueError for a part of a data set: its picture would be that of the whole file."""
+    """Returns the path of a result file, given by its path or by the data set that overturn.open() returned for
+    it. Raises ValueError for a part of a data set: its picture would be that of the whole file."""
     if not hasattr(result, "encoding"):
         return os.fspath(result)
     path = result.encoding.get("source")
@@ -115,7 +115,7 @@ def path_of(result):
 
 @contextlib.contextmanager
 def damage_reported(path, *also):
-    """Reports what is missing or malformed in a file, also errors of the given types, as its damage."""
+    """Reports missing or malformed parts of a file, and errors of the given types, as damage to the file."""
     try:
         yield
     except (OSError, KeyError, *also) as error:

@@ -16,8 +16,8 @@ namespace overturn {
 
 /// Computes and writes a tile, given its number.
 struct TileWork {
-    /// Calls drop_requested every second or more often, since messages are handled there, and drops
-    /// the tile if that is true. Returns false if it was dropped.
+    /// Calls drop_requested at least once a second, because messages are handled there, and drops
+    /// the tile if it returns true. Returns false if it was dropped.
     std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
     std::function<void(std::int64_t number)> write;
 };

@@ -40,7 +40,7 @@ public:
     /// The next tile as a range; empty if no tile is left.
     TileRange deal_one() { return take(1); }
 
-    /// Leaves no tile.
+    /// Discards the remaining tiles.
     void stop() { next_ = tiles_.size(); }
 
 private:

@@ -52,8 +52,8 @@ void create_spectrum_file(
 /// Throws FileError if MPI cannot open files of this absolute path.
 void demand_path_for_mpi(const std::string& path);
 
-/// The first rank on which the path names another file than on rank 0, or nullopt; returned on all
-/// ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, all
+/// The first rank on which the path names a different file than on rank 0, or nullopt; returned on
+/// all ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, all
 /// ranks read it, and rank 0 resets it to 0. Throws FileError on rank 0 if that fails.
 std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator);
 

@@ -19,13 +19,13 @@ struct ForcedEnd {
     T steps;              ///< steps tried
     T phase;              ///< at the end of the pulse, or at the fall [rad]
     /// Only if recorded:
-    T error;            ///< bound of the error of the margin, to first order; infinite if unknown
+    T error;            ///< bound on the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
     T peak;             ///< the largest tilt [rad]
-    T softest_impact;   ///< the smallest speed of an impact that a smaller speed would prevent,
-                        ///< because the block accelerates outward; under a pulse, as
-                        ///< lowest_turn [rad]
-    T last_impact;      ///< the speed of the last impact; as softest_impact [rad]
+    T softest_impact;   ///< the smallest speed of the impacts that would not occur at a smaller
+                        ///< speed, because the block accelerates outward; recorded like
+                        ///< lowest_turn, under a pulse only [rad]
+    T last_impact;      ///< the speed of the last impact; recorded like softest_impact [rad]
     T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
                         ///< recorded with the peak, infinite if there is none [rad]
 

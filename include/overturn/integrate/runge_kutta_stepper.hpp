@@ -77,8 +77,9 @@ public:
         const Mask last = !ends_at_event_ && longest >= left;
         const T h = select<T>(ends_at_event_, step_to_event_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
-        // The stages are compiled for each pulse. To compute the pushes before the stages, or to
-        // select the pulse in each stage, costs a tenth more, as it prevents overlapping execution.
+        // The stages are compiled for each pulse. Computing the pushes before the stages, or
+        // selecting the pulse in each stage, costs a tenth more, because it prevents overlapping
+        // execution.
         const Step<T> step = excitation_.motion.with_formula([&](const auto& formula) {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
                 using arithmetic::fma;

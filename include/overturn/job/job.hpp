@@ -76,11 +76,11 @@ struct Job {
     std::vector<std::string> overrides; ///< the --set arguments, in order
     std::string resolved;               ///< the canonical job: equal text, equal results
 
-    /// The smallest and the largest factor on a record [1]; it must be one of the motions.
+    /// The smallest and the largest factor on a record [1]; `motion` must be one of `motions`.
     double smallest_scale(const Motion& motion) const;
     double largest_scale(const Motion& motion) const;
 
-    /// Both; infinity and 0 for a motion that no block of a list meets.
+    /// Both; infinity and 0 for a motion to which no block of a list is subjected.
     std::pair<double, double> scales(const Motion& motion) const;
 };
 
@@ -112,9 +112,9 @@ Job read_resolved_job(std::string text, const std::string& name);
 /// The XXH64 of the columns of a table, in hexadecimal digits.
 std::string checksum_of(const Table& table);
 
-/// Adds the columns of the table, which a result file contains, to the job in it. Under records,
-/// the strengths of motions of their own are left out. Throws JobError if the columns are not
-/// valid.
+/// Adds the columns of the table, which a result file contains, to the job in it. Under records, if
+/// the blocks have motions of their own, the strengths of these are left out. Throws JobError if
+/// the columns are not valid.
 void restore_blocks(Job& job, Table table);
 
 /// The job that computes the boundary of a spectrum. The amplitudes become the scan, and the

@@ -26,8 +26,9 @@ public:
     /// the upwards acceleration; infinite if that is not negative [1].
     double largest_scale() const;
 
-    /// The first sample from `first` on that, multiplied by `scale`, lifts a block which the
-    /// acceleration `threshold` lifts without vertical motion [1]; samples() if there is none:
+    /// The first sample, starting at `first`, that lifts the block if the record is multiplied by
+    /// `scale`; samples() if there is none. Without vertical motion, the block is lifted by the
+    /// acceleration `threshold` [1]:
     ///
     ///     scale |a| > (1 + scale v) threshold
     std::int64_t first_lifting(std::int64_t first, double scale, double threshold) const;

@@ -37,7 +37,7 @@ struct RecordComponent {
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
-    /// Lines as they are in the file, without line ends, in any encoding: of text, its comments.
+    /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
     std::vector<std::string> header;
 };
 
@@ -66,9 +66,9 @@ inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [b
 ///   V2A   line 10 begins with "Number of points"
 ///   SMC   line 1 is a digit and the kind of data, such as "2 CORRECTED ACCELEROGRAM"
 ///   text  the first line that is neither blank nor a comment (# or %) begins with a number: one
-///         column of accelerations, or two of times and accelerations. Times are evenly spaced
-///         if each is within half a unit of its last printed digit of first + i * step; the step
-///         is the number with the fewest decimal digits for which they are.
+///         column of accelerations, or two of times and accelerations. Times are evenly spaced if
+///         each differs from first + i * step by at most half a unit of its last printed digit; the
+///         step is the number with the fewest decimal digits for which they are.
 ///
 /// Throws RecordError.
 RecordFile parse_record(std::string_view text, const std::string& name,

@@ -14,7 +14,7 @@ namespace overturn {
 /// Named columns of equal length. Those that block_list() does not name are not read.
 using Columns = std::map<std::string, std::vector<double>>;
 
-/// An error in the columns of a list. The message lacks its place.
+/// An error in the columns of a list. The message does not include the place of the error.
 class ListError : public std::runtime_error {
 public:
     ListError(std::int64_t row, std::string column, const std::string& message)

@@ -14,7 +14,7 @@
 
 namespace overturn {
 
-/// When a cell is filled. Tests weaken it.
+/// The conditions under which a cell is filled. Tests use weaker ones.
 struct FillRule {
     /// Each switch function exceeds kappa/2 times its second differences between the nodes of a
     /// cell; kappa = 0.25 is the nominal error of an interpolation. After

@@ -184,7 +184,7 @@ def draw_figure(file, outer, units):
 
 
 def draw(path, arguments, ax=None):
-    """Draws into axes, or else a figure. Returns the axes; a list of them for several boundaries."""
+    """Draws into the given axes, or without them a figure. Returns the axes; a list of them for several boundaries."""
     with open_result(path, "overturning boundary",
                      "a boundary written by overturn boundary") as file, damage_reported(path):
         expect_size(file, arguments.units)
@@ -203,7 +203,7 @@ def boundary(result, *, motion: int | None = None, slenderness: int | None = Non
              restitution: int | None = None, units: str = "job", ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
-    result: the path of a file, or the data set that overturn.open() made of it. motion, slenderness,
+    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one boundary of several. units: "job", or "physical" for s
     and g. ax: axes of Matplotlib to draw into, without a legend.
 

@@ -62,8 +62,8 @@ def frequency_parameter(attributes):
 
 
 class History:
-    """The contents of the file between two times. Times are in 1/p and angles in rad, but under a
-    record in seconds and in alpha, and in physical units in seconds and degrees."""
+    """The contents of the file between two times. Times are in 1/p and angles in rad. Under a record, times are
+    in seconds and angles are divided by alpha; in physical units, they are in seconds and degrees."""
 
     def __init__(self, file, start, until, units=JOB):
         self.is_recorded = is_recorded(file)
@@ -219,7 +219,7 @@ def draw_figure(file, history, units):
 
 
 def draw(path, arguments, ax=None):
-    """Draws the tilt into axes, or else a figure. Returns the axes."""
+    """Draws the tilt into the given axes, or without them a figure. Returns the axes."""
     with (open_result(path, "rocking history", "a history written by overturn history") as file,
           damage_reported(path, ValueError)):
         expect_size(file, arguments.units)
@@ -236,7 +236,7 @@ def draw(path, arguments, ax=None):
 def history(result, *, start: float = 0, until: float = np.inf, units: str = "job", ax=None):
     """Draws the motion of a block, as tools/plot_history does.
 
-    result: the path of a file, or the data set that overturn.open() made of it. start, until: times
+    result: the path of a file, or the data set that overturn.open() returned for it. start, until: times
     [1/p]; under a record or in physical units [s]. units: "job", or "physical" for s and degrees. ax:
     axes of Matplotlib to draw the tilt into.
 

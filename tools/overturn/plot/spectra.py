@@ -114,7 +114,7 @@ def draw_into(file, ax, outer, arguments):
 
 
 def draw(path, arguments, dpi, ax=None):
-    """Draws into axes, or else a sheet, which is returned with the number of its spectra and, under
+    """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and, under
     published practice, the count of misjudged points."""
     fields = ("region", "peak") if arguments.practice else ("region",)
     with open_spectrum(path, fields) as file, damage_reported(path):
@@ -132,7 +132,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
              labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
-    result: the path of a file, or the data set that overturn.open() made of it. motion, slenderness,
+    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one spectrum of several. units: "job", or "physical" for s
     and g. boundary: the path of a boundary to draw on it. practice: mark what published practice
     misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes of Matplotlib for one
