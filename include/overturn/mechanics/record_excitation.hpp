@@ -47,8 +47,9 @@ struct RecordMotion {
     }
 };
 
+/// Always inlined: kernels must not define functions that the rest of the program may use.
 template <class S>
-RecordMotion<S> record_motion(const Accelerogram& record)
+[[gnu::always_inline]] inline RecordMotion<S> record_motion(const Accelerogram& record)
 {
     return {.record = &record, .begin = S(0), .end = S(record.samples() - 1)};
 }
