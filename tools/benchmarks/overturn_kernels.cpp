@@ -22,8 +22,8 @@ std::vector<End> ends_of_tiles(const Problem& problem, const Numerics& numerics,
         const TileFields found =
             sweep_tile(problem.scene, numerics, problem.plane, tile, fields, widest_kernel());
         for (std::int64_t i = 0; i < tile.points(); ++i) {
-            const std::int64_t row = tile.begin[2] + i / tile.columns();
-            const std::int64_t column = tile.begin[3] + i % tile.columns();
+            const std::int64_t row = tile.begin.end()[-2] + i / tile.columns();
+            const std::int64_t column = tile.begin.back() + i % tile.columns();
             ends[std::size_t(row * columns + column)] = end_of(found.values, std::size_t(i));
         }
     }
