@@ -9,8 +9,9 @@ from building import SOURCE, fail
 
 EXPLANATION = """\
 Runs every benchmark of README.md and docs, as the documentation states it, one after another:
-about twenty minutes, and the first time a few more to build. Each writes its report, its JSON and its picture to a folder, beside `machine.txt`:
-processor, versions, date and commit. Do not run other programs meanwhile."""
+about twenty minutes, and the first time a few more to build. Each writes its report, its JSON and
+its picture to a folder, beside `machine.txt`: processor, versions, date and commit. Do not run
+other programs meanwhile."""
 
 COMMANDS = ("peers", "peers --record", "kernel", "effects", "run", "ranks",
             "ranks --record --points 512", "scale", "python", "fill", "picture")
