@@ -226,7 +226,7 @@ Command read_command_line(int argc, const char* const* argv)
         ->capture_default_str();
     accuracy_command
         ->add_option("--digits", accuracy_options.digits,
-                     "Maximum number of points computed in 50 digits, for errors")
+                     "Approximate number of points computed in 50 digits, for errors")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
 

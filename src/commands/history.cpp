@@ -116,11 +116,16 @@ void expect_finite(const History& history, const Plane& plane)
 
 void expect_gravity(const Job& job, double scale)
 {
-    if (!job.motions.empty() && !(scale < job.motions.front().largest_scale)) {
+    if (job.motions.empty()) {
+        return;
+    }
+    const Motion& motion = job.motions.front();
+    if (!(scale < motion.largest_scale)) {
         throw JobError(fmt::format("plane.{} = {}: the vertical motion of \"{}\" cancels gravity. "
-                                   "Use a scale below {}.",
+                                   "Use a scale below {:.6g}, which is a PGA of {:.6g} g.",
                                    name_of(job.plane.amplitude_is), job.plane.amplitude.first(),
-                                   job.motions.front().file, job.motions.front().largest_scale));
+                                   motion.file, motion.largest_scale,
+                                   motion.largest_scale * motion.measures.pga));
     }
 }
 

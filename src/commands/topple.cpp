@@ -257,7 +257,9 @@ struct TemporaryFolder {
     TemporaryFolder()
     {
         if (mkdtemp(path.data()) == nullptr) {
-            throw FileError(fmt::format("cannot create a folder in {}.", path));
+            throw FileError(fmt::format("cannot create a temporary folder in {}. Set TMPDIR to a "
+                                        "writable folder.",
+                                        fs::temp_directory_path().string()));
         }
     }
     TemporaryFolder(const TemporaryFolder&) = delete;

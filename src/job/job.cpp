@@ -108,12 +108,13 @@ void expect_gravity(const Entry& entry, const Job& job)
         const bool is_range = !plane || job.plane.amplitude.size() > 1;
         refuse(place,
                fmt::format(" {} {}, where the vertical motion of \"{}\" cancels gravity. {} below "
-                           "the scale {:.6g}.",
+                           "the scale {:.6g}, which is a PGA of {:.6g} g.",
                            is_range ? "begins at" : "is",
                            plane ? job.plane.amplitude.first()
                                  : job.smallest_scale(job.motions.front()),
                            job.motions.front().file, is_range ? "Begin" : "Choose a value",
-                           job.motions.front().largest_scale));
+                           job.motions.front().largest_scale,
+                           job.motions.front().largest_scale * job.motions.front().measures.pga));
     }
 }
 

@@ -150,8 +150,9 @@ private:
         if (is_reserved || !is_valid) {
             refuse(ListError::no_row, name,
                    is_reserved ? "is the name of a variable of the result. Rename the column."
-                               : "is not a name that a result file can have: it begins with a dot "
-                                 "or contains a slash or a control character. Rename the column.");
+                               : "cannot be the name of a variable in a result file, because it "
+                                 "begins with a dot or contains a slash or a control character. "
+                                 "Rename the column.");
         }
     }
 

@@ -82,8 +82,8 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
     if (const auto method = find(*entry, "method")) {
         numerics.method = choice_of<Method>(*method, method_names);
         if (is_recorded && numerics.method != Method::taylor) {
-            refuse(*method, fmt::format(" = \"{}\" is for pulses only; under a record no step "
-                                        "crosses a sample. Use \"taylor\", the default.",
+            refuse(*method, fmt::format(" = \"{}\" is for pulses only. Under a record, use "
+                                        "\"taylor\", the default.",
                                         name_of(numerics.method)));
         }
     }

@@ -144,12 +144,18 @@ void read_restitutions(const ColumnReader& columns, BlockList& list)
         const double alpha = list.slenderness[row];
         const double r = share * largest_restitution(alpha);
         const double largest_slenderness = std::asin(std::sqrt(2.0 / 3.0));
-        if (!rule.allows(r) || !(alpha < largest_slenderness)) {
+        if (!(alpha < largest_slenderness)) {
             throw ListError(std::int64_t(row), name,
-                            fmt::format("{} = {} gives r = {} at the slenderness {} rad, which is "
-                                        "outside {}. r_max is defined below {} rad (Eq. 17). Use "
+                            fmt::format("{} = {}: r_max is defined only for a slenderness below "
+                                        "{} rad (Eq. 17), but that of this block is {} rad. Use "
                                         "restitution instead.",
-                                        name, share, r, alpha, rule.interval, largest_slenderness));
+                                        name, share, largest_slenderness, alpha));
+        }
+        if (!rule.allows(r)) {
+            throw ListError(std::int64_t(row), name,
+                            fmt::format("{} = {} gives r = {}, which is outside {}, at the "
+                                        "slenderness {} rad. Use restitution instead.",
+                                        name, share, r, rule.interval, alpha));
         }
         list.restitution[row] = r;
     }

@@ -45,7 +45,8 @@ class ARefusal(Refused):
         self.assert_refused(ValueError, "do not broadcast: width (3,), pga (2,)", width=[1, 2, 3], pga=[1, 2])
 
     def test_of_a_restitution_that_no_slenderness_allows(self):
-        self.assert_refused(ValueError, "r_max is defined below", restitution=None, restitution_of_maximum=1, width=6)
+        self.assert_refused(ValueError, "r_max is defined only for a slenderness below", restitution=None,
+                            restitution_of_maximum=1, width=6)
 
     def test_of_samples(self):
         self.assert_refused(ValueError, "record[1] = nan is not finite", RECORD, record=[0, np.nan])

@@ -25,9 +25,9 @@ Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy: the
 a one-sine pulse, frequency 0.5 to 8 by amplitude 1.2 to 12. For each solver and target error, it
 finds the loosest tolerance whose error is within the target (99th percentile, over the points that
 do not overturn, of the larger of the errors of angle and velocity at the end of the pulse), then
-times all solvers in turns and prints medians of processor time. Errors are relative to a reference
-in long double by a third-party method, which is checked by a second reference. For overturn's
-methods, it prints the share of the core's peak of fused multiply-adds.
+times all solvers in turns and prints medians of processor time. Errors are differences in rad
+from a reference in long double by a third-party method, which is checked by a second reference. For
+overturn's methods, it prints the share of the core's peak of fused multiply-adds.
 
 --record: blocks of slenderness 0.245, size 0.2 to 3 m, under a record with a scale of 0.5 to 2.5.
 Errors are over the slenderness, at the points whose `error` at a tolerance of 1e-12 is below 1e-6.

@@ -102,10 +102,11 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     edges = _edges(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
-    reason = _why_no_fit(counts, im, "overturns" if limit is None else f"has a peak above {limit:g}")
+    verb = "overturns" if limit is None else f"has a peak above {limit:g}"
+    reason = _why_no_fit(counts, im, verb)
     fit = None if reason else lognormal_fit.fit(counts, np.log(value), samples, seed)
     if not reason and not fit:
-        reason = f"no fit: the share of such points does not rise with {im}"
+        reason = f"no fit: the probability that a point {verb} does not rise with {im}"
     return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], **_fitted(fit, value),
@@ -214,7 +215,7 @@ def _why_no_fit(counts, im, verb):
         above, below = x[exceeding > 0], x[exceeding < points]
         return (f"no fit, because there is no scatter: no point {verb} up to {im} = {below.max():.4g}, and every "
                 f"point does so from {above.min():.4g} on" if below.max() <= above.min() else
-                f"no fit: the share of such points does not rise with {im}")
+                f"no fit: the probability that a point {verb} does not rise with {im}")
     return ""
 
 
