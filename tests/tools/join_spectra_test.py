@@ -282,7 +282,7 @@ class TestAJoinRefused(Spectra):
                  "restitution = { values = [0.8] }, slenderness = { values = [0.1] } }")
         self.compute("one.h5", None, "plane.slenderness.values=[0.3]", plane)
         self.compute("two.h5", None, plane, "plane.slenderness.values=[0.2]")
-        self.refuses(74, ("\"one.h5\" do not allow other", "another file first"),
+        self.refuses(74, ("\"one.h5\" do not allow other", "different file as the first argument"),
                      "one.h5", "two.h5", "-o", "joined.h5")
         self.assert_joins("two.h5", "one.h5")
 
