@@ -32,7 +32,7 @@ struct AccuracyOptions {
     JobSource job;
     std::string output; ///< path of the result file
     int points = 16384; ///< maximum number of sample points
-    int digits = 512;   ///< about as many are computed in 50 digits
+    int digits = 512;   ///< approximate number computed in 50 digits
 };
 int accuracy(const AccuracyOptions& options);
 

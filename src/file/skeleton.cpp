@@ -161,8 +161,7 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
                                 job.numerics.fill ? ", audit_checked and audit_wrong" : ""));
     write_attribute(dataset, "numbering",
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
-                    "`dimensions`; the "
-                    "last varies fastest");
+                    "`dimensions`; the last varies fastest");
     write_attribute(dataset, layout::dimensions,
                     fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
     write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
@@ -171,8 +170,7 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
                     "number of filled points of the tile that were integrated as well");
         add_numbers(file, layout::audit_wrong, tiling,
                     "number of checked points whose integrated value differs from the filled one; "
-                    "if there is one, all points of the tile "
-                    "were integrated");
+                    "if there is one, all points of the tile were integrated");
     }
 }
 

@@ -47,10 +47,9 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected)
                                  found));
     }
     if (found != expected) {
-        lines.refuse(
-            fmt::format("the line has {} column{}, but the previous lines have {}. Correct "
-                        "it.",
-                        found, found == 1 ? "" : "s", expected));
+        lines.refuse(fmt::format("the line has {} column{}, but the previous lines have {}. "
+                                 "Correct it.",
+                                 found, found == 1 ? "" : "s", expected));
     }
 }
 

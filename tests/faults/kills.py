@@ -4,11 +4,12 @@
     kills.py [--kills N] [--seed S]
 
 A third of the kills hit runs under a pulse, a third runs of a filled spectrum, a third runs under
-records. Each hits a run of 1, 2, 3 or 5 ranks that creates or resumes a file: at a random write to the file (including writes that create it
-and those between a tile's values and its checksum; in half of the cases after half of the bytes),
-or a rank, mpirun, or all processes at a random time. After each kill, tiles marked as done must be
-correct, byte for byte, and each completed file must equal that of an undisturbed run. Requires
-OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the environment."""
+records. Each hits a run of 1, 2, 3 or 5 ranks that creates or resumes a file: at a random write to
+the file (including writes that create it and those between a tile's values and its checksum; in
+half of the cases after half of the bytes), or a rank, mpirun, or all processes at a random time.
+After each kill, tiles marked as done must be correct, byte for byte, and each completed file must
+equal that of an undisturbed run. Requires OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the
+environment."""
 
 import argparse
 import collections

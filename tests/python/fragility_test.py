@@ -223,7 +223,9 @@ class AnEdgeCase(unittest.TestCase):
 
     def test_fewer_points_overturn_at_larger_values(self):
         region, scale = graded()
-        self.assert_no_fit(region[:, ::-1], scale, "no fit: the probability that a point overturns does not rise with pgv")
+        self.assert_no_fit(
+            region[:, ::-1], scale, "no fit: the probability that a point overturns does not rise with pgv"
+        )
 
     def test_too_many_samples_have_no_fit(self):
         region = np.full((10, 4, 8), S)

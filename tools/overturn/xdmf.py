@@ -22,11 +22,12 @@ example:
   paraview four_axes.xdmf2
 
 Frequency (or pulse_period, pulse_frequency) is along x, amplitude (or pga) along y, each at its own
-values; under records, size or frequency_parameter and scale or pga. A file of several spectra becomes a time series: step 0 is the
-first record, slenderness and restitution, and restitution varies fastest. The field data of a step
-contain its motion (the number of its record), slenderness, restitution and restitution_ratio. The
-XDMF file refers to the result file, which contains the values: keep both together. Unfinished files
-can be opened, too, unless tiles that are not marked as computed contain values.
+values; under records, size or frequency_parameter and scale or pga. A file of several spectra
+becomes a time series: step 0 is the first record, slenderness and restitution, and restitution
+varies fastest. The field data of a step contain its motion (the number of its record), slenderness,
+restitution and restitution_ratio. The XDMF file refers to the result file, which contains the
+values: keep both together. Unfinished files can be opened, too, unless tiles that are not marked as
+computed contain values.
 
 The preset of --colours names the regions and colours them as tools/plot_spectrum does. In ParaView:
 colour by region, then Choose preset, Import; tick Annotations, Apply."""
