@@ -176,7 +176,9 @@ class AStopInTime(ScratchWithRuns):
             self.assertIn("before the file was created", said)
             self.assertEqual(self.files(), before)
 
-    def test_abandons_a_tile_that_would_take_minutes(self):
+
+class ASlowTile(ScratchWithRuns):
+    def test_is_abandoned_by_a_stop_although_it_would_take_minutes(self):
         # Without loss, these blocks bounce until the limit of steps. One point of the scan of a
         # boundary takes a second or two because it is resolved.
         slow = ("--set", "plane.restitution.values=[1.0]", "--set=plane.restitution.of=absolute",
