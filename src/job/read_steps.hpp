@@ -9,8 +9,9 @@
 namespace overturn {
 
 /// Overrides a key of the job by `key.path=value` (TOML; a bare word is a string). Keys that it
-/// contradicts are dropped: `values` or first/last/count of the same axis, [block] or
-/// plane.slenderness, the window if the new pulse has none, and the keys of a record or of a pulse.
+/// contradicts are dropped: `values` or first/last/count of the same axis, other keys that give the
+/// same quantity, [block], [blocks] and the axes that they replace, the numbers that the new pulse
+/// does not have, and the keys of a record or of a pulse.
 /// Throws JobError if it is invalid.
 void apply_override(toml::table& job, const std::string& argument);
 

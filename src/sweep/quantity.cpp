@@ -33,7 +33,7 @@ bool is_slenderness(double value)
     return value >= 1e-100 && value < std::numbers::pi / 2;
 }
 
-// At 8 periods the wavelets are below 1e-180 of their peak.
+// At 8 periods the wavelets are below 1e-178 of their peak.
 bool is_window(double value)
 {
     return value > 0 && value <= 8;

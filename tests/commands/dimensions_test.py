@@ -68,7 +68,7 @@ class Dimensions(Scratch):
                               slice(None, None, -1))
             (self.folder / "equivalent0.h5").unlink()
 
-    def test_a_frequency_in_hertz_and_several_slendernesses_do_too(self):
+    def test_a_frequency_in_hertz_and_several_slendernesses_are_too(self):
         data = self.compute("run", "hertz.h5", *TWO_BLOCKS, "--set",
                             "plane.pulse_frequency={ first = 0.5, last = 5.0, count = 30 }")
         self.assertEqual(data.amplitude.dims, ("slenderness", "pga"))

@@ -131,6 +131,37 @@ void expect_equal_ends()
     }
 }
 
+/// The ground accelerates upwards with 2 g.
+template <Number T>
+struct SteadyUpwards {
+    struct Motion {
+        double end = 100;
+        mask_t<T> is_monotone(const T& from, const T& to) const { return from <= to; }
+    };
+    Motion motion;
+    T frequency = T(1);
+    Ground<T> ground(const T&) const { return {T(0), T(3)}; }
+};
+
+TEST(RecordInLanes, EndsABounceSeriesAsInADouble)
+{
+    // The limit of a slow impact, alpha / sqrt(10) = 0.063, is below the limit of a low bounce
+    // here, 3 sin(alpha) / sqrt(30) = 0.109: a fast impact must not depend on a slow one beside it.
+    const auto die_out = []<class T>(const T& rate) {
+        return select<T>(bounces_die_out<Theory::nonlinear>(Block<T>{T(0.2), T(0.01)},
+                                                            SteadyUpwards<T>{}, T(0), rate),
+                         T(1), T(0));
+    };
+    std::array<double, lanes> rates;
+    rates.fill(0.0775);
+    rates[0] = 0.01;
+    const Lanes together = die_out(load<Lanes>(rates.data()));
+    ASSERT_EQ(lanes_of(together)[0], 1);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        expect_bits(together, lane, die_out(rates[lane]));
+    }
+}
+
 TEST(RecordInLanes, EndsAsInADouble)
 {
     expect_equal_ends<false, Records{.impacts = true, .error = true}>();

@@ -31,7 +31,8 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));
-    // The weaker pull is at most alpha. Most impacts are too fast and need no further check.
+    // Most impacts are faster than this and need no further check. Unless the ground accelerates
+    // upwards, the weaker pull is at most alpha, so that none of them would pass it.
     const T& alpha = block.slenderness;
     const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
     if (!any<T>(slow)) {
@@ -46,7 +47,7 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     const T weaker = select<T>(plus < minus, plus, minus);
     // Without loss or pull, no series ends; 1 avoids divisions by zero.
     const T loss = one - T(sqrt(block.restitution));
-    const mask_t<T> fades = loss > zero && weaker > zero;
+    const mask_t<T> fades = slow && loss > zero && weaker > zero;
     const T series = rate / select<T>(fades, loss, one);                 // v (1 + sqrt r + r + ...)
     const T duration = T(S(3)) * series / select<T>(fades, weaker, one); // D
 

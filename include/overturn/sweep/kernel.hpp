@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// All kernels give identical bits. one_lane is for debugging and comparison: it uses the
-/// instructions of avx2 but computes one point at a time.
+/// All kernels give identical bits. one_lane computes one point at a time. On x86-64 it uses the
+/// instructions of avx2 and is for debugging and comparison; elsewhere it is the only kernel.
 enum class Kernel { one_lane, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 3> kernel_names{"double", "avx2", "avx512"};
