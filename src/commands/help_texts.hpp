@@ -63,8 +63,8 @@ inline constexpr const char* accuracy = R"(Example:
   tools/plot_accuracy accuracy.h5
 
 Runs both methods (under a record, taylor) at tolerances from 1e-2 to 1e-14, and with resolved
-verdicts at those down to 1e-8, on a sample of the job's plane, on one core. [numerics] and the
-fields of the job are ignored. OUT.h5 contains these columns and more:
+verdicts at those down to 1e-8 (rk45: from 1e-4), on a sample of the job's plane, on one core.
+[numerics] and the fields of the job are ignored. OUT.h5 contains these columns and more:
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if the block falls in only one of
                    the two computations
@@ -79,11 +79,11 @@ inline constexpr const char* history = R"(Example:
   tools/plot_history history.h5
 
 Prints region, margin, peak tilt, the times of fall and rest, and the first 24 events; for each
-event, the velocity before and after it, and q (Eq. 12) after it. Times and angles are in seconds
-and degrees if the job gives the size of the block, otherwise in 1/p and rad; q is in rad2. OUT.h5
-contains angle, velocity and acceleration [rad], q [rad2] and the ground acceleration over g as
-functions of tau = p t. The motion is integrated as accurately as doubles allow, regardless of
-[numerics].)";
+event, the velocity before and after it, and q (Eq. 12) after it. The peak tilt is in degrees. Other
+angles and the times are in degrees and seconds if the job gives the size of the block, otherwise in
+rad and 1/p; q is in rad2. OUT.h5 contains angle, velocity and acceleration [rad], q [rad2] and the
+ground acceleration over g as functions of tau = p t. The motion is integrated as accurately as
+doubles allow, regardless of [numerics].)";
 
 inline constexpr const char* info = R"(Example:
   overturn info smoke.h5)";

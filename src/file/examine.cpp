@@ -56,7 +56,9 @@ std::string first_difference(std::string_view stored, std::string_view given)
         const std::string_view ours = given.empty() ? "(nothing more)" : next_line(given);
         if (const auto record = record_named_in(ours);
             theirs != ours && !record.empty() && record == record_named_in(theirs)) {
-            return fmt::format("the record {} has changed since then. ", record);
+            return fmt::format("the record {} has changed since then, or is read with other keys "
+                               "(component, vertical, time_step, units, gravity). ",
+                               record);
         }
         if (ends || theirs != ours) {
             const auto differ =

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -103,15 +104,23 @@ void expect_gravity(const Entry& entry, const Job& job)
     };
     if (!job.motions.empty() && std::all_of(job.motions.begin(), job.motions.end(), cancels)) {
         const auto plane = find(entry, "plane");
-        const Entry place =
-            plane ? *find(*plane, name_of(job.plane.amplitude_is)) : *find(entry, "blocks");
-        const bool is_range = !plane || job.plane.amplitude.size() > 1;
-        refuse(place,
+        if (!plane) {
+            const Motion& motion =
+                *std::find_if(job.motions.begin(), job.motions.end(), [&](const Motion& any) {
+                    return std::isfinite(job.smallest_scale(any));
+                });
+            refuse(*find(entry, "blocks"),
+                   fmt::format(" have scales of {:.6g} or more under \"{}\", whose vertical motion "
+                               "cancels gravity from the scale {:.6g} on, which is a PGA of {:.6g} "
+                               "g. Give smaller values of scale or pga in the table.",
+                               job.smallest_scale(motion), motion.file, motion.largest_scale,
+                               motion.largest_scale * motion.measures.pga));
+        }
+        const bool is_range = job.plane.amplitude.size() > 1;
+        refuse(*find(*plane, name_of(job.plane.amplitude_is)),
                fmt::format(" {} {}, where the vertical motion of \"{}\" cancels gravity. {} below "
                            "the scale {:.6g}, which is a PGA of {:.6g} g.",
-                           is_range ? "begins at" : "is",
-                           plane ? job.plane.amplitude.first()
-                                 : job.smallest_scale(job.motions.front()),
+                           is_range ? "begins at" : "is", job.plane.amplitude.first(),
                            job.motions.front().file, is_range ? "Begin" : "Choose a value",
                            job.motions.front().largest_scale,
                            job.motions.front().largest_scale * job.motions.front().measures.pga));

@@ -122,9 +122,11 @@ std::vector<ComponentChoice> choices_of(const Entry& entry, std::size_t count)
     const std::size_t size =
         array_size(entry, "a component, or an array with one for each record", "Remove the key.");
     if (size != count) {
-        refuse(entry, fmt::format(" has {} elements for {} records. Give one for each record, or a "
-                                  "single value for all.",
-                                  size, count));
+        refuse(entry,
+               fmt::format(
+                   " has length {}; the number of records is {}. Give one for each record, or a "
+                   "single value for all.",
+                   size, count));
     }
     std::vector<ComponentChoice> choices;
     for (std::size_t i = 0; i < size; ++i) {

@@ -76,7 +76,7 @@ void EvenTimes::add(const Lines& lines, std::string_view word)
         const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
         if (!(least <= most)) {
             lines.refuse(fmt::format(
-                "the time is {} s, but must be within half a unit of its last digit of {:.9g} s: "
+                "the time is {} s, but must be {:.9g} s to within half a unit of its last digit: "
                 "times must be evenly spaced, and those before have the step {:.9g} s. "
                 "Resample the record, or give one column and time_step.",
                 word, first_ + double(size_) * step(), step()));

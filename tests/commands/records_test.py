@@ -215,6 +215,17 @@ class VerticalMotion(ScratchWithRecords):
         self.assert_exit(self.overturn("run", "job.toml", *up, "--set", "plane.scale=9"), 65,
                          "plane.scale is 9", "cancels gravity")
 
+    def test_of_every_row_of_a_table_is_refused_with_the_record_that_the_table_uses(self):
+        (self.folder / "table.csv").write_text("slenderness,size,restitution,motion,scale\n"
+                                               "0.2,1,0.9,two.AT2,9\n0.2,1,0.9,two.AT2,8\n")
+        (self.folder / "table.toml").write_text(
+            'blocks.table = "table.csv"\n'
+            '[scene]\nrecord = ["one.AT2", "two.AT2"]\nvertical = "up.AT2"\n')
+        shutil.copy(self.folder / "one.AT2", self.folder / "two.AT2")
+        self.assert_exit(self.overturn("check", "table.toml"), 65,
+                         'blocks have scales of 8 or more under "two.AT2"',
+                         "cancels gravity from the scale 5", "in the table")
+
 
 class ABadRecord(ScratchWithRecords):
     def refused(self, *phrases, code=65, **changes):

@@ -191,10 +191,10 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "a.txt:1: the file has one sample, but the time step can be determined only from two or more. Give the complete "
             "file."},
     Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
-            "a.txt:4: the time is 0.040 s, but must be within half a unit of its last digit of 0.03 s: times must be "
+            "a.txt:4: the time is 0.040 s, but must be 0.03 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
     Refusal{"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
-            "a.txt:101: the time is 0.505 s, but must be within half a unit of its last digit of 0.5 s: times must be "
+            "a.txt:101: the time is 0.505 s, but must be 0.5 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
     Refusal{"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s is not after the previous time, 0 s. Give ascending times with enough digits, "

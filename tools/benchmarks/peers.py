@@ -30,7 +30,8 @@ from a reference in long double by a third-party method, which is checked by a s
 overturn's methods, it prints the share of the core's peak of fused multiply-adds.
 
 --record: blocks of slenderness 0.245, size 0.2 to 3 m, under a record with a scale of 0.5 to 2.5.
-Errors are over the slenderness, at the points whose `error` at a tolerance of 1e-12 is below 1e-6.
+Errors are divided by the slenderness and taken at the points whose `error` at a tolerance of 1e-12
+is below 1e-6.
 All solvers stop at every sample, continue with the step size from before it, and skip the time at
 rest. Also prints the time per point and sample.
 
