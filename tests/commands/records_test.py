@@ -215,7 +215,7 @@ class VerticalMotion(ScratchWithRecords):
         self.assert_exit(self.overturn("run", "job.toml", *up, "--set", "plane.scale=9"), 65,
                          "plane.scale is 9", "cancels gravity")
 
-    def test_of_every_row_of_a_table_is_refused_with_the_record_that_the_table_uses(self):
+    def test_that_cancels_gravity_in_every_row_of_a_table_is_refused(self):
         (self.folder / "table.csv").write_text("slenderness,size,restitution,motion,scale\n"
                                                "0.2,1,0.9,two.AT2,9\n0.2,1,0.9,two.AT2,8\n")
         (self.folder / "table.toml").write_text(

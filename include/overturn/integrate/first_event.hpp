@@ -43,8 +43,8 @@ Gap<T> gap_at(const RockingSeries<order, T>& series, const T& time, const mask_t
 
 /// The first impact or fall within a step of length h. There is none before the first zero of the
 /// bound of the enclosure. From there on, a gap g that closes at the speed v with
-/// |acceleration| <= M is certain to close, exactly once, if v^2 > 2 M g. It is only followed if
-/// v^2 > 4 M g, so that the first correction is close to the event. Otherwise the step ends there,
+/// |acceleration| <= M is certain to close, exactly once, if v^2 > 2 M g. The event is only
+/// located if v^2 > 4 M g, so that its first approximation is close. Otherwise the step ends there,
 /// and the next one has a tighter enclosure.
 template <int order, Number T>
 FirstEvent<T> first_event(const RockingSeries<order, T>& series, const Enclosure<T>& bounds,
