@@ -99,6 +99,7 @@ int accuracy(const AccuracyOptions& options)
         return refusal;
     }
 
+    warn_of_implausible_values(job);
     say(fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",
                     options.digits, std::ceil(seconds_in_digits(job) * double(options.digits))));
     const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);

@@ -229,6 +229,7 @@ int check(const JobSource& source)
 {
     const Kernel kernel = widest_kernel(); // throws if this processor supports none
     const Job job = read_job(source.path, source.overrides);
+    warn_of_implausible_values(job);
     if (!job.title.empty()) {
         fmt::print("{}\n\n", printable(job.title));
     }
@@ -237,9 +238,6 @@ int check(const JobSource& source)
     const std::vector<std::string> lines = dimension_lines(job);
     print_row(job.plane.list ? "blocks" : "block", lines[0]);
     print_row("ground", lines[1]);
-    for (const std::string& line : dimension_warnings(job)) {
-        print_row("warning", line);
-    }
     for (const std::string& line : free_fall_lines(job)) {
         print_row("note", line);
     }

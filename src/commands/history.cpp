@@ -204,6 +204,7 @@ int history(const HistoryOptions& options)
     if (refusal != exit_code::complete) {
         return refusal;
     }
+    warn_of_implausible_values(job);
     const double slenderness = job.plane.slenderness.first();
     const PlanePoint point = only_point_of(job);
     expect_gravity(job, point.amplitude);

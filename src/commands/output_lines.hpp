@@ -1,7 +1,11 @@
-// The lines that commands print: messages, and rows of a name and a text.
+// The lines that commands print: messages, warnings, and rows of a name and a text.
 #pragma once
 
+#include "printable.hpp"
+
 #include "overturn/file/spectrum_summary.hpp"
+#include "overturn/job/job.hpp"
+#include "overturn/sweep/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +22,25 @@ inline void say(const std::string& line)
 {
     std::puts(line.c_str());
     std::fflush(stdout);
+}
+
+/// See implausible_values().
+inline std::string implausible_values_of(const Job& job)
+{
+    Plane plane = job.plane;
+    if (job.product == Product::boundary) {
+        plane.amplitude = job.scan;
+    }
+    return implausible_values(job.scene, plane);
+}
+
+/// Prints what looks like a mistake in the units to stderr, in one line.
+inline void warn_of_implausible_values(const Job& job)
+{
+    if (const std::string values = implausible_values_of(job); !values.empty()) {
+        std::fflush(stdout);
+        fmt::print(stderr, "overturn: warning: {}.\n", printable(values));
+    }
 }
 
 inline void print_row(std::string_view name, std::string_view text)

@@ -34,7 +34,9 @@ std::string progress_text(const Moment& moment)
     const double computed = double(moment.done - moment.before);
     if (computed > 0 && moment.seconds > 0) {
         const double rate = computed / moment.seconds;
-        text += fmt::format(", {} {}/s", human_count(rate), moment.items);
+        if (rate >= 0.5) { // otherwise 0 when rounded
+            text += fmt::format(", {} {}/s", human_count(rate), moment.items);
+        }
         if (moment.done < moment.all) {
             text +=
                 fmt::format(", {} left", human_duration(double(moment.all - moment.done) / rate));

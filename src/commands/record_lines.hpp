@@ -26,13 +26,14 @@ inline void shorten(std::vector<std::string>& lines)
     }
 }
 
-/// A line for each record: its file, component, duration and intensity.
+/// A line for each record: its file, components, duration and intensity.
 inline std::vector<std::string> record_lines(const Job& job)
 {
     std::vector<std::string> lines;
     for (const Motion& motion : job.motions) {
         const std::string component =
-            motion.component.empty() ? "" : fmt::format(", component {}", motion.component);
+            (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
+            (motion.vertical.empty() ? "" : fmt::format(", vertical {}", motion.vertical));
         lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
                                               motion.file, component, motion.samples,
                                               double(motion.samples - 1) * motion.time_step,

@@ -287,6 +287,9 @@ int run(const RunOptions& options)
             }
             sole_writer.emplace(path);
             damaged = prepare_output(*job, path);
+            if (damaged) {
+                warn_of_implausible_values(*job);
+            }
         });
     }
     code = session.from_rank_0(damaged ? proceed : code);

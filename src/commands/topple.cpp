@@ -4,8 +4,9 @@
 #include "exit_code.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
+#include "progress.hpp"
 #include "record_lines.hpp"
-#include "toppling_ranges.hpp"
+#include "verdict_ranges.hpp"
 
 #include "overturn/file/study_files.hpp"
 #include "overturn/sweep/kernel.hpp"
@@ -17,6 +18,7 @@
 #include <array>
 #include <fcntl.h>
 #include <filesystem>
+#include <limits>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -38,8 +40,7 @@ std::string quoted(const std::string& text)
     return '"' + result + '"';
 }
 
-/// The text of a job with a single point. If the command line gives no strength, the point is at
-/// the largest PGA.
+/// The text of a job with a single point. If the command line gives no strength, its motion is 0.
 std::string job_text(const ToppleOptions& options)
 {
     const bool is_recorded = !options.record.empty();
@@ -54,7 +55,7 @@ std::string job_text(const ToppleOptions& options)
     }
     text += "[plane]\n";
     text += options.scale ? fmt::format("scale = {}\n", *options.scale)
-                          : fmt::format("pga = {}\n", options.pga.value_or(options.pga_max));
+                          : fmt::format("pga = {}\n", options.pga.value_or(0));
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
@@ -101,13 +102,16 @@ void expect_consistent(const ToppleOptions& options)
 struct RestitutionAnswer {
     double share; ///< r / r_max
     double ratio; ///< r
-    TopplingRanges ranges;
+    VerdictRanges ranges;
 };
 
+/// In the order of the enumerators of Verdict.
+constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
+
 struct Answer {
-    std::string verdict; ///< "topples", "does not topple" or "undecided"; empty if not requested
-    double peak = 0;     ///< |theta| / alpha
-    double pga = 0;      ///< of the requested point
+    std::optional<Verdict> verdict; ///< nullopt if not requested
+    double peak = 0;                ///< |theta| / alpha
+    double pga = 0;                 ///< of the requested point
     double lifting_pga = 0;
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 };
@@ -120,17 +124,23 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
     answer.pga = job.plane.amplitude.first() * (options.scale ? unit : 1);
     if (options.pga || options.scale) {
         answer.peak = peak_of_only_point(job);
-        answer.verdict = std::isnan(answer.peak)   ? "undecided"
-                         : std::isinf(answer.peak) ? "topples"
-                                                   : "does not topple";
+        answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
+                         : std::isinf(answer.peak) ? Verdict::topples
+                                                   : Verdict::safe;
     }
-    answer.lifting_pga = uplift_threshold(job.scene.theory, alpha);
+    answer.lifting_pga = lifting_pga(job.scene, 0, alpha);
     const double r_max = largest_restitution(alpha);
     const double requested = job.plane.restitution_ratio(0, 0);
     std::vector<double> ratios{requested};
     for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
         ratios.push_back(share * r_max);
     }
+    Progress progress(0, std::int64_t(ratios.size()), "restitutions");
+    const auto show_progress = [&] {
+        progress.update(std::int64_t(answer.by_restitution.size()));
+        return false;
+    };
+    const double end = std::max(options.pga_max, answer.pga);
     for (const double ratio : ratios) {
         if (!answer.by_restitution.empty() && ratio == requested) {
             answer.by_restitution.push_back(answer.by_restitution.front());
@@ -143,7 +153,7 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
             .unit = unit};
         answer.by_restitution.push_back(
             {ratio / r_max, ratio,
-             toppling_ranges(job.scene, line, answer.lifting_pga, options.pga_max, answer.pga)});
+             verdict_ranges(job.scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
     }
     return answer;
 }
@@ -152,7 +162,7 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
 {
     double most = 0;
     for (const RestitutionAnswer& each : answers) {
-        most = std::max(most, each.ranges.undecided_share);
+        most = std::max(most, each.ranges.undecided_share());
     }
     return most;
 }
@@ -172,16 +182,20 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
               requested.share == 1
                   ? fmt::format("r = r_max = {:.4g}", requested.ratio)
                   : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
-    if (!answer.verdict.empty()) {
-        print_row("verdict", options.pga ? fmt::format("{} at {} g", answer.verdict, *options.pga)
-                                         : fmt::format("{} at {:.{}f} g", answer.verdict,
-                                                       answer.pga, decimals));
+    if (answer.verdict) {
+        const std::string_view verdict = verdict_texts[std::size_t(*answer.verdict)];
+        print_row("verdict", options.pga
+                                 ? fmt::format("{} at {} g", verdict, *options.pga)
+                                 : fmt::format("{} at {:.{}f} g", verdict, answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
     }
     print_row("lifts from", fmt::format("{:.4f} g", answer.lifting_pga));
-    print_row("topples", requested.ranges.text(decimals));
-    fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration, up to {} g, of\n", "r/r_max",
-               "r", options.pga_max);
+    print_row("topples", requested.ranges.text(decimals, 20) +
+                             (requested.ranges.ends_in_free_fall
+                                  ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
+                                                requested.ranges.end_of_search())
+                                  : ""));
+    fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
@@ -190,9 +204,40 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     if (is_recorded) {
         fmt::print(
             "\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. Up to "
-            "{:.2g} % of the accelerations are undecided.\n",
+            "{:.2g} % of the searched accelerations are undecided.\n",
             100 * toppling_step, 100 * most_undecided_of(answer.by_restitution));
     }
+}
+
+/// A list of [first, last].
+std::string json_of(const std::vector<std::pair<double, double>>& ranges)
+{
+    std::string list;
+    for (const auto& [first, last] : ranges) {
+        list += fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", first,
+                            std::isinf(last) ? "null" : fmt::format("{}", last));
+    }
+    return "[" + list + "]";
+}
+
+std::string json_of(const RestitutionAnswer& answer)
+{
+    const VerdictRanges& ranges = answer.ranges;
+    const double end = ranges.end_of_search();
+    auto toppling = ranges.with(Verdict::topples);
+    if (!toppling.empty() && toppling.back().second == end) {
+        toppling.back().second = std::numeric_limits<double>::infinity(); // it may go on
+    }
+    const std::string coarse =
+        ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",
+                                    ranges.coarse->first, ranges.coarse->last, ranges.coarse->step)
+                      : "null";
+    return fmt::format(
+        "\"restitution\": {}, \"restitution_of_maximum\": {}, "
+        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
+        "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
+        answer.ratio, answer.share, json_of(toppling), json_of(ranges.with(Verdict::safe)),
+        json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
 }
 
 void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
@@ -201,39 +246,37 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
         return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
     };
     const double alpha = job.plane.slenderness.first();
-    const auto ranges_of = [&](const RestitutionAnswer& each) {
-        return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
-                           "\"toppling_pga\": {}, \"undecided_share\": {}",
-                           each.ratio, each.share, each.ranges.json(), each.ranges.undecided_share);
-    };
     std::string others;
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         others +=
-            fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", ranges_of(answer.by_restitution[i]));
+            fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
     }
-    const bool is_requested = !answer.verdict.empty();
-    fmt::print(
-        "{{\n"
-        "  \"topples\": {},\n"
-        "  \"pga\": {},\n"
-        "  \"peak_of_alpha\": {},\n"
-        "  \"peak_degrees\": {},\n"
-        "  \"slenderness\": {},\n"
-        "  \"frequency_parameter\": {},\n"
-        "  \"gravity\": {},\n"
-        "  \"lifting_pga\": {},\n"
-        "  \"pga_max\": {},\n"
-        "  \"narrower_ranges_exist\": {},\n"
-        "  {},\n"
-        "  \"by_restitution\": [{}\n  ]\n"
-        "}}\n",
-        answer.verdict == "topples"           ? "true"
-        : answer.verdict == "does not topple" ? "false"
-                                              : "null",
-        is_requested ? number(answer.pga) : "null", is_requested ? number(answer.peak) : "null",
-        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
-        *parameter_of_only_block(job), job.scene.gravity, answer.lifting_pga, options.pga_max,
-        job.scene.is_recorded(), ranges_of(answer.by_restitution.front()), others);
+    const bool is_requested = answer.verdict.has_value();
+    const std::string warning = implausible_values_of(job);
+    fmt::print("{{\n"
+               "  \"topples\": {},\n"
+               "  \"pga\": {},\n"
+               "  \"peak_of_alpha\": {},\n"
+               "  \"peak_degrees\": {},\n"
+               "  \"slenderness\": {},\n"
+               "  \"frequency_parameter\": {},\n"
+               "  \"gravity\": {},\n"
+               "  \"lifting_pga\": {},\n"
+               "  \"pga_max\": {},\n"
+               "  \"narrower_ranges_exist\": {},\n"
+               "  \"warnings\": [{}],\n"
+               "  {},\n"
+               "  \"by_restitution\": [{}\n  ]\n"
+               "}}\n",
+               answer.verdict == Verdict::topples ? "true"
+               : answer.verdict == Verdict::safe  ? "false"
+                                                  : "null",
+               is_requested ? number(answer.pga) : "null",
+               is_requested ? number(answer.peak) : "null",
+               is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
+               *parameter_of_only_block(job), job.scene.gravity, number(answer.lifting_pga),
+               options.pga_max, job.scene.is_recorded(), warning.empty() ? "" : quoted(warning),
+               json_of(answer.by_restitution.front()), others);
 }
 
 /// plot_history of the folder in which this program is installed, or of its source folder.
@@ -304,6 +347,9 @@ int topple(const ToppleOptions& options)
     widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
     const Job job = read_job_text(job_text(options), command_line, options.overrides);
+    if (!options.json) {
+        warn_of_implausible_values(job);
+    }
     const Answer answer = answer_of(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
     if (!options.plot.empty()) {

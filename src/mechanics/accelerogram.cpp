@@ -40,6 +40,18 @@ double Accelerogram::largest_scale() const
     return deepest > 0 ? 1 / deepest : std::numeric_limits<double>::infinity();
 }
 
+double Accelerogram::lifting_scale(double threshold) const
+{
+    // scale |a| > (1 + scale v) threshold. Both sides are linear between samples and the left one
+    // is convex, so that the least scale is that of a sample.
+    double strongest = 0;
+    for (std::size_t i = 0; i < horizontal_.size(); ++i) {
+        const double upwards = upwards_.empty() ? 0 : upwards_[i];
+        strongest = std::max(strongest, std::abs(horizontal_[i]) - upwards * threshold);
+    }
+    return threshold / strongest;
+}
+
 std::int64_t Accelerogram::first_lifting(std::int64_t first, double scale, double threshold) const
 {
     for (std::int64_t i = first; i < samples(); ++i) {

@@ -1,5 +1,6 @@
 #include "evaluate.hpp"
 
+#include "overturn/sweep/plausibility.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
 
 #include <algorithm>
@@ -20,8 +21,8 @@ void copy(const FieldValues& from, Value* to)
 
 } // namespace
 
-void evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
-              const FieldArrays& to, const DropRequested& drop_requested)
+std::string evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
+                     const FieldArrays& to, const DropRequested& drop_requested)
 {
     const Kernel kernel = widest_kernel();
     Plane plane;
@@ -38,6 +39,7 @@ void evaluate(const Scene& scene, const Numerics& numerics, const Columns& colum
         copy(computed.values[2], to.peak + first);
         copy(computed.values[3], to.margin + first);
     }
+    return implausible_values(scene, plane);
 }
 
 } // namespace overturn

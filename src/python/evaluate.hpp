@@ -6,6 +6,7 @@
 #include "overturn/sweep/tile.hpp"
 
 #include <cstdint>
+#include <string>
 
 namespace overturn {
 
@@ -18,8 +19,9 @@ struct FieldArrays {
 };
 
 /// Computes the fields of every block, with the widest kernel and in the tiles of `overturn run`,
-/// so that the bits are those of a list job. Throws ListError, ProcessorError or TileDropped.
-void evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
-              const FieldArrays& to, const DropRequested& drop_requested);
+/// so that the bits are those of a list job. Returns implausible_values(). Throws ListError,
+/// ProcessorError or TileDropped.
+std::string evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
+                     const FieldArrays& to, const DropRequested& drop_requested);
 
 } // namespace overturn

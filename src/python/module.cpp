@@ -131,7 +131,8 @@ private:
         std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
 };
 
-/// The fields of every block by name; columns: arrays of equal length, see block_list(). Columns
+/// The fields of every block by name, and what looks like a mistake in the units as "warning";
+/// columns: arrays of equal length, see block_list(). Columns
 /// without rows are not checked.
 py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
                           const std::map<std::string, Values>& columns)
@@ -141,16 +142,18 @@ py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
     py::array_t<double> peak(size), margin(size);
     const FieldArrays to{region.mutable_data(), status.mutable_data(), peak.mutable_data(),
                          margin.mutable_data()};
+    std::string warning;
     if (size > 0) {
         const py::gil_scoped_release released;
         Columns given;
         for (const auto& [name, values] : columns) {
             given[name] = vector_of(values);
         }
-        evaluate(scene, numerics, given, to, SignalCheck());
+        warning = evaluate(scene, numerics, given, to, SignalCheck());
     }
     using namespace py::literals;
-    return py::dict("region"_a = region, "status"_a = status, "peak"_a = peak, "margin"_a = margin);
+    return py::dict("region"_a = region, "status"_a = status, "peak"_a = peak, "margin"_a = margin,
+                    "warning"_a = warning);
 }
 
 /// The components of a file: dictionaries with name, acceleration (over g), time_step and header.

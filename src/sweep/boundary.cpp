@@ -43,10 +43,13 @@ public:
             points.push_back(
                 {line_.slenderness, line_.restitution, amplitude / line_.unit, line_.frequency});
         }
+        computed_ += amplitudes.size();
         const PointRun run(scene_, std::move(points), kernel_, drop_requested_, line_.motion);
-        Numerics limited = numerics;
-        limited.most_in_50_digits = resolution.most_in_50_digits;
-        const Ends ends = ends_of(run, limited, {.impacts = true, .region = true, .margin = true});
+        const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true},
+                                  left_in_50_digits_);
+        if (left_in_50_digits_) {
+            *left_in_50_digits_ -= ends.in_50_digits;
+        }
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back(
@@ -59,6 +62,21 @@ public:
     }
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, most_accurate)[0]; }
+
+    /// Whether no further flips are searched for, by halving steps or between neighbours.
+    bool is_exhausted() const { return computed_ > resolution.most_amplitudes; }
+    void renew_effort() { computed_ = 0; }
+
+    /// Records that the step between these two is not searched although it should be.
+    void leave_coarse(const Probe& below, const Probe& above)
+    {
+        const double step = (above.amplitude - below.amplitude) / above.amplitude;
+        coarse_ = coarse_ ? CoarseSearch{std::min(coarse_->first, below.amplitude),
+                                         std::max(coarse_->last, above.amplitude),
+                                         std::max(coarse_->step, step)}
+                          : CoarseSearch{below.amplitude, above.amplitude, step};
+    }
+    const std::optional<CoarseSearch>& coarse() const { return coarse_; }
 
     /// The amplitudes below that at which the vertical motion of the record cancels gravity; all
     /// others are undecided.
@@ -90,6 +108,9 @@ private:
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Probe> undecided_;
+    std::size_t computed_ = 0;
+    std::optional<int> left_in_50_digits_ = resolution.most_in_50_digits;
+    std::optional<CoarseSearch> coarse_;
 };
 
 /// Narrows the bracket of a flip to the flip width, or until a verdict within it cannot be settled.
@@ -163,32 +184,46 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
     return found;
 }
 
+/// The steps of the scan that are rough and wider than the finest step, each given by its upper
+/// probe. time: the number of halvings so far; steps without a probe of the last one were checked
+/// before.
+std::vector<std::size_t> steps_to_halve(const Line& line, const std::vector<Probe>& probes,
+                                        int time)
+{
+    std::vector<std::size_t> steps;
+    for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
+        if (!is_rough(probes[i - 1], probes[i], probes[i + 1])) {
+            continue;
+        }
+        for (const std::size_t end : {i, i + 1}) {
+            const Probe& below = probes[end - 1];
+            const Probe& above = probes[end];
+            const bool is_new = below.halving == time || above.halving == time;
+            const bool is_wide =
+                above.amplitude - below.amplitude > line.resolution.finest_step * above.amplitude;
+            if ((steps.empty() || end > steps.back()) && is_new && is_wide) {
+                steps.push_back(end);
+            }
+        }
+    }
+    return steps;
+}
+
 /// Halves the steps of the scan repeatedly where it is rough, down to the finest step.
 std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t most_flips)
 {
     forget_the_useless(probes, most_flips);
-    for (int time = 0; line.undecided().size() <= most_undecided; ++time) {
+    for (int time = 0;; ++time) {
         std::vector<double> middles;
-        std::size_t halved = 0; // the last step halved, given by its upper probe
-        for (std::size_t i = 1; i + 1 < probes.size(); ++i) {
-            if (!is_rough(probes[i - 1], probes[i], probes[i + 1])) {
-                continue;
-            }
-            for (const std::size_t end : {i, i + 1}) {
-                const Probe& below = probes[end - 1];
-                const Probe& above = probes[end];
-                // Other steps were checked before.
-                const bool is_new = below.halving == time || above.halving == time;
-                const bool is_wide = above.amplitude - below.amplitude >
-                                     line.resolution.finest_step * above.amplitude;
-                if (end > halved && is_new && is_wide) {
-                    middles.push_back(middle_of(below, above));
-                    halved = end;
-                }
+        for (const std::size_t end : steps_to_halve(line, probes, time)) {
+            if (line.is_exhausted() || line.undecided().size() > most_undecided) {
+                line.leave_coarse(probes[end - 1], probes[end]);
+            } else {
+                middles.push_back(middle_of(probes[end - 1], probes[end]));
             }
         }
         if (middles.empty()) {
-            break;
+            return probes;
         }
         for (Probe& probe : line.at(middles, scanning)) {
             probe.halving = time + 1;
@@ -197,7 +232,6 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t mo
         sort_by_amplitude(probes);
         forget_the_useless(probes, most_flips);
     }
-    return probes;
 }
 
 /// Divides all steps of the scan down to the finest step. Under a record, a margin says nothing
@@ -224,6 +258,7 @@ std::vector<Probe> at_equal_steps(Line& line, const std::vector<double>& amplitu
 /// Adds amplitudes with another verdict between two neighbours with the same verdict.
 void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
 {
+    line.renew_effort();
     std::vector<Probe> found;
     for (std::size_t i = 0; i + 1 < probes.size(); ++i) {
         const Probe& now = probes[i];
@@ -231,11 +266,16 @@ void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
         if (is_flip(now, next)) {
             continue;
         }
-        if (is_unsafe(now.region) && now.falls_to_plus() != next.falls_to_plus()) {
+        const bool changes_side =
+            is_unsafe(now.region) && now.falls_to_plus() != next.falls_to_plus();
+        const bool has_minimum = !changes_side && i > 0 && !is_flip(probes[i - 1], now) &&
+                                 may_reach_zero(probes[i - 1], now, next);
+        if ((changes_side || has_minimum) && line.is_exhausted()) {
+            line.leave_coarse(now, next);
+        } else if (changes_side) {
             const std::vector<Probe> between = between_sides(line, now, next);
             found.insert(found.end(), between.begin(), between.end());
-        } else if (i > 0 && !is_flip(probes[i - 1], now) &&
-                   may_reach_zero(probes[i - 1], now, next)) {
+        } else if (has_minimum) {
             if (const auto other = other_verdict_near(line, probes[i - 1], now, next)) {
                 found.push_back(*other);
             }
@@ -288,6 +328,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     Boundary boundary;
     boundary.region_at_first = probes.front().region;
     boundary.complete = line.undecided().empty();
+    boundary.coarse = line.coarse();
     if (scene.is_recorded()) {
         add_shares(probes, boundary);
     }

@@ -84,6 +84,16 @@ double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double sle
                                : uplift_threshold(scene.theory, slenderness);
 }
 
+double lifting_pga(const Scene& scene, std::int64_t motion, double slenderness)
+{
+    const double threshold = uplift_threshold(scene.theory, slenderness);
+    if (!scene.is_recorded()) {
+        return threshold;
+    }
+    const Accelerogram& record = *scene.records[std::size_t(motion)];
+    return record.peak() * record.lifting_scale(threshold);
+}
+
 double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
                       double slenderness)
 {

@@ -8,6 +8,7 @@
 #include "overturn/sweep/plane.hpp"
 #include "overturn/sweep/tile.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace overturn {
@@ -27,6 +28,7 @@ struct Ends {
     void set_free_fall(int point);
 
     Records records;
+    int in_50_digits = 0; ///< the number of points that were computed in 50 digits
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
     std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact,
@@ -112,6 +114,8 @@ private:
 
 /// The ends of all points. If verdicts are to be resolved, points in doubt are integrated again
 /// with more and more digits; those that remain in doubt get end_flag::unresolved. See resolve.cpp.
-Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records);
+/// most_in_50_digits: of these points; default: all of them, under a record those of Numerics.
+Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records,
+             std::optional<int> most_in_50_digits = std::nullopt);
 
 } // namespace overturn

@@ -55,7 +55,7 @@ bool settle_in(const PointRun& run, int point, Ends& ends)
     return !(ends.flags[std::size_t(point)] & (end_flag::in_doubt | end_flag::undecided));
 }
 
-void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
+void resolve(const PointRun& run, int most_in_50_digits, Ends& ends)
 {
     std::vector<int> all(ends.tilt.size());
     std::iota(all.begin(), all.end(), 0);
@@ -65,12 +65,11 @@ void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
         run.run(most_accurate, ends, OnUnknownError::go_on, &in_doubt);
     }
     in_doubt = settle_capped(run, in_doubt, ends);
-    int left = run.intervals() > 0 ? numerics.most_in_50_digits : run.size();
     for (const int point : in_doubt) {
-        const bool settled = run.settle_low_bounces(point, ends) ||
-                             settle_in<long double>(run, point, ends) ||
-                             (may_settle_in<Digits50>(run, point, ends) && left-- > 0 &&
-                              settle_in<Digits50>(run, point, ends));
+        const bool settled =
+            run.settle_low_bounces(point, ends) || settle_in<long double>(run, point, ends) ||
+            (may_settle_in<Digits50>(run, point, ends) && ends.in_50_digits < most_in_50_digits &&
+             ++ends.in_50_digits && settle_in<Digits50>(run, point, ends));
         if (!settled) {
             give_up(point, ends);
         }
@@ -79,7 +78,8 @@ void resolve(const PointRun& run, const Numerics& numerics, Ends& ends)
 
 } // namespace
 
-Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records)
+Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records,
+             std::optional<int> most_in_50_digits)
 {
     Records recorded = records;
     recorded.error = records.error || numerics.resolve;
@@ -88,7 +88,8 @@ Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& re
     Ends ends(std::size_t(points.size()), recorded);
     points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);
     if (numerics.resolve) {
-        resolve(points, numerics, ends);
+        const int by_default = points.intervals() > 0 ? numerics.most_in_50_digits : points.size();
+        resolve(points, most_in_50_digits.value_or(by_default), ends);
     }
     if (records.peak && !recorded.peak) {
         Ends with_peaks(ends.tilt.size(), {.peak = true, .grazes = records.grazes});

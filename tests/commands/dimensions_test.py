@@ -124,13 +124,29 @@ class Dimensions(Scratch):
         self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 18.43 degrees",
                          "r_max = 0.7225", "R = 0.9487 m", "p = 2.785 1/s (g = 9.81 m/s2)",
                          "period 0.2 to 2 s, peak 0.1 to 5 g")
-        self.assertNotIn("warning", self.overturn("check", "job.toml").stdout)
+        self.assertEqual(self.overturn("check", "job.toml").stderr, "")
         r = "--set=plane.restitution={ values = [0.99], of = \"absolute\" }"
-        for change, words in ((["--set=plane.pulse_frequency=100"], "the period of the pulse is 0.01 s"),
-                              (["--set=plane.frequency=0.05"], "the period of the pulse is 45"),
-                              (["--set=block.width=4", r], "alpha reaches 65.77 degrees"),
-                              ([r], "r reaches 0.99, but r_max = 0.7225")):
-            self.assert_exit(self.overturn("check", "job.toml", *change), 0, "warning", words)
+        for change, words in ((["--set=plane.pulse_frequency=100"],
+                               "the period of the pulse = 0.01 s"),
+                              (["--set=plane.frequency=0.05"], "the period of the pulse = 45"),
+                              (["--set=block.width=4", r], "alpha = 65.77 degrees"),
+                              (["--set=plane.pga=981"], "the peak ground acceleration = 981 g"),
+                              ([r], "r = 0.99 is above r_max = 0.7225")):
+            result = self.overturn("check", "job.toml", *change)
+            self.assert_exit(result, 0)
+            self.assertEqual(result.stderr.count("overturn: warning: "), 1)
+            self.assertIn(words, result.stderr)
+
+    def test_that_look_mistaken_are_computed_with_one_warning(self):
+        wrong = ("--set", "block.width=60", "--set", "block.height=180", "--set",
+                 "plane.pga={ first = 1, last = 4, count = 3 }", "--set", "plane.pulse_period=0.5")
+        for command in (("run",), ("boundary",), ("history", "--at", "pga=1")):
+            result = self.overturn(*command[:1], "job.toml", "-o", f"{command[0]}.h5", *wrong,
+                                   *command[1:])
+            self.assert_exit(result, 0)
+            self.assertEqual(result.stderr.count("overturn: warning: "), 1)
+            self.assertIn("R = 94.87 m is outside 0.02 to 20 m (lengths are in metres)",
+                          result.stderr)
 
     def test_are_found_by_value_in_xarray(self):
         data = self.compute("run", "x.h5")

@@ -2,12 +2,14 @@
 
 import json
 import math
+import subprocess
 import time
 import unittest
 
 import h5py
+import numpy as np
 
-from program import Scratch
+from program import OVERTURN, Scratch
 from records_test import JOBS
 
 STATUE = ("--width", "0.6", "--height", "1.8")
@@ -27,7 +29,8 @@ class Toppling(Scratch):
     def test_of_a_statue_is_answered_in_a_few_lines(self):
         text = self.topple(*PULSE, "--pga", "0.4")
         for words in ("does not topple at 0.4 g", "0.8868 degrees, 4.81 % of alpha",
-                      "lifts from   0.3333 g", "1.1114 to 1.6445 g, above 2.1297 g"):
+                      "lifts from   0.3333 g",
+                      "1.1114 to 1.6445 g, above 2.1297 g, searched up to 5 g"):
             self.assertIn(words, text)
         self.assertLess(len(text.splitlines()), 16)
         self.assertIn("verdict      topples at 1.2 g",
@@ -124,6 +127,92 @@ class Toppling(Scratch):
         for words in ("time since the start of the pulse  [s]", "tilt [degrees]"):
             self.assertIn(f">{words}<", picture)
         self.assertNotIn("history.h5", self.files())
+
+    def assert_partition(self, answer):
+        """Checks that the ranges of the three kinds cover the search without gaps."""
+        end = answer["end_of_search"]
+        kinds = ("toppling_pga", "safe_pga", "undecided_pga")
+        ranges = sorted([first, end if last is None else last] for kind in kinds
+                        for first, last in answer[kind])
+        self.assertEqual((ranges[0][0], ranges[-1][1]), (0, end))
+        for one, next_one in zip(ranges, ranges[1:]):
+            self.assertEqual(one[1], next_one[0])
+
+    def verdict_in(self, answer, pga):
+        return [kind for kind in ("toppling_pga", "safe_pga", "undecided_pga")
+                for first, last in answer[kind] if first <= pga <= (last or math.inf)]
+
+    def test_is_searched_as_far_as_the_vertical_motion_leaves_gravity(self):
+        random = np.random.default_rng(1)
+        for _ in range(3):
+            ground, upwards = random.uniform(-0.5, 0.5, (2, 400))
+            upwards[random.integers(400)] = -random.uniform(0.6, 1.5)
+            for name, values in (("h.txt", ground), ("v.txt", upwards)):
+                np.savetxt(self.folder / name, np.cumsum(values) / 20 if name == "h.txt" else values)
+            ground = np.loadtxt(self.folder / "h.txt")
+            upwards = np.loadtxt(self.folder / "v.txt")
+            motion = (*STATUE, "--record", "h.txt", "--set", "scene.vertical=v.txt", "--set",
+                      "scene.time_step=0.02", "--set", "scene.units=g")
+            answer = self.answer(*motion)
+            peak = np.abs(ground).max()
+            limit = peak / -upwards.min()
+            self.assertAlmostEqual(answer["end_of_search"] / min(limit, 5), 1, delta=1e-14)
+            lifting = peak / 3 / (np.abs(ground) - upwards / 3).max()
+            self.assertAlmostEqual(answer["lifting_pga"] / lifting, 1, delta=1e-14)
+            for each in (answer, *answer["by_restitution"]):
+                self.assert_partition(each)
+            for pga in limit * random.uniform(0.9, 0.9999, 2):
+                asked = self.answer(*motion, "--pga", repr(float(pga)))
+                kinds = self.verdict_in(asked, pga)
+                self.assertTrue({True: "toppling_pga", False: "safe_pga",
+                                 None: "undecided_pga"}[asked["topples"]] in kinds or
+                                "undecided_pga" in kinds, (pga, asked))
+            text = self.topple(*motion)
+            self.assertIn("vertical v.txt", text)
+            if limit < 5:
+                self.assertIn(f"searched up to {limit:.6g} g; at {limit:.6g} g the vertical motion "
+                              "cancels gravity", text)
+            self.assertEqual(text.count(f"searched up to {answer['end_of_search']:.6g} g"), 6)
+
+    def test_that_is_undecided_is_neither_safe_nor_toppling(self):
+        # Without loss, a block bounces too often to be followed just above the acceleration that
+        # lifts it.
+        arguments = ("--width", "0.3", "--height", "1.8", "--period", "0.3", "--pulse", "sine",
+                     "--set", "scene.cycles=3", "--restitution", "1", "--pga", "0.1667",
+                     "--pga-max", "0.1668")
+        answer = self.answer(*arguments)
+        self.assertIsNone(answer["topples"])
+        self.assertEqual(self.verdict_in(answer, 0.1667), ["undecided_pga"])
+        self.assertGreater(answer["undecided_share"], 0.5)
+        self.assert_partition(answer)
+        self.assertEqual(answer["by_restitution"][0]["undecided_share"], 0)
+
+    def test_is_searched_up_to_the_requested_acceleration(self):
+        for pga, period in ((20, 0.15), (7, 0.3), (5.5, 0.5)):
+            answer = self.answer(*STATUE, "--period", str(period), "--pga", str(pga))
+            self.assertEqual(answer["end_of_search"], pga)
+            self.assertEqual("toppling_pga" in self.verdict_in(answer, pga), answer["topples"])
+
+    def test_of_slow_pulses_reports_progress(self):
+        slow = ("--width", "1", "--height", "6.6", "--period", "2", "--pulse", "cosine", "--set",
+                "scene.cycles=10")
+        with subprocess.Popen([OVERTURN, "topple", *slow], text=True, stderr=subprocess.PIPE,
+                              stdout=subprocess.DEVNULL) as process:
+            self.addCleanup(process.kill)
+            self.assertRegex(process.stderr.readline(), "[0-5] of 6 restitutions, ")
+            process.kill()
+
+    def test_warns_of_other_units(self):
+        for wrong, words in ((("--width", "62", "--height", "210", "--period", "0.5"), "R = 109"),
+                             ((*STATUE, "--period", "600"), "the period of the pulse = 600 s"),
+                             ((*PULSE, "--pga", "40"), "the peak ground acceleration = 40 g"),
+                             ((*PULSE, "--restitution", "0.9"), "r = 0.9 is above r_max = 0.7225")):
+            result = self.overturn("topple", *wrong)
+            self.assert_exit(result, 0)
+            self.assertEqual(result.stderr.count("warning"), 1)
+            self.assertIn(words, result.stderr)
+            self.assertIn(words, self.answer(*wrong)["warnings"][0])
+        self.assertEqual(self.answer(*PULSE)["warnings"], [])
 
     def test_refuses_what_contradicts_itself(self):
         for arguments, words in (

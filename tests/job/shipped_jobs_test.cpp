@@ -1,5 +1,6 @@
 // Every job shipped with the program is valid.
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/plausibility.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,7 @@ TEST_P(AShippedJob, IsValid)
     const Job job = read_job(path);
     EXPECT_FALSE(job.title.empty());
     EXPECT_TRUE(job.given.starts_with("# ")) << "it begins with a comment";
+    EXPECT_EQ(implausible_values(job.scene, job.plane), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, AShippedJob, testing::ValuesIn(names_of_shipped_jobs()),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -78,6 +79,27 @@ TEST(Accelerogram, PeaksAreTheLargestOfAllSamples)
     EXPECT_EQ(record.peak(), 2);
     EXPECT_EQ(record.upwards_peak(), 1);
     EXPECT_EQ(accelerogram({1, 0}).upwards_peak(), 0);
+}
+
+TEST(Accelerogram, LiftingScaleSeparatesScalesThatLiftFromOthers)
+{
+    std::mt19937_64 generator(5);
+    std::uniform_real_distribution<double> uniform(0.01, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const Accelerogram record = random_record(generator, 2 + i % 30, i % 2 == 0);
+        const double threshold = uniform(generator);
+        const double scale = record.lifting_scale(threshold);
+        if (std::isinf(scale)) { // the ground always rises too fast
+            EXPECT_EQ(record.first_lifting(0, 1e6, threshold), record.samples());
+            continue;
+        }
+        // A few roundings, hundreds of times smaller than 1e-12 unless |a| and v cancel.
+        EXPECT_LT(record.first_lifting(0, scale * (1 + 1e-12), threshold), record.samples());
+        EXPECT_EQ(record.first_lifting(0, scale * (1 - 1e-12), threshold), record.samples());
+    }
+    EXPECT_EQ(accelerogram({0, 0.25}, {0, 1}).lifting_scale(0.25), infinity);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}).lifting_scale(0.25), 0.5);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).lifting_scale(1), 1);
 }
 
 } // namespace

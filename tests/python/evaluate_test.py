@@ -6,6 +6,7 @@ import pathlib
 import signal
 import time
 import unittest
+import warnings
 
 import numpy as np
 import overturn
@@ -138,6 +139,31 @@ class TheShape(unittest.TestCase):
             outcome = overturn.evaluate(restitution=0.87, **other)
             # A few roundings of the arguments; they grow by less than a thousand.
             np.testing.assert_allclose(outcome["margin"], first["margin"], rtol=1e-12)
+
+
+class AWarning(unittest.TestCase):
+    def test_is_given_once_a_call_if_units_look_mistaken(self):
+        random = np.random.default_rng(3)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            overturn.evaluate(**random_blocks(100))
+        for factors, words in (({"width": 100, "height": 100}, "R = "), ({"pga": 981}, "peak ground"),
+                               ({"pulse_period": 1000}, "the period of the pulse")):
+            blocks = random_blocks(100)
+            rows = random.random(100) < 0.3
+            for name, factor in factors.items():
+                blocks[name][rows] *= factor
+            with self.assertWarnsRegex(UserWarning, words) as caught:
+                overturn.evaluate(**blocks)
+            self.assertEqual(len(caught.warnings), 1)
+            self.assertEqual(caught.filename, __file__)
+
+    def test_of_a_record_in_other_units(self):
+        block = {**BLOCK, "restitution": 0.8, "record": np.array([0, 300, -200.0])}
+        with self.assertWarnsRegex(UserWarning, "the peak of a record = 300 g"):
+            overturn.evaluate(**block, time_step=0.02, pga=0.3)
+        with self.assertWarnsRegex(UserWarning, "the time step of a record = 20 s"):
+            overturn.evaluate(**{**block, "record": [0, 0.3, -0.2]}, time_step=20, scale=1)
 
 
 class Threads(unittest.TestCase):

@@ -68,6 +68,11 @@ class AJob(InAFolder):
                                                 "plane.amplitude": {"values": [2.0, 3.0]}})
         self.assertEqual((spectrum.pulse, spectrum.sizes["amplitude"]), ("triangular", 2))
 
+    def test_in_other_units_is_warned_of(self):
+        with self.assertWarnsRegex(UserWarning, "^the period of the pulse = 231.6 s") as caught:
+            overturn.run(JOB, overrides={"plane.size": 1, "plane.frequency": 0.01})
+        self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+
     def test_finds_records_in_the_working_folder(self):
         shutil.copy(JOBS / "synthetic.AT2", "here.AT2")
         text = overturn.check({"scene": {"record": "here.AT2"},

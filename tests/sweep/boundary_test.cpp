@@ -305,5 +305,55 @@ TEST(Boundary, IsEmptyWhereNothingFlips)
     EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, {5}, widest_kernel()).flips.empty());
 }
 
+TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
+{
+    // Slow pulses, under which strips accumulate at amplitude 1.
+    std::mt19937_64 generator(12);
+    std::uniform_real_distribution<double> uniform(0.4, 0.7);
+    const std::vector<double> scan = evenly(1, 3, 21);
+    int lines_with_missed_flips = 0;
+    for (int i = 0; i < 4; ++i) {
+        const BoundaryLine line{0.25, 0.9, uniform(generator)};
+        SearchResolution limited = search_resolution({});
+        limited.most_amplitudes = 60;
+        const Boundary all = boundary_on({}, line, scan, widest_kernel());
+        const Boundary some =
+            boundary_on({}, line, scan, widest_kernel(), std::numeric_limits<std::size_t>::max(),
+                        nullptr, limited);
+        EXPECT_FALSE(all.coarse);
+        if (some.flips.size() == all.flips.size()) {
+            continue;
+        }
+        ++lines_with_missed_flips;
+        ASSERT_TRUE(some.coarse);
+        EXPECT_LE(some.coarse->step, 2.0 / 20);
+        for (const Flip& flip : all.flips) {
+            const auto is_same = [&](const Flip& other) {
+                return std::abs(other.amplitude() - flip.amplitude()) < 1e-9;
+            };
+            const bool found = std::any_of(some.flips.begin(), some.flips.end(), is_same);
+            EXPECT_TRUE(found || (some.coarse->first <= flip.amplitude() &&
+                                  flip.amplitude() <= some.coarse->last))
+                << flip.amplitude();
+        }
+    }
+    EXPECT_GT(lines_with_missed_flips, 0);
+}
+
+TEST(Boundary, WithoutFiftyDigitsIsUndecidedWhereTheyAreNeeded)
+{
+    // A block without loss that bounces under many cycles, just above the uplift threshold.
+    const Scene scene{.pulse = PulseKind::sine, .shape = {.cycles = 3}};
+    const BoundaryLine line{0.165, 1.0, 7.37};
+    SearchResolution limited = search_resolution({});
+    limited.most_amplitudes = 100;
+    limited.most_in_50_digits = 0;
+    const Boundary boundary =
+        boundary_on(scene, line, evenly(1.0001, 1.0008, 3), widest_kernel(),
+                    std::numeric_limits<std::size_t>::max(), nullptr, limited);
+    EXPECT_FALSE(boundary.complete);
+    EXPECT_EQ(boundary.region_at_first, Region::undecided);
+}
+
 } // namespace
 } // namespace overturn

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import warnings
 from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
@@ -77,7 +78,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         resolve: settle verdicts in doubt with up to 50 digits.
         gravity: g [m/s2].
 
-    Raises ValueError if a value is not allowed, with its index in the broadcast shape, or if arrays do not
+    Warns, once a call, of values that are probably in another unit. Raises ValueError if a value is not allowed, with its index in the broadcast shape, or if arrays do not
     broadcast; TypeError if arguments are missing or contradict each other.
     """
     columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
@@ -160,6 +161,8 @@ def _evaluated(scene, numerics, columns):
         computed = core.evaluate(scene, numerics, flat)
     except core.ListError as error:
         raise _error_of(*error.args, shape) from None
+    if warning := computed.pop("warning"):
+        warnings.warn(f"{warning}.", stacklevel=3)
     fields = {name: values.reshape(shape) for name, values in computed.items()}
     return Outcome(verdict=np.asarray(_VERDICT_OF_REGION[fields["region"]]), **fields)
 

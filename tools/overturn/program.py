@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
@@ -16,6 +17,8 @@ from overturn.checkout import is_program, overturn_path
 
 if TYPE_CHECKING:
     import xarray
+
+_WARNING = "overturn: warning: "  # begins a line of the program
 
 Job = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -35,7 +38,7 @@ def check(job: Job, *, overrides: Mapping[str, Any] = {}) -> str:
         same structure. Paths of records in a text or a dictionary are relative to the working folder.
     overrides: keys of the job and their new values, such as {"scene.pulse": "half_sine"}.
 
-    Raises ProgramError if the job is not valid.
+    Warns of values that are probably in another unit. Raises ProgramError if the job is not valid.
     """
     with _job_file(job) as path:
         return _output_of([overturn_path(), "check", path, *_set_arguments(overrides)], path, job)
@@ -50,7 +53,7 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
     output: path of the result file, from which the data set is read when it is used. Running the same
         job again resumes a run that was stopped. Without `output`, the data set is in memory and no file remains.
 
-    Raises ProgramError if the program fails.
+    Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
     launcher = [os.environ.get("MPIEXEC", "mpirun"), "-n", str(ranks)] if ranks != 1 else []
     with contextlib.ExitStack() as stack:
@@ -78,9 +81,14 @@ def _output_of(command, path, job):
                               text=True, errors="replace")
     except FileNotFoundError:
         raise ProgramError(f"there is no launcher \"{command[0]}\". Install an MPI, or set MPIEXEC.", 2) from None
+    lines = done.stderr.splitlines(keepends=True)
+    for line in lines:
+        if line.startswith(_WARNING):
+            warnings.warn(line.removeprefix(_WARNING).rstrip("\n"), stacklevel=3)
     if done.returncode == 0:
         return done.stdout
-    message = done.stderr.split("overturn: ", 1)[-1].split("\n----", 1)[0].strip("-\n ") or done.stdout.strip()
+    errors = "".join(line for line in lines if not line.startswith(_WARNING))
+    message = errors.split("overturn: ", 1)[-1].split("\n----", 1)[0].strip("-\n ") or done.stdout.strip()
     if not _is_path(job):
         message = message.replace(str(path), "job")
     raise ProgramError(message, done.returncode)

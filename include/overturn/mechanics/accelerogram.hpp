@@ -26,6 +26,10 @@ public:
     /// the upwards acceleration; infinite if that is not negative [1].
     double largest_scale() const;
 
+    /// The factor on the record above which it lifts a block that the acceleration `threshold` [1]
+    /// lifts without vertical motion; infinite if no factor does [1].
+    double lifting_scale(double threshold) const;
+
     /// The first sample, starting at `first`, that lifts the block if the record is multiplied by
     /// `scale`; samples() if there is none. Without vertical motion, the block is lifted by the
     /// acceleration `threshold` [1]:

@@ -33,7 +33,12 @@ struct SearchResolution {
     /// evenly until each is at most this.
     double finest_step;
     double flip_width; ///< of the two amplitudes of a flip, unless they are adjacent doubles
-    int most_in_50_digits = Numerics().most_in_50_digits; ///< see Numerics; per step of the search
+    /// The largest number of amplitudes that are computed in 50 digits; default: no limit, except
+    /// that of Numerics in each step of the search under a record.
+    std::optional<int> most_in_50_digits{};
+    /// After this many amplitudes, no further steps are halved; after as many again, no strips are
+    /// searched for between neighbours.
+    std::size_t most_amplitudes = std::numeric_limits<std::size_t>::max();
 };
 
 /// Under a record, smaller steps find more flips, and the verdicts closer to a flip need more
@@ -53,11 +58,20 @@ struct BoundaryLine {
     double unit = 1;         ///< of the amplitudes, see amplitude_unit()
 };
 
+/// A part of a line that was searched in steps wider than the finest ones, although the margins
+/// indicate further flips.
+struct CoarseSearch {
+    double first; ///< [1]
+    double last;  ///< [1]
+    double step;  ///< the widest one, over its upper amplitude [1]
+};
+
 struct Boundary {
     Region region_at_first = Region::undecided; ///< at the first amplitude
     std::vector<Flip> flips;                    ///< in ascending order
     bool complete = true;                       ///< all computed verdicts could be settled
     bool has_more = false;                      ///< there are flips above the last one
+    std::optional<CoarseSearch> coarse;         ///< set if the effort was limited
     /// The shares of the interval of amplitudes at which the block overturns, and in which verdicts
     /// could not be settled; under a record only, otherwise 0 [1].
     double unsafe_share = 0;

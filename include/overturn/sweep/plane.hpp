@@ -148,6 +148,10 @@ struct Plane {
 /// record.
 double pga_of_unit_amplitude(const Scene& scene, std::int64_t motion, double slenderness);
 
+/// The peak ground acceleration over g above which the motion lifts a block of this slenderness
+/// [rad] at rest; infinite if it never does.
+double lifting_pga(const Scene& scene, std::int64_t motion, double slenderness);
+
 /// The value of the amplitude axis at PlanePoint::amplitude = 1.
 double amplitude_unit(const Scene& scene, const Plane& plane, std::int64_t motion,
                       double slenderness);

@@ -1,0 +1,180 @@
+#include "verdict_ranges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+namespace {
+
+/// Answers take seconds, even if a slow pulse has hundreds of flips. A line of usual pulses needs a
+/// few hundred amplitudes, none of them in 50 digits, in which one may take a second.
+constexpr double finest_step = 1e-4;
+constexpr std::size_t most_amplitudes = 2000;
+constexpr int most_in_50_digits = 4;
+
+/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips; see
+/// docs/boundaries.md.
+std::vector<double> scan(const Scene& scene, double first, double last)
+{
+    const double steps = scene.is_recorded() ? std::log(last / first) / toppling_step
+                                             : std::min((last - first) / (0.1 * first), 2000.0);
+    const std::int64_t count = 1 + std::int64_t(std::ceil(std::max(steps, 50.0)));
+    return Axis(AxisRange{first, last, count, scene.is_recorded() ? Spacing::log : Spacing::linear})
+        .values();
+}
+
+SearchResolution resolution_of(const Scene& scene)
+{
+    SearchResolution resolution = search_resolution(scene);
+    if (scene.is_recorded()) {
+        // Above every step of the scan, which is therefore not divided.
+        resolution.finest_step = 2 * toppling_step;
+        resolution.most_in_50_digits = 0;
+    } else {
+        resolution.finest_step = finest_step;
+        resolution.most_amplitudes = most_amplitudes;
+        resolution.most_in_50_digits = most_in_50_digits;
+    }
+    return resolution;
+}
+
+/// "1.1110 to 1.6440 g" for each range, and "above 2.1300 g" if the last one reaches the end of the
+/// search; at most this many, including the last.
+std::string list_of(const std::vector<std::pair<double, double>>& ranges, int decimals,
+                    std::size_t most, double end_of_search)
+{
+    std::string list;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const bool is_last = i + 1 == ranges.size();
+        if (i + 1 >= most && !is_last) {
+            continue;
+        }
+        list += list.empty() ? "" : ", ";
+        if (is_last && i >= most) {
+            list += fmt::format("{} more, ", ranges.size() - most);
+        }
+        const auto& [first, last] = ranges[i];
+        list += last == end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
+                : first == last
+                    ? fmt::format("{:.{}f} g", first, decimals)
+                    : fmt::format("{:.{}f} to {:.{}f} g", first, decimals, last, decimals);
+    }
+    return list;
+}
+
+} // namespace
+
+Verdict verdict_of(Region region)
+{
+    return is_safe(region)     ? Verdict::safe
+           : is_unsafe(region) ? Verdict::topples
+                               : Verdict::undecided;
+}
+
+VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
+                             double end, double included, const DropRequested& drop_requested)
+{
+    VerdictRanges ranges;
+    ranges.lifting = lifting;
+    if (scene.is_recorded()) {
+        const double free_fall =
+            scene.records[std::size_t(line.motion)]->largest_scale() * line.unit;
+        // Just below, by more than the roundings of a scale.
+        const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
+        ranges.ends_in_free_fall = last < end;
+        end = std::min(end, last);
+    }
+    if (!(lifting < end)) {
+        ranges.all.push_back({0, end, Verdict::safe});
+        return ranges;
+    }
+    std::vector<double> accelerations = scan(scene, lifting, end);
+    const auto place = std::lower_bound(accelerations.begin(), accelerations.end(), included);
+    if (lifting < included && included < end && *place != included) {
+        accelerations.insert(place, included);
+    }
+    const Boundary boundary =
+        boundary_on(scene, line, accelerations, widest_kernel(),
+                    std::numeric_limits<std::size_t>::max(), drop_requested, resolution_of(scene));
+    ranges.coarse = boundary.coarse;
+    ranges.all.push_back({0, lifting, Verdict::safe});
+    const auto end_last_range_at = [&](double last) {
+        ranges.all.back().last = last;
+        // A single safe acceleration does not separate undecided ones.
+        if (ranges.all.back().first == last && ranges.all.back().verdict == Verdict::safe) {
+            ranges.all.pop_back();
+            ranges.all.back().last = last;
+        }
+    };
+    const auto continue_with = [&](Region region, double from) {
+        end_last_range_at(from);
+        if (const Verdict verdict = verdict_of(region); ranges.all.back().verdict != verdict) {
+            ranges.all.push_back({from, from, verdict});
+        }
+    };
+    continue_with(boundary.region_at_first, lifting);
+    for (const Flip& flip : boundary.flips) {
+        continue_with(flip.region_above, flip.amplitude());
+    }
+    end_last_range_at(end);
+    return ranges;
+}
+
+std::vector<std::pair<double, double>> VerdictRanges::with(Verdict verdict) const
+{
+    std::vector<std::pair<double, double>> ends;
+    for (const VerdictRange& range : all) {
+        if (range.verdict == verdict) {
+            ends.emplace_back(range.first, range.last);
+        }
+    }
+    return ends;
+}
+
+double VerdictRanges::undecided_share() const
+{
+    double undecided = 0;
+    for (const auto& [first, last] : with(Verdict::undecided)) {
+        undecided += last - first;
+    }
+    return undecided > 0 ? undecided / (end_of_search() - lifting) : 0;
+}
+
+std::string VerdictRanges::text(int decimals, std::size_t most) const
+{
+    const double end = end_of_search();
+    std::string text = list_of(with(Verdict::topples), decimals, most, end);
+    const std::string undecided = list_of(with(Verdict::undecided), decimals, most, end);
+    text = text.empty() ? "none" : text;
+    text += undecided.empty() ? "" : "; undecided: " + undecided;
+    text += fmt::format(", searched up to {:.6g} g", end);
+    if (coarse) {
+        text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.1g} %",
+                            coarse->first, decimals, coarse->last, decimals, 100 * coarse->step);
+    }
+    return text;
+}
+
+int VerdictRanges::decimals(double pga) const
+{
+    constexpr int most_for_ends = 7; // hundreds of ranges under a slow pulse would need more
+    int decimals = 4;
+    const auto look_the_same = [&](double a, double b) {
+        return a != b && fmt::format("{:.{}f}", a, decimals) == fmt::format("{:.{}f}", b, decimals);
+    };
+    const auto is_unclear = [&](const VerdictRange& range) {
+        return (decimals < most_for_ends && look_the_same(range.first, range.last)) ||
+               look_the_same(range.last, pga);
+    };
+    while (decimals < std::numeric_limits<double>::digits10 &&
+           std::any_of(all.begin(), all.end(), is_unclear)) {
+        ++decimals;
+    }
+    return decimals;
+}
+
+} // namespace overturn

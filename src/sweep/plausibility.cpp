@@ -1,0 +1,136 @@
+#include "overturn/sweep/plausibility.hpp"
+
+#include "overturn/mechanics/block.hpp"
+#include "overturn/sweep/extents.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace overturn {
+
+namespace {
+
+/// The values of a quantity that a block on Earth under an earthquake or an explosion may have.
+struct PlausibleRange {
+    std::string_view name;
+    std::string_view unit; ///< begins with a blank
+    double least;
+    double most;
+    std::string_view advice;
+};
+
+constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers::pi,
+                                     "a block wider than 1.5 times its height; angles are in "
+                                     "radians"};
+constexpr PlausibleRange size{"R", " m", 0.02, 20, "lengths are in metres"};
+constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
+                                "periods are in seconds, and lengths in metres"};
+constexpr PlausibleRange acceleration{"the peak ground acceleration", " g", 0, 5,
+                                      "accelerations are in g"};
+constexpr PlausibleRange peak{"the peak of a record", " g", 0, 5,
+                              "state its unit if the file does not"};
+constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
+                                   "times are in seconds"};
+constexpr PlausibleRange gravity{"gravity", " m/s2", 1, 30, "it is g in m/s2"};
+
+/// Which values must be plausible.
+enum class Needed { all, one };
+
+/// What looks like a mistake, as one text.
+class Findings {
+public:
+    void judge(const PlausibleRange& range, const Extent& values, Needed needed)
+    {
+        const bool has_one = values.last >= range.least && values.first <= range.most;
+        const bool has_all = values.first >= range.least && values.last <= range.most;
+        if (!(needed == Needed::all ? has_all : has_one)) {
+            const std::string limits =
+                range.least > 0
+                    ? fmt::format("outside {} to {:.4g}{}", range.least, range.most, range.unit)
+                    : fmt::format("above {:.4g}{}", range.most, range.unit);
+            add(fmt::format("{} = {} is {} ({})", range.name, values.text(range.unit), limits,
+                            range.advice));
+        }
+    }
+
+    void add(const std::string& finding) { text_ += (text_.empty() ? "" : "; ") + finding; }
+
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+/// Adds a finding if r is above r_max (Eq. 17) for a block of this slenderness [rad], and returns
+/// whether it did. Above arcsin sqrt(2/3), r_max does not exist.
+bool add_restitution(double restitution, double alpha, Findings& findings)
+{
+    const double largest = largest_restitution(alpha);
+    const double rounding = 1e-9; // of numbers that users copy from a printed r_max
+    if (!(restitution > largest * (1 + rounding)) || alpha > std::asin(std::sqrt(2.0 / 3))) {
+        return false;
+    }
+    findings.add(fmt::format("r = {:.4g} is above r_max = {:.4g} for alpha = {:.4g} degrees "
+                             "(Eq. 17)",
+                             restitution, largest, alpha * 180 / std::numbers::pi));
+    return true;
+}
+
+void judge_restitutions(const Plane& plane, Findings& findings)
+{
+    if (!plane.list) {
+        add_restitution(plane.restitution_ratio(0, plane.restitution.size() - 1),
+                        plane.slenderness.first(), findings);
+        return;
+    }
+    const BlockList& list = *plane.list;
+    for (std::size_t i = 0; i < list.slenderness.size(); ++i) {
+        if (add_restitution(list.restitution[i], list.slenderness[i], findings)) {
+            break;
+        }
+    }
+}
+
+} // namespace
+
+std::string implausible_values(const Scene& scene, const Plane& plane)
+{
+    constexpr double degree = std::numbers::pi / 180;
+    const bool has_own_motions = plane.list && plane.list->has_own_motions;
+    const auto needed = [&](bool is_dimensionless) {
+        return is_dimensionless && !has_own_motions ? Needed::one : Needed::all;
+    };
+    Findings findings;
+    findings.judge(gravity, {scene.gravity, scene.gravity}, Needed::all);
+    const Extent alpha = slendernesses_of(plane);
+    findings.judge(slenderness, {alpha.first / degree, alpha.last / degree}, Needed::all);
+    if (const auto sizes = sizes_of(scene, plane)) {
+        findings.judge(size, *sizes, Needed::all);
+    }
+    if (const auto periods = periods_of(scene, plane)) {
+        findings.judge(period, *periods,
+                       needed(plane.frequency_is == FrequencyQuantity::frequency));
+    }
+    findings.judge(acceleration, accelerations_of(scene, plane),
+                   needed(plane.amplitude_is != AmplitudeQuantity::pga));
+    if (scene.is_recorded()) {
+        const auto of_records = [&](const auto& value) {
+            std::vector<double> values;
+            for (const auto& record : scene.records) {
+                values.push_back(value(*record));
+            }
+            return extent_of(values, [](double each) { return each; });
+        };
+        findings.judge(peak, of_records([](const Accelerogram& record) { return record.peak(); }),
+                       Needed::all);
+        findings.judge(time_step,
+                       of_records([](const Accelerogram& record) { return record.time_step(); }),
+                       Needed::all);
+    }
+    judge_restitutions(plane, findings);
+    return findings.text();
+}
+
+} // namespace overturn

@@ -1,0 +1,91 @@
+#include "commands/verdict_ranges.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace overturn {
+namespace {
+
+constexpr auto safe = Verdict::safe;
+constexpr auto topples = Verdict::topples;
+constexpr auto undecided = Verdict::undecided;
+
+TEST(VerdictRanges, NameEveryKindAndTheEndOfTheSearch)
+{
+    const std::vector<VerdictRange> start{{0, 0.5, safe}, {0.5, 1, topples}};
+    const auto text = [&](const std::vector<VerdictRange>& rest) {
+        VerdictRanges ranges{.all = start};
+        ranges.all.insert(ranges.all.end(), rest.begin(), rest.end());
+        return ranges.text(2, 3);
+    };
+    EXPECT_EQ(text({}), "above 0.50 g, searched up to 1 g");
+    EXPECT_EQ(text({{1, 5, safe}}), "0.50 to 1.00 g, searched up to 5 g");
+    EXPECT_EQ(text({{1, 5, undecided}}),
+              "0.50 to 1.00 g; undecided: above 1.00 g, searched up to 5 g");
+    EXPECT_EQ(text({{1, 2, undecided}, {2, 3, safe}, {3, 4, topples}}),
+              "0.50 to 1.00 g, above 3.00 g; undecided: 1.00 to 2.00 g, searched up to 4 g");
+    EXPECT_EQ((VerdictRanges{.all = {{0, 0.25, safe}}}.text(2, 3)), "none, searched up to 0.25 g");
+}
+
+TEST(VerdictRanges, TellWhatWasSearchedInWideSteps)
+{
+    VerdictRanges ranges{.all = {{0, 5, safe}}};
+    ranges.coarse = CoarseSearch{1, 2, 0.02};
+    EXPECT_EQ(ranges.text(2, 3), "none, searched up to 5 g, from 1.00 to 2.00 g only in steps of "
+                                 "up to 2 %");
+}
+
+TEST(VerdictRanges, HaveEnoughDecimalsForTheRequestedAcceleration)
+{
+    std::mt19937_64 generator(1);
+    std::uniform_real_distribution<double> uniform(0.1, 2);
+    for (int digits = 5; digits < 12; ++digits) {
+        const double flip = uniform(generator);
+        const double pga = flip + 4 * std::pow(10, -digits);
+        const VerdictRanges ranges{.all = {{0, flip, safe}, {flip, 5, topples}}};
+        const int decimals = ranges.decimals(pga);
+        EXPECT_NE(fmt::format("{:.{}f}", flip, decimals), fmt::format("{:.{}f}", pga, decimals));
+    }
+    // Many narrow ranges do not make all numbers long.
+    EXPECT_EQ((VerdictRanges{.all = {{0, 1, safe}, {1, 1 + 1e-12, topples}, {1 + 1e-12, 5, safe}}}
+                   .decimals(3)),
+              7);
+}
+
+TEST(VerdictRanges, CoverTheSearchAndAgreeWithSingleVerdicts)
+{
+    std::mt19937_64 generator(2);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 5; ++i) {
+        const double alpha = 0.15 + 0.2 * uniform(generator);
+        const double threshold = std::tan(alpha);
+        const BoundaryLine line{.slenderness = alpha,
+                                .restitution = 0.7 + 0.2 * uniform(generator),
+                                .frequency = 1 + 5 * uniform(generator),
+                                .unit = threshold};
+        const double asked = threshold * (1 + 10 * uniform(generator));
+        const VerdictRanges ranges = verdict_ranges({}, line, threshold, 4, asked, nullptr);
+        EXPECT_EQ(ranges.all.front().first, 0);
+        EXPECT_EQ(ranges.all.back().last, 4);
+        for (std::size_t j = 1; j < ranges.all.size(); ++j) {
+            EXPECT_EQ(ranges.all[j].first, ranges.all[j - 1].last);
+            EXPECT_NE(ranges.all[j].verdict, ranges.all[j - 1].verdict);
+        }
+        const auto verdict_at = [&](double pga) {
+            return verdict_of(boundary_on({}, line, {pga}, widest_kernel()).region_at_first);
+        };
+        for (const double pga : {asked, 4 * uniform(generator), 4 * uniform(generator)}) {
+            for (const VerdictRange& range : ranges.all) {
+                if (range.first < pga && pga < range.last && range.verdict != undecided) {
+                    EXPECT_EQ(verdict_at(pga), range.verdict) << pga;
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace overturn
