@@ -12,6 +12,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.output_file import new_file
 
 if TYPE_CHECKING:
     import xarray
@@ -71,7 +72,9 @@ class Fragility:
                   for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
                     *fitted)
-        with open(path, "w", newline="", encoding="utf-8") as file:
+        with new_file(path, "a table of a fragility curve", lambda beginning: beginning.startswith(
+                (b"# overturning against ", b"# peak above "))) as part, open(
+                part, "w", newline="", encoding="utf-8") as file:
             file.writelines(f"# {line}\n" for line in self.summary().splitlines())
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow([f"{self.im}_from", f"{self.im}_to", "points", "exceeding", "without_verdict", "fraction",

@@ -16,7 +16,7 @@ EXAMPLE = """\
 example:
   tools/synthetic_record --suite 50 -o jobs/suite    # writes 50 synthetic records
   overturn run jobs/suite/fragility.toml             # writes fragility.h5
-  tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility.png, a panel for each measure
+  tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility_fragility.png, a panel each
 
 The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence interval at each
 value, by bootstrap over the motions. beta is the scatter: the smaller, the better the measure predicts
@@ -92,9 +92,9 @@ def read_arguments(argv):
     parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures")
-    add_picture_argument(parser)
+    add_picture_argument(parser, "FILE_fragility.png")
     arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
+    name_picture(parser, arguments, pathlib.Path(arguments.file).stem + "_fragility.png")
     return arguments
 
 
@@ -122,10 +122,7 @@ def write_csv(curve, arguments):
     path = pathlib.Path(arguments.csv)
     if len(arguments.im) > 1:
         path = path.with_name(f"{path.stem}_{curve.im}{path.suffix}")
-    try:
-        curve.to_csv(path)
-    except OSError as error:
-        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    curve.to_csv(path)
     print(path)
 
 
