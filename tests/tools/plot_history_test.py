@@ -12,6 +12,8 @@ import unittest
 import h5py
 import numpy as np
 from tool import run_tool  # first: adds the package to the path
+import overturn
+from matplotlib import pyplot
 from overturn.plot import histories
 
 OVERTURN = os.environ["OVERTURN"]
@@ -54,6 +56,28 @@ class TestAHistoryUnderARecord(unittest.TestCase):
     def history(self, start=0, until=np.inf):
         with h5py.File(self.folder / "history.h5") as file:
             return histories.History(file, start, until)
+
+    def test_has_ticks_without_a_common_factor(self):
+        draw = np.random.default_rng(1)
+        for power in (0, *draw.integers(-6, 7, 4)):
+            with h5py.File(self.folder / "history.h5", "a") as file:
+                for name in ("ground", "velocity", "q"):
+                    file[name][:] = draw.uniform(0.1, 1) * 10.0**power * file[name][:] / np.abs(file[name][:]).max()
+            panels = overturn.plot.history(self.folder / "history.h5")
+            panels[0].figure.canvas.draw()
+            self.assertEqual({panel.yaxis.get_offset_text().get_text() for panel in panels}, {""})
+            pyplot.close("all")
+
+    def test_explains_its_dashed_lines(self):
+        self.assertIn("balance on an edge", self.picture())
+        self.under_a_record()
+        self.assertIn("balance on an edge", self.picture())
+
+    def test_has_four_digits(self):
+        draw = np.random.default_rng(2)
+        size = draw.uniform(1, 9)
+        self.under_a_record(size=size)
+        self.assertIn(f"= {size:.4g} m", self.picture())
 
     def test_is_in_seconds_and_in_alpha(self):
         self.under_a_record()

@@ -58,12 +58,13 @@ def shortened(text, width):
 
 def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
-    title and of the tables in `shown`, whose values the picture shows elsewhere."""
+    title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows
+    elsewhere."""
     title = text_attribute(file, "title")
     if title:
         overrides = job_text(file, "job_overrides").splitlines()
         others = [shortened(words, 48) for words in overrides
-                  if words.split("=")[0].split(".")[0].strip() not in ("title", *shown)]
+                  if words.split("=")[0].split(".")[0].strip() not in ("title", "output", *shown)]
         title += (", with " + ", ".join(others)) * bool(others)
     return title
 
