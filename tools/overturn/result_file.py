@@ -7,9 +7,9 @@ import pathlib
 import sys
 
 import h5py
-from overturn.output_file import OutputError, new_file
+from overturn.output_file import FILE, OutputError, new_file
 
-USAGE, FILE = 2, 74  # exit codes, equal to those of overturn
+USAGE = 2  # exit code, equal to that of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 NEWEST_FORMAT = 3
 PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
