@@ -3,7 +3,6 @@
 import os
 import socket
 import subprocess
-import sys
 import unittest
 
 from program import (ENVIRONMENT, JOB, LONG_TILES, MPIEXEC, OVERTURN, PATIENCE, SMALL, Scratch, checksum,
@@ -31,9 +30,8 @@ class TheCommandLine(Scratch):
         def doctor(lines):
             return self.overturn("doctor", shell_setup="mkdir -p bin; printf '#!/bin/sh\\n%s\\n' "
                                  f"'{lines}' > bin/python3; chmod +x bin/python3; PATH=$PWD/bin:$PATH")
-        self.assert_exit(doctor(f'exec "{sys.executable}" "$@"'), 0, "Python ", "overturn._core", "numpy ")
         self.assert_exit(doctor('echo /another/python3; echo "version 3.9.1; lacks numpy"'), 0,
-                         "python3 /another/python3: version 3.9.1; lacks numpy")
+                         "Python ", "overturn._core", "python3 /another/python3: version 3.9.1; lacks numpy")
         self.assert_exit(doctor("exit 1"), 0, "python3 cannot be started")
 
     def test_help_is_a_subcommand_too(self):

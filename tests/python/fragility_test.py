@@ -189,7 +189,8 @@ class TheCurve(unittest.TestCase):
 
     def test_of_a_group_of_blocks_is_that_of_these_blocks(self):
         random = np.random.default_rng(3)
-        texts, few, many = random.choice(["urn", "bust", ""], 8), random.choice([1.5, 2.0], 8), random.permutation(np.arange(8.0))
+        texts, few = random.choice(["urn", "bust", ""], 8), random.choice([1.5, 2.0], 8)
+        many = random.permutation(np.arange(8.0))
         many[0] = np.nan
         data = result(*graded()).assign_coords(kind=("block", texts.astype(object)), few=("block", few),
                                                many=("block", many))

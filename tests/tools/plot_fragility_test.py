@@ -12,7 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
-from tool import run_tool
+from tool import run_tool  # first: adds the package to the path
+from overturn.plot import fragility_curves
 
 JOB = """
     scene.record = "*.AT2"
@@ -77,10 +78,7 @@ class TestAPicture(Curve):
         self.assertIn("by slenderness", words)
 
     def test_has_a_name_of_its_own(self):
-        (self.folder / "result.png").write_text("the picture of the spectrum")
-        self.assertEqual(self.plot("result.h5", "--samples", "1").returncode, 0)
-        self.assertEqual((self.folder / "result.png").read_text(), "the picture of the spectrum")
-        self.assertTrue((self.folder / "result_fragility.png").is_file())
+        self.assertEqual(fragility_curves.read_arguments(["result.h5"]).output, "result_fragility.png")
 
     def test_of_a_limit_counts_more_points(self):
         overturning, _ = self.words("result.h5")
@@ -105,7 +103,7 @@ class TestAPicture(Curve):
             file.visititems(lambda name, item: checksums.append(item) if name.endswith("checksum") else None)
             checksums[0][-1] = 0  # of the tile of the last spectrum
         text, words = self.words("part.h5")
-        self.assertRegex(text, r"of 580 points with a verdict, 10 motions, 12 blocks pooled; 0 undecided, 20 not computed")
+        self.assertIn("of 580 points with a verdict, 10 motions, 12 blocks pooled; 0 undecided, 20 not computed", text)
         self.assertIn("the result is unfinished: 20 of 600 points are not computed", text)
         self.assertIn("the result is unfinished: 20 of 600 points are not computed", words)
         self.assertIn("with points without a verdict", words)

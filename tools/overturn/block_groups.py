@@ -34,8 +34,8 @@ def _labels(column, values):
         labels = np.array([str(value).strip() or "(empty)" for value in values], object)
         count = len(set(labels))
         if count > MOST_GROUPS:
-            raise ValueError(f"{column} has {count} different texts; a picture has at most {MOST_GROUPS} curves. Choose "
-                             "another column.")
+            raise ValueError(f"{column} has {count} different texts; a picture has at most {MOST_GROUPS} curves. "
+                             "Choose another column.")
         return labels
     labels = np.full(len(values), "not given", object)
     known = np.isfinite(values)
