@@ -57,7 +57,8 @@ class TestAWrittenFile(unittest.TestCase):
     def test_of_another_kind_is_refused_by_every_writer_and_remains(self):
         draw = random.Random(1)
         others = [self.result.read_bytes(), b"inventory,width,height\nA-01,0.42,1.55\n", b"{}",
-                  b"RECORD OF A STATION\n", b"<?xml version='1.0'?><other/>", draw.randbytes(100), draw.randbytes(10_000)]
+                  b"RECORD OF A STATION\n", b"<?xml version='1.0'?><other/>", draw.randbytes(100),
+                  draw.randbytes(10_000)]
         for *words, pattern in self.WRITERS:
             for content in others if words[0] == "to_csv" else draw.sample(others, 1):
                 path = pattern.format("taken")
