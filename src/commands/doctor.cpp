@@ -1,5 +1,5 @@
-// Prints what a bug report should contain: program, libraries, processor, and the file system of
-// results.
+// Prints what a bug report should contain: program, libraries, processor, Python, and the file
+// system of results.
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "human_units.hpp"
@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +86,70 @@ std::string file_system_of(const fs::path& folder)
     return place.empty() ? type : fmt::format("{}, mounted on {}", type, place);
 }
 
+/// A word of a command of the shell.
+std::string shell_word(const std::string& word)
+{
+    std::string text = "'";
+    for (const char letter : word) {
+        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    }
+    return text + "'";
+}
+
+struct Interpreter {
+    std::string path;     ///< empty if it cannot be started
+    std::string contents; ///< its version, and what it can import
+};
+
+/// Asks an interpreter, a path or a name, whether it can import the module and other packages.
+Interpreter interpreter_of(const std::string& python)
+{
+    const fs::path program = fs::read_symlink("/proc/self/exe");
+    fs::path tools = program.parent_path() / "../share/overturn/tools";
+    if (!fs::exists(tools)) {
+        tools = program.parent_path() / "../tools"; // of a checkout
+    }
+    const std::string command = fmt::format(
+        "OVERTURN={} {} -B -c 'import sys; sys.path.insert(0, sys.argv[1]); from overturn import "
+        "importable; importable.main()' {} 2>/dev/null",
+        shell_word(program.string()), shell_word(python),
+        shell_word(tools.lexically_normal().string()));
+    std::array<std::string, 2> lines;
+    if (std::FILE* const output = popen(command.c_str(), "r")) {
+        std::size_t line = 0;
+        for (int letter = std::fgetc(output); letter != EOF; letter = std::fgetc(output)) {
+            if (letter == '\n') {
+                ++line;
+            } else if (line < lines.size()) {
+                lines[line] += char(letter);
+            }
+        }
+        pclose(output);
+    }
+    return {lines[0], lines[1]};
+}
+
+/// The Python that the compiled module was built for, and `python3`, if that is another.
+void print_pythons()
+{
+    std::string built_for;
+#ifdef OVERTURN_PYTHON
+    built_for = OVERTURN_PYTHON;
+    const Interpreter own = interpreter_of(built_for);
+    print_row("Python", fmt::format("{}, for which overturn._core was built: {}", built_for,
+                                    own.path.empty() ? "cannot be started" : own.contents));
+    built_for = own.path;
+#else
+    print_row("Python", "overturn._core was not built: evaluate and read_record are not available");
+#endif
+    const Interpreter first = interpreter_of("python3");
+    if (first.path.empty()) {
+        print_row("python3", "cannot be started");
+    } else if (first.path != built_for) {
+        print_row("python3", fmt::format("{}: {}", first.path, first.contents));
+    }
+}
+
 } // namespace
 
 int doctor(const std::string& folder)
@@ -104,6 +170,7 @@ int doctor(const std::string& folder)
                                        std::thread::hardware_concurrency()));
     print_row("memory", value_in("/proc/meminfo", "MemTotal"));
     print_row("system", value_in("/etc/os-release", "PRETTY_NAME", '='));
+    print_pythons();
     print_row("folder", printable(path.string()));
     print_row("file system", file_system_of(path));
     const fs::space_info space = fs::space(path, failure);

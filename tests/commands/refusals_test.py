@@ -26,6 +26,14 @@ class TheCommandLine(Scratch):
                          "MPI", "HDF5 1.", "processor", f"folder {self.folder}", "file system", "free space")
         self.assert_refused(2, ["nowhere is not a folder"], "doctor", "nowhere")
 
+    def test_doctor_tells_what_each_python_can_import(self):
+        def doctor(lines):
+            return self.overturn("doctor", shell_setup="mkdir -p bin; printf '#!/bin/sh\\n%s\\n' "
+                                 f"'{lines}' > bin/python3; chmod +x bin/python3; PATH=$PWD/bin:$PATH")
+        self.assert_exit(doctor('echo /another/python3; echo "version 3.9.1; lacks numpy"'), 0,
+                         "Python ", "overturn._core", "python3 /another/python3: version 3.9.1; lacks numpy")
+        self.assert_exit(doctor("exit 1"), 0, "python3 cannot be started")
+
     def test_help_is_a_subcommand_too(self):
         for words in ((), ("run",)):
             asked = self.overturn("help", *words)

@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 import overturn
 import xarray
+from overturn.block_groups import groups_of
 from overturn.lognormal_fit import Counts, fit
 from scipy.optimize import minimize
 from scipy.stats import norm
@@ -147,8 +148,65 @@ class TheCurve(unittest.TestCase):
             self.assertEqual(curve.exceeding.tolist(), [5, 25, 49, 67])
             self.assertEqual(curve.without_verdict.tolist(), [1, 1, 9, 9])
             self.assertEqual((curve.undecided, curve.not_computed), (4, 16))
-            self.assertIn("left out: 4 undecided and 16 points that are not computed, of 320", curve.notes)
+            self.assertIn("left out: 4 of 320 points, which are undecided", curve.notes)
+            self.assertIn("the result is unfinished: 16 of 320 points are not computed and left out", curve.notes)
             self.assertIn("4 undecided, 16 not computed", curve.summary())
+
+    def test_of_an_unfinished_result_says_how_many_motions_are_missing(self):
+        random = np.random.default_rng(1)
+        for _ in range(5):
+            region, scale = graded()
+            missing = random.choice(10, random.integers(1, 9), replace=False)
+            region[missing] = NOT_COMPUTED
+            notes = overturn.fragility(result(region, scale), samples=1).notes
+            self.assertIn(f"the result is unfinished: {32 * len(missing)} of 320 points are not computed and left out",
+                          notes)
+            self.assertIn(f"{len(missing)} of 10 motions have no point with a verdict", notes)
+
+    def test_says_if_its_median_is_outside_the_data(self):
+        random = np.random.default_rng(2)
+        kinds = set()
+        for _ in range(20):
+            shift = random.uniform(-1.5, 1.5)
+            log_measure = np.log(MEDIAN) + shift + np.linspace(-0.7, 0.7, 6)
+            capacity = np.log(MEDIAN) + BETA * random.standard_normal((10, 1, 20))
+            data = result(np.where(capacity <= log_measure[:, None], F, S), np.exp(log_measure))
+            curve = overturn.fragility(data, samples=1)
+            notes = [note for note in curve.notes if note.startswith("extrapolated: the median is outside the data")]
+            if np.isfinite(curve.median):
+                is_outside = not np.exp(log_measure[0]) <= curve.median <= np.exp(log_measure[-1])
+                self.assertEqual(len(notes), is_outside)
+                kinds.add(is_outside)
+        self.assertEqual(kinds, {True, False})
+
+    def test_says_how_many_blocks_are_pooled(self):
+        data = result(*graded())
+        for count in (8, 3, 1):
+            curve = overturn.fragility(data.isel(block=slice(0, count)), samples=1)
+            self.assertEqual(curve.blocks, count)
+            self.assertIn(f"{count} blocks pooled" if count > 1 else "1 block;", curve.summary())
+        self.assertEqual(overturn.fragility(data.isel(block=0), samples=1).blocks, 1)
+
+    def test_of_a_group_of_blocks_is_that_of_these_blocks(self):
+        random = np.random.default_rng(3)
+        texts, few = random.choice(["urn", "bust", ""], 8), random.choice([1.5, 2.0], 8)
+        many = random.permutation(np.arange(8.0))
+        many[0] = np.nan
+        data = result(*graded()).assign_coords(kind=("block", texts.astype(object)), few=("block", few),
+                                               many=("block", many))
+        for column, sizes in (("kind", {f"kind = {text or '(empty)'}": (texts == text).sum() for text in texts}),
+                              ("few", {f"few = {number:g}": (few == number).sum() for number in few})):
+            self.assertEqual({name: part.sizes["block"] for name, part in groups_of(data, column).items()}, sizes)
+        quarters = groups_of(data, "many")
+        self.assertEqual(list(quarters)[-1], "many = not given")
+        self.assertEqual(sum(part.sizes["block"] for part in quarters.values()), 8)
+        self.assertEqual(len(quarters), 5)
+        for column in ("motion", "pgv", "scale", "mass"):
+            with self.assertRaisesRegex(ValueError, "is not a property of the blocks. This result has"):
+                groups_of(data, column)
+        with self.assertRaisesRegex(ValueError, "13 different texts"):
+            groups_of(result(*graded(blocks=13)).assign_coords(
+                name=("block", [f"block {i}" for i in range(13)])), "name")
 
     def test_leaves_out_points_whose_measure_has_no_logarithm(self):
         region, scale = graded()
@@ -167,6 +225,10 @@ class TheCurve(unittest.TestCase):
             overturn.fragility(result(*graded()).drop_vars("scale"))
         with self.assertRaisesRegex(ValueError, "'mass' is not an intensity measure of the motions. This result has"):
             overturn.fragility(result(*graded()), "mass")
+        data = result(*graded()).assign_coords(names=("motion", [f"{i}.AT2" for i in range(10)]), width=0.5)
+        for name in ("motion", "names", "width", "scale", "block", "region"):  # numbers of motions, texts, blocks
+            with self.assertRaisesRegex(ValueError, f"'{name}' is not an intensity measure of the motions"):
+                overturn.fragility(data, name)
         with self.assertRaisesRegex(ValueError, "bins = 0"):
             overturn.fragility(result(*graded()), bins=0)
 

@@ -96,6 +96,23 @@ class ARunThatFails(InAFolder):
             overturn.check({"scene": {"pulse": None}})
 
 
+    def test_refuses_arrays_where_a_job_names_files(self):
+        draw = np.random.default_rng(1)
+        plane = {"scale": 1, "size": 1, "slenderness": 0.2, "restitution": 0.9}
+        record = overturn.read_record(JOBS / "synthetic.AT2")
+        samples = draw.uniform(-1, 1, draw.integers(2, 2000))
+        for key in ("record", "vertical"):
+            for value in (samples, list(samples), tuple(samples[:2]), samples.astype("f4"), record, samples[:, None]):
+                job = {"scene": {"record": "here.AT2", key: value}, "plane": plane}
+                with self.assertRaisesRegex(TypeError, rf"scene.{key} is .*, but a job names files: give .*"
+                                            rf"overturn.evaluate\({key}=\.\.\..* takes accelerations"):
+                    overturn.run(job)
+                with self.assertRaisesRegex(TypeError, f"scene.{key} is .*, but a job names files"):
+                    overturn.check(JOBS / "synthetic.toml", overrides={f"scene.{key}": value})
+        with self.assertRaisesRegex(TypeError, "blocks.table is ndarray of the shape .*, but a job names files"):
+            overturn.check({"scene": {"pulse": "one_sine"}, "blocks": {"table": samples}, "plane": {}})
+
+
 class AResultFile(InAFolder):
     def test_has_only_coordinates_and_fields(self):
         overturn.run(JOB, output="spectrum.h5").close()

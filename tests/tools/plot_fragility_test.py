@@ -12,7 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
-from tool import run_tool
+from tool import run_tool  # first: adds the package to the path
+from overturn.plot import fragility_curves
 
 JOB = """
     scene.record = "*.AT2"
@@ -64,6 +65,20 @@ class TestAPicture(Curve):
             with open(self.folder / f"curve_{measure}.csv", encoding="utf-8") as file:
                 rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
             self.assertEqual(sum(int(row["points"]) for row in rows), 10 * 60)
+        for line in ("Fragility: result.h5", "10 motions,  12 blocks pooled"):
+            self.assertIn(line, words)
+
+    def test_has_a_curve_for_each_value_of_a_column(self):
+        text, words = self.words("result.h5", "--by", "slenderness", "--csv", "by.csv", "--samples", "20")
+        self.assertIn("10 motions,  12 blocks in 3 groups", words)
+        for number, slenderness in enumerate(("0.15", "0.225", "0.3"), 1):
+            self.assertIn(f"slenderness = {slenderness} (4 blocks)", words)
+            self.assertIn(f"\nslenderness = {slenderness}\n", text)
+            self.assertIn(f"# slenderness = {slenderness}\n", (self.folder / f"by_{number}.csv").read_text())
+        self.assertIn("by slenderness", words)
+
+    def test_has_a_name_of_its_own(self):
+        self.assertEqual(fragility_curves.read_arguments(["result.h5"]).output, "result_fragility.png")
 
     def test_of_a_limit_counts_more_points(self):
         overturning, _ = self.words("result.h5")
@@ -88,8 +103,9 @@ class TestAPicture(Curve):
             file.visititems(lambda name, item: checksums.append(item) if name.endswith("checksum") else None)
             checksums[0][-1] = 0  # of the tile of the last spectrum
         text, words = self.words("part.h5")
-        self.assertRegex(text, r"of 580 points with a verdict, 10 motions; 0 undecided, 20 not computed")
-        self.assertIn("20 points that are not computed, of 600", " ".join(text.split()))
+        self.assertIn("of 580 points with a verdict, 10 motions, 12 blocks pooled; 0 undecided, 20 not computed", text)
+        self.assertIn("the result is unfinished: 20 of 600 points are not computed", text)
+        self.assertIn("the result is unfinished: 20 of 600 points are not computed", words)
         self.assertIn("with points without a verdict", words)
 
 
@@ -110,6 +126,8 @@ class TestACurveRefused(Curve):
 
     def test_of_a_measure_or_a_field_that_is_not_there(self):
         self.refuses(2, "'mass' is not an intensity measure", "result.h5", "--im", "mass")
+        self.refuses(2, "'motion' is not an intensity measure", "result.h5", "--im", "motion")
+        self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
         self.compute("region.h5", 'output.fields=["region"]')
         self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
 

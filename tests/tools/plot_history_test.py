@@ -12,6 +12,8 @@ import unittest
 import h5py
 import numpy as np
 from tool import run_tool  # first: adds the package to the path
+import overturn
+from matplotlib import pyplot
 from overturn.plot import histories
 
 OVERTURN = os.environ["OVERTURN"]
@@ -34,6 +36,9 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         (self.folder / "job.toml").write_text(JOB)
+        self.compute()
+
+    def compute(self):
         subprocess.run([OVERTURN, "history", "job.toml", "-o", "history.h5"], cwd=self.folder,
                        check=True, capture_output=True, timeout=100)
 
@@ -54,6 +59,27 @@ class TestAHistoryUnderARecord(unittest.TestCase):
     def history(self, start=0, until=np.inf):
         with h5py.File(self.folder / "history.h5") as file:
             return histories.History(file, start, until)
+
+    def test_has_ticks_without_a_common_factor_and_explains_its_dashed_lines(self):
+        draw = np.random.default_rng(1)
+        for power in draw.choice([-5, -4, -3, 4, 5, 6], 2, replace=False):
+            with h5py.File(self.folder / "history.h5", "a") as file:
+                for name in ("ground", "velocity", "q"):
+                    file[name][:] = draw.uniform(0.1, 1) * 10.0**power * file[name][:] / np.abs(file[name][:]).max()
+            panels = overturn.plot.history(self.folder / "history.h5")
+            panels[0].figure.canvas.draw()
+            self.assertEqual({panel.yaxis.get_offset_text().get_text() for panel in panels}, {""})
+            self.assertIn("balance on an edge", panels[1].get_legend().get_texts()[0].get_text())
+            pyplot.close("all")
+
+    def test_has_four_digits(self):
+        draw = np.random.default_rng(2)
+        for size in draw.uniform(1, 9, 3):
+            self.under_a_record(size=size)
+            with h5py.File(self.folder / "history.h5") as file:
+                self.assertIn(f"$R$ = {size:.4g} m", histories.describe(file))
+            (self.folder / "history.h5").unlink()
+            self.compute()
 
     def test_is_in_seconds_and_in_alpha(self):
         self.under_a_record()

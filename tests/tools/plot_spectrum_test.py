@@ -128,6 +128,13 @@ class TestTheMap(Picture):
             # About 2 is the least visible difference side by side; apart in a map more is needed.
             self.assertGreater(gap, 7, (lighter, darker))
 
+    def test_the_two_regions_of_falls_differ_in_hue(self):
+        def opponents(code):  # red against green, and yellow against blue [1]
+            red, green, blue = colors.to_rgb(REGIONS[code][2])
+            return np.array([red - green, (red + green) / 2 - blue])
+        # Greys differ by 0.02; yellow U0- and U0+ by 0.26.
+        self.assertGreater(np.linalg.norm(opponents(7) - opponents(8)), 0.15)
+
 
 class TestTheTicks(Picture):
     def test_of_a_logarithmic_axis_are_at_least_four(self):
@@ -184,6 +191,7 @@ class TestTheWords(Picture):
     def test_settings_follow_the_title_and_are_shortened(self):
         self.spectrum([[S]])
         settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
+        settings += "\noutput.fields=[\"region\"]\noutput = {}"
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             file["job_overrides"] = np.frombuffer(settings.encode(), np.uint8)
         self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",

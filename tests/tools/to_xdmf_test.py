@@ -206,9 +206,9 @@ class TestADescriptionRefused(Described):
         before = (self.folder / "spectrum.h5").read_bytes()
         self.refuses(2, "must end in .xdmf2", "spectrum.h5", "-o", "spectrum.h5")
         (self.folder / "link.xdmf2").symlink_to("spectrum.h5")
-        self.refuses(2, "is the result file itself", "spectrum.h5", "-o", "link.xdmf2")
+        self.refuses(74, "is not an XDMF file", "spectrum.h5", "-o", "link.xdmf2")
         (self.folder / "link.json").symlink_to("spectrum.h5")
-        self.refuses(2, "is the result file itself", "spectrum.h5", "--colours", "link.json")
+        self.refuses(74, "is not a preset", "spectrum.h5", "-o", "new.xdmf2", "--colours", "link.json")
         self.assertEqual((self.folder / "spectrum.h5").read_bytes(), before)
 
     def test_of_an_output_in_a_missing_folder(self):

@@ -18,6 +18,7 @@ from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_MINUS, sh
 from recorded_spectra_test import Recorded
 from to_xdmf_test import Described, follow
 from tool import TOOLS, run_tool  # first: adds the package to the path
+import overturn
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot import boundaries, histories
 from overturn.result_file import PANELS
@@ -166,6 +167,18 @@ class TestAPhysicalBoundary(Sized):
             self.assertIn(f">{words}", picture)
 
 
+    def test_of_a_single_frequency_is_a_column_named_with_what_is_scanned(self):
+        frequency = np.random.default_rng(1).uniform(2, 6)
+        self.overturn("boundary", "boundary.h5", *DIMENSIONLESS, f"plane.frequency={frequency}")
+        for units, word in (("job", "amplitude"), ("physical", "PGA")):
+            panel = overturn.plot.boundary(self.folder / "boundary.h5", units=units)
+            panel.figure.canvas.draw()
+            size = panel.get_window_extent()
+            self.assertLess(size.width, size.height / 3)
+            self.assertEqual(panel.figure.legends[0].get_texts()[0].get_text(), f"minimum overturning {word}")
+            pyplot.close("all")
+
+
 class TestAnOverlaidBoundary(Sized):
     def dots(self, units="job"):
         """Returns the drawn points, in ascending order."""
@@ -256,7 +269,7 @@ class TestAPhysicalHistory(Sized):
         self.assertAlmostEqual(history.end_of_ground_motion, 0.5)
         picture = self.drawn("plot_history", "history.h5", *PHYSICAL)
         for words in ("time since the start of the pulse  [s]", "tilt [degrees]",
-                      "velocity [degrees/s]", "ground [g]"):
+                      "velocity [degrees/s]", "ground [g]", "limits for an upright block that does not overturn"):
             self.assertIn(f">{words}<", picture)
 
     def test_states_the_point_in_physical_units(self):
@@ -266,7 +279,7 @@ class TestAPhysicalHistory(Sized):
             self.overturn("history", "history.h5", *settings)
             with h5py.File(self.folder / "history.h5") as file:
                 self.assertTrue(histories.describe(file, "physical").startswith(
-                    "period = 0.5 s, PGA = 0.9 g, $p$ = 2.78487 1/s, α = 18.43°, $r$ = 0.7225: "))
+                    "period = 0.5 s, PGA = 0.9 g, $p$ = 2.785 1/s, α = 18.43°, $r$ = 0.7225: "))
                 words = histories.describe(file)
                 self.assertEqual("period" in words, settings == self.AT)
                 self.assertEqual("omega_p" in words, settings != self.AT)

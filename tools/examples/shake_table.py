@@ -6,6 +6,7 @@ import argparse
 import concurrent.futures
 import json
 import pathlib
+import re
 import sys
 import typing
 
@@ -17,6 +18,8 @@ try:
     import h5py
     import numpy as np
     import overturn
+    from overturn.output_file import new_file, write_text
+    from overturn.result_file import write_picture
     from scipy.optimize import differential_evolution, minimize
     from scipy.special import expit, ndtr
 except ImportError as error:
@@ -261,13 +264,19 @@ def draw(predictions, path):
     ax.set_ylabel("fraction of the tests that toppled the rock")
     ax.legend(loc="upper left", fontsize=9)
     ax.grid(color="0.9")
-    figure.savefig(path, dpi=150)
+    write_picture(figure, path, dpi=150)
 
 
 def write_csv(predictions, path):
     """Writes the probability that each rock topples, one row per test in the order of the file."""
     columns = np.column_stack([probability for probability, _ in predictions.values()])
-    np.savetxt(path, columns, fmt="%.4f", delimiter=",", header=",".join(predictions), comments="")
+    with new_file(path, "a table of probabilities", is_table) as part:
+        np.savetxt(part, columns, fmt="%.4f", delimiter=",", header=",".join(predictions), comments="")
+
+
+def is_table(beginning):
+    """Whether a file begins with a header and numbers of four decimals."""
+    return re.match(rb"[^\n]*\n(\d\.\d{4}|nan)[,\n]", beginning) is not None
 
 
 def read_model(path):
@@ -306,7 +315,8 @@ def main():
     try:
         if arguments.command == "fit":
             model, predictions = fit(arguments.file, arguments.folds, arguments.seed)
-            pathlib.Path(arguments.output).write_text(json.dumps(model, indent=1) + "\n")
+            write_text(arguments.output, json.dumps(model, indent=1) + "\n", "a model of this program",
+                       lambda beginning: b'"frequency_parameter"' in beginning)
             result = model["rocks"]
         else:
             result, predictions = predict(read_model(arguments.model), arguments.file)

@@ -6,8 +6,10 @@ import pathlib
 
 from overturn.choice import add_choice_arguments, chosen_one
 from overturn.fields import dimensions_of, fields_of, read_field
-from overturn.result_file import PlotError, damage_reported
+from overturn.output_file import new_file
+from overturn.result_file import damage_reported
 from overturn.spectrum_file import open_spectrum, rows_of_tiles
+from overturn.units import LABELS
 
 EXAMPLE = """\
 example:
@@ -26,19 +28,24 @@ def rows_of(file, outer):
     *_, up, across = dimensions_of(file)
     yield [across, up, *names]
     for rows in rows_of_tiles(file[names[0]]):
-        tiles = [read_field(file, name, outer, rows) for name in names]
+        with damage_reported(file.filename):
+            tiles = [read_field(file, name, outer, rows) for name in names]
         for i, row in enumerate(file[up][rows].tolist()):
             columns = (tile[i].tolist() for tile in tiles)
             for values in zip(file[across][:].tolist(), *columns):
                 yield [values[0], row, *values[1:]]
 
 
+def is_own(beginning):
+    """Whether a file begins with the names of two axes, as its tables do."""
+    across, up, *_ = [*beginning.split(b"\n")[0].split(b","), b"", b""]
+    return {across, up} <= {name.encode() for name in LABELS}
+
+
 def write(file, outer, path):
-    try:
-        with open(path, "w", newline="", encoding="ascii") as text:
-            csv.writer(text, lineterminator="\n").writerows(rows_of(file, outer))
-    except OSError as error:
-        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    with new_file(path, "a table of tools/to_csv", is_own) as part, \
+            open(part, "w", newline="", encoding="ascii") as text:
+        csv.writer(text, lineterminator="\n").writerows(rows_of(file, outer))
     print(path)
 
 
@@ -57,5 +64,7 @@ def read_arguments(argv):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    with open_spectrum(arguments.file) as file, damage_reported(arguments.file):
-        write(file, chosen_one(file, arguments), arguments.output)
+    with open_spectrum(arguments.file) as file:
+        with damage_reported(arguments.file):
+            outer = chosen_one(file, arguments)
+        write(file, outer, arguments.output)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import math
 import os
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.output_file import new_file
 
 if TYPE_CHECKING:
     import xarray
@@ -38,6 +40,7 @@ class Fragility:
     undecided: int  #: points of region 254
     not_computed: int  #: points of region 255
     motions: int  #: with at least one verdict
+    blocks: int  #: pooled in the curve
     median: float  #: at which half of the points exceed
     beta: float  #: scatter: standard deviation of the logarithm [1]
     median_interval: NDArray[np.float64]  #: (2,), of 95 % confidence
@@ -45,7 +48,8 @@ class Fragility:
     value: NDArray[np.float64]  #: values of the intensity measure over the range of the bins
     probability: NDArray[np.float64]  #: fitted, at `value`
     band: NDArray[np.float64]  #: (2, values), of 95 % confidence at each value
-    notes: tuple[str, ...]  #: what was left out, and why there is no fit or no band
+    notes: tuple[str, ...]  #: what is missing or extrapolated, and why there is no fit or no band
+    group: str = ""  #: which blocks of the result these are; empty: all
 
     @property
     def fraction(self) -> NDArray[np.float64]:
@@ -54,9 +58,11 @@ class Fragility:
 
     def summary(self) -> str:
         """Returns the numbers as a text of several lines."""
+        blocks = "1 block" if self.blocks == 1 else f"{self.blocks} blocks pooled"
         what = "overturning" if self.limit is None else f"peak above {self.limit:g}"
         lines = [f"{what} against {self.im} [{self.units}]: {self.exceeding.sum()} of {self.points.sum()} points with "
-                 f"a verdict, {self.motions} motions; {self.undecided} undecided, {self.not_computed} not computed"]
+                 f"a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
+                 "computed", *[self.group] * bool(self.group)]
         if np.isfinite(self.median):
             lines += [f"{name} {number:.4g}" + (f" ({low:.4g} to {high:.4g})" if np.isfinite(low) else "")
                       for name, number, (low, high) in (("median", self.median, self.median_interval),
@@ -71,7 +77,9 @@ class Fragility:
                   for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
                     *fitted)
-        with open(path, "w", newline="", encoding="utf-8") as file:
+        with new_file(path, "a table of a fragility curve", lambda beginning: beginning.startswith(
+                (b"# overturning against ", b"# peak above "))) as part, open(
+                part, "w", newline="", encoding="utf-8") as file:
             file.writelines(f"# {line}\n" for line in self.summary().splitlines())
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow([f"{self.im}_from", f"{self.im}_to", "points", "exceeding", "without_verdict", "fraction",
@@ -82,12 +90,12 @@ class Fragility:
 
 def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, bins: int = 10,
               samples: int = 1000, seed: int = 1) -> Fragility:
-    """Returns the fragility curve of a result under records, see open(). All its blocks count alike: choose
-    some by dataset.isel() or dataset.sel() first.
+    """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
+    alike: choose some by dataset.isel() or dataset.sel() first.
 
-    im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable
-        over the dimension motion, which is taken to be proportional to the motion. The measures of the
-        records are scaled like the motions.
+    im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable of
+        numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
+        the records are scaled like the motions.
     limit: counts points whose field peak is above it; None counts those that overturn.
     bins: their number; they do not change the fit.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
@@ -109,26 +117,45 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         reason = f"no fit: the probability that a point {verb} does not rise with {im}"
     return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
-                     motions=counts.points.shape[0], **_fitted(fit, value),
-                     notes=(*_left_out(cells, im), *[reason] * bool(reason), *_without_band(fit, counts, samples)))
+                     motions=counts.points.shape[0], blocks=_blocks(dataset["region"]), **_fitted(fit, value),
+                     notes=(*_left_out(cells, im), *[reason] * bool(reason), *_extrapolated(fit, edges, im),
+                            *_without_band(fit, counts, samples)))
 
 
-def _measure(dataset, im):
-    """Returns the intensity measure of every motion at every scale."""
+def expect_records(dataset):
     for name in ("region", "scale", "motion"):
         if name not in dataset:
             raise ValueError(f"this result has no {name}. A fragility curve needs the field region of a result under "
                              "records.")
+
+
+def _measure(dataset, im):
+    """Returns the intensity measure of every motion at every scale."""
+    expect_records(dataset)
     unscaled = "record_pga" if im == "pga" and "record_pga" in dataset else im
-    if unscaled not in dataset or dataset[unscaled].dims not in (("motion",), ()):
+    if not _is_measure(dataset, unscaled):
         known = [name for name in POWERS if name in dataset]
-        raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}.")
+        raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}; "
+                         "another one must be a variable of numbers over the dimension motion.")
     measure = dataset[unscaled]
     if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
         measure = measure.sel(motion=dataset["motion_number"])
     elif "motion" in measure.dims and "motion" not in dataset["region"].dims:
         measure = measure.isel(motion=0)
     return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
+
+
+def _is_measure(dataset, name):
+    """Whether a variable is a property of the motions. The coordinate motion is their number. Of one motion chosen by
+    isel(), only the known measures can be told from properties of the block."""
+    if name not in dataset or name == "motion" or dataset[name].dtype.kind not in "fiu":
+        return False
+    return dataset[name].dims == ("motion",) or (not dataset[name].dims and name in (*POWERS, "record_pga"))
+
+
+def _blocks(region):
+    """Returns the number of blocks."""
+    return math.prod(count for name, count in region.sizes.items() if name not in ("motion", "scale", "pga"))
 
 
 def _units(measure, im):
@@ -224,9 +251,20 @@ def _left_out(cells, im):
     undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
     total = int(cells["points"].sum()) + undecided + not_computed
     unmeasured = int(cells["points"][~_measurable(cells)].sum())
-    return ([f"left out: {undecided} undecided and {not_computed} points that are not computed, of {total}"]
-            * (undecided + not_computed > 0)
+    motions = len(np.unique(cells["motion"]))
+    without = motions - len(np.unique(cells["motion"][cells["points"] > 0]))
+    return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]
+            * (not_computed > 0)
+            + [f"{without} of {motions} motions have no point with a verdict"] * (without > 0)
+            + [f"left out: {undecided} of {total} points, which are undecided"] * (undecided > 0)
             + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
+
+
+def _extrapolated(fit, edges, im):
+    """Returns a note if the median is outside the range of the points with a verdict."""
+    if not fit or edges[0] <= fit.median <= edges[-1]:
+        return []
+    return [f"extrapolated: the median is outside the data, which are from {im} = {edges[0]:.4g} to {edges[-1]:.4g}"]
 
 
 def _without_band(fit, counts, samples):

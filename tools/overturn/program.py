@@ -20,6 +20,12 @@ if TYPE_CHECKING:
 
 _WARNING = "overturn: warning: "  # begins a line of the program
 
+# Keys that name files: what to give, and which function takes arrays.
+FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations",
+         "scene.vertical": "a component of the record, a path, or a list of them. overturn.evaluate(vertical=...) "
+                           "takes accelerations",
+         "blocks.table": "the path of a CSV file. overturn.evaluate(width=..., height=...) takes arrays of blocks"}
+
 Job = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 
@@ -118,8 +124,27 @@ def _set_arguments(overrides):
     return [word for key, value in overrides.items() for word in ("--set", f"{key}={_toml(value, key)}")]
 
 
+def _expect_file_names(value, key):
+    """Raises an error if a key that names files has something else as its value, such as samples or a table."""
+    if key not in FILES:
+        return
+    names = value.tolist() if hasattr(value, "tolist") else value
+    kinds = (str, os.PathLike, int) if key == "scene.vertical" else (str, os.PathLike)
+    for name in names if isinstance(names, (list, tuple)) else [names]:
+        if not isinstance(name, kinds):
+            raise TypeError(f"{key} is {_described(value)}, but a job names files: give {FILES[key]}.")
+
+
+def _described(value):
+    shape = getattr(value, "shape", None)
+    if isinstance(value, (list, tuple)):
+        return f"a {type(value).__name__} of {len(value)} values"
+    return type(value).__name__ + (f" of the shape {tuple(shape)}" if shape is not None else "")
+
+
 def _toml(value, key):
     """Returns a value of a job in TOML, in one line."""
+    _expect_file_names(value, key)
     if hasattr(value, "tolist"):  # of NumPy
         value = value.tolist()
     if isinstance(value, bool):

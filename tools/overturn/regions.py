@@ -6,7 +6,8 @@ from matplotlib.patches import Patch
 
 # The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) through S (75), U1
 # (65, 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
-# readers. The minus of a pair is the darker one.
+# readers. The minus of a pair is the darker one. Of F, the main structure under records, the minus is the paper's grey,
+# and the plus differs in hue, too.
 UNDECIDED, NOT_COMPUTED = 254, 255
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
@@ -16,7 +17,7 @@ REGIONS = {
     4: ("U0−", "overturns, no more impacts", "#ffe27a"),
     5: ("U1+", "overturns, one more impact", "#c9961a"),
     6: ("U1−", "overturns, one more impact", "#b6801e"),
-    7: ("F+", "falls during the pulse", "#73737a"),
+    7: ("F+", "falls during the pulse", "#7d6fa5"),
     8: ("F−", "falls during the pulse", "#5e5e66"),
     UNDECIDED: ("", "undecided: see field status", "#e6007e"),
 }
@@ -34,7 +35,10 @@ def coloured(codes):
 
 
 def meaning_of(code, ground="pulse"):
-    """`ground` is a word for the ground motion."""
+    """`ground` is a word for the ground motion. At the end of a record, a safe block is at rest or nearly so: there are
+    no more impacts to count."""
+    if code == CODES["S"] and ground == "record":
+        return "safe"
     return REGIONS[code][1].replace("the pulse", f"the {ground}")
 
 

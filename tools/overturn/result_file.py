@@ -7,11 +7,12 @@ import pathlib
 import sys
 
 import h5py
+from overturn.output_file import FILE, OutputError, new_file
 
-USAGE, FILE = 2, 74  # exit codes, equal to those of overturn
+USAGE = 2  # exit code, equal to that of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 NEWEST_FORMAT = 3
-PICTURES = (".png", ".pdf", ".svg")
+PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
 PANELS = "overturn:panels"  # the PNG text chunk with the positions of the panels
 
 
@@ -57,12 +58,13 @@ def shortened(text, width):
 
 def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
-    title and of the tables in `shown`, whose values the picture shows elsewhere."""
+    title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows
+    elsewhere."""
     title = text_attribute(file, "title")
     if title:
         overrides = job_text(file, "job_overrides").splitlines()
         others = [shortened(words, 48) for words in overrides
-                  if words.split("=")[0].split(".")[0].strip() not in ("title", *shown)]
+                  if words.split("=")[0].split(".")[0].strip() not in ("title", "output", *shown)]
         title += (", with " + ", ".join(others)) * bool(others)
     return title
 
@@ -145,17 +147,22 @@ def place_of(panel, shows):
             "up": {"limits": list(map(float, panel.get_ylim())), "scale": panel.get_yscale()}}
 
 
+def write_picture(figure, path, **how):
+    """Writes a figure in the format that the suffix of the path names."""
+    import matplotlib
+    suffix = pathlib.Path(path).suffix
+    with new_file(path, f"a {suffix[1:].upper()} picture",
+                  lambda beginning: suffix in PICTURES and PICTURES[suffix] in beginning) as part, \
+            matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
+        figure.savefig(part, format=suffix[1:] or "png", **how)
+
+
 def save(figure, path, places=(), **how):
     """Saves and closes a figure; a PNG includes the positions of its panels."""
-    import matplotlib
     from matplotlib import pyplot
     if places and pathlib.Path(path).suffix == ".png":
         how["metadata"] = {PANELS: json.dumps(places)}
-    try:
-        with matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
-            figure.savefig(path, **how)
-    except OSError as error:
-        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    write_picture(figure, path, **how)
     pyplot.close(figure)
     print(path)
 
@@ -163,6 +170,6 @@ def save(figure, path, places=(), **how):
 def run_tool(name, main):
     try:
         main()
-    except PlotError as error:
+    except (PlotError, OutputError) as error:
         print(f"{name}: {error}", file=sys.stderr)
         sys.exit(error.code)

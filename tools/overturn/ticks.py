@@ -36,4 +36,4 @@ def set_axes(panel, across, up):
     for drawn, axis in ((panel.xaxis, across), (panel.yaxis, up)):
         name_ticks(drawn)
         if axis.only_value is not None:
-            drawn.set_ticks([axis.only_value], [f"{axis.only_value:.6g}"])
+            drawn.set_ticks([axis.only_value], [f"{axis.only_value:.4g}"])

@@ -10,8 +10,9 @@ import numpy as np
 from overturn.captions import heading, spectrum_words
 from overturn.fields import (dimensions_of, fields_of, has_values_without_mark,
                              slenderness_and_restitution)
+from overturn.output_file import write_text
 from overturn.regions import NOT_COMPUTED, REGIONS
-from overturn.result_file import USAGE, PlotError
+from overturn.result_file import PlotError
 from overturn.spectrum_file import open_spectrum, rows_of_tiles
 
 EXAMPLE = """\
@@ -35,6 +36,7 @@ colour by region, then Choose preset, Import; tick Annotations, Apply."""
 # ParaView opens .xdmf2 directly. For the other suffixes it asks which of three readers to use, and
 # only XDMF Reader can read a part of a dataset.
 ENDINGS = (".xdmf2", ".xdmf", ".xmf")
+PRESET = "overturn regions"
 NUMBERS = {"uint8": ("UChar", 1), "uint16": ("UShort", 2), "uint32": ("UInt", 4),
            "float64": ("Float", 8)}
 
@@ -137,7 +139,7 @@ def preset():
     entries.append((NOT_COMPUTED, "not computed yet", "#ffffff"))
     names = [text for code, name, _ in entries for text in (str(code), name)]
     colours = [part / 255 for *_, colour in entries for part in bytes.fromhex(colour[1:])]
-    return json.dumps([{"Name": "overturn regions", "Annotations": names,
+    return json.dumps([{"Name": PRESET, "Annotations": names,
                         "IndexedColors": colours}], indent=1) + "\n"
 
 
@@ -149,14 +151,6 @@ def reference_from(output, path):
                         "rename it without colons and control characters.")
     # ParaView drops a leading space or non-ASCII letter of a name.
     return os.path.join(os.curdir, relative)
-
-
-def write(path, text):
-    try:
-        pathlib.Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
-    print(path)
 
 
 def read_arguments(argv):
@@ -176,21 +170,17 @@ def read_arguments(argv):
     return arguments
 
 
-def refuse_to_overwrite(path, outputs):
-    for output in outputs:
-        if os.path.exists(output) and os.path.samefile(path, output):
-            raise PlotError(f"\"{output}\" is the result file itself; choose another name.", USAGE)
-
-
 def main(argv=None):
     arguments = read_arguments(argv)
     with open_spectrum(arguments.file, fields=()) as file:
-        refuse_to_overwrite(arguments.file, filter(None, (arguments.output, arguments.colours)))
         try:
             refuse_values_without_mark(file)
             text = describe(file, reference_from(arguments.output, arguments.file))
         except KeyError as error:
             raise PlotError(f"\"{arguments.file}\" is damaged: {error}.") from error
-    write(arguments.output, text)
+    write_text(arguments.output, text, "an XDMF file", lambda beginning: b"<Xdmf" in beginning)
+    print(arguments.output)
     if arguments.colours:
-        write(arguments.colours, preset())
+        write_text(arguments.colours, preset(), "a preset of tools/to_xdmf",
+                   lambda beginning: f"\"{PRESET}\"".encode() in beginning)
+        print(arguments.colours)

@@ -48,6 +48,10 @@ class Page:
         job = pathlib.Path(result).stem
         self.figures[number] = Drawn(name, commands, job if job in self.spectra else "")
 
+    @staticmethod
+    def is_own(beginning):
+        return b"<title>Rocking of rigid blocks: the computed figures</title>" in beginning
+
     def text(self):
         words = tomllib.loads(part("figures.toml"))["section"]
         some = next(iter(self.spectra.values()))

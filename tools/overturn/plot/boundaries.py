@@ -45,6 +45,8 @@ SHADES = {SAFE: REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMP
 FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", REGIONS[254][2]
 CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
 ROWS = 1400  # of the shading: half a pixel at the default size
+COLUMN = 4  # height over width of the panel of a single block and frequency
+WORDS = {"amplitude": "amplitude", "scale": "scale", "pga": "PGA"}  # for what is scanned
 
 
 class Lines:
@@ -54,7 +56,8 @@ class Lines:
         across, up = quantities(file, units)
         self.frequency = values_of(file, across, outer)
         self.across, self.up = axis_of(file, across, outer), Axis(scan_of(file, up, outer))
-        self.ground = ground_word(file)
+        self.ground, self.word = ground_word(file), WORDS[up]
+        self.is_column = self.across.only_value is not None
         self.flips = read_field(file, name_of_flips(up), outer)
         codes = np.stack([read_field(file, name, outer) for name in ("region_below", "region_above")])
         # In older files a line without flips has no region, and an undecided line lacks flips.
@@ -120,11 +123,12 @@ def legend_entries(all_lines):
 
     def shade_of(verdict):
         return Patch(facecolor=SHADES[verdict], edgecolor="black", linewidth=0.5)
-    lowest = "minimum overturning amplitude" if all_lines[0].ground == "pulse" else "lowest flip found"
+    word = all_lines[0].word
+    lowest = f"minimum overturning {word}" if all_lines[0].ground == "pulse" else "lowest flip found"
     entries = [
         (lambda lines: np.isfinite(lines.minimum()), marks(".", FIRST, 9), lowest),
         (lambda lines: lines.overturns_at_once, marks("^", FIRST, 5),
-         "overturns at the first amplitude of the job"),
+         f"overturns at the first {word} of the job"),
         (lambda lines: np.isfinite(lines.others()), marks(".", OTHERS, 6), "other flips"),
         (lambda lines: True, shade_of(UNSAFE), "overturns"),
         (lambda lines: True, shade_of(SAFE), "safe"),
@@ -138,12 +142,14 @@ def legend_entries(all_lines):
 
 def draw_panel(panel, lines):
     shade(panel, lines)
+    if lines.is_column:  # its width has no meaning
+        panel.set_box_aspect(COLUMN)
     draw_flips(panel, lines)
 
 
-def note_on_strips(file):
+def note_on_strips(file, lines):
     step = float(file["flip_amplitude"].attrs["finest_step"])
-    return (f"Scanned in steps of {100 * step:g} % of the scale or less.", "There are narrower strips, "
+    return (f"Scanned in steps of {100 * step:g} % of the {lines.word} or less.", "There are narrower strips, "
             "which are not drawn.")
 
 
@@ -158,14 +164,35 @@ def draw_sheet(file, spectra, columns, units):
     handles, labels = legend_entries(all_lines)
     labels = ["\n".join(textwrap.wrap(label, 30)) for label in labels]
     sheet.explain(handles=handles, labels=labels, handler_map={tuple: HandlerTuple(None)},
-                  title="\n".join(textwrap.wrap(" ".join(note_on_strips(file)), 32)) if is_recorded(file)
+                  title="\n".join(textwrap.wrap(" ".join(note_on_strips(file, all_lines[0])), 32))
+                  if is_recorded(file)
                   else None)
     return list(sheet.panels.flat[:len(spectra)])
 
 
+def draw_column(file, outer, lines, units):
+    """Draws a boundary of a single size or frequency."""
+    figure = pyplot.figure(figsize=(6, 6.6))
+    panel = figure.add_axes((0.13, 0.085, 0.24, 0.755))
+    draw_panel(panel, lines)
+    panel.set_anchor("NW")
+    across, up = name_axes(file, units)
+    panel.set(xlabel=across, ylabel=up)
+    handles, labels = legend_entries([lines])
+    note = "\n".join(textwrap.wrap(" ".join(note_on_strips(file, lines)), 40)) if is_recorded(file) else None
+    figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left", title=note,
+                  bbox_to_anchor=(0.38, 0.855), frameon=False, fontsize=9.5, handletextpad=0.5,
+                  alignment="left").get_title().set_fontsize(9.5)
+    figure.text(0.13, 0.955, plain(heading(file, [outer]), 48), fontsize=13)
+    figure.text(0.13, 0.918, subtitle(file, [outer], units), fontsize=10)
+    return panel
+
+
 def draw_figure(file, outer, units):
-    figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
     lines = Lines(file, outer, units)
+    if lines.is_column:
+        return draw_column(file, outer, lines, units)
+    figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
     draw_panel(panel, lines)
     across, up = name_axes(file, units)
     panel.set(xlabel=across, ylabel=up)
@@ -178,7 +205,7 @@ def draw_figure(file, outer, units):
     figure.text(0.085, 0.955, plain(heading(file, [outer]), 80), fontsize=13)
     figure.text(0.085, 0.918, subtitle(file, [outer], units), fontsize=10)
     if is_recorded(file):
-        figure.text(0.5, 0.013, " ".join(note_on_strips(file)), ha="center", fontsize=10)
+        figure.text(0.5, 0.013, " ".join(note_on_strips(file, lines)), ha="center", fontsize=10)
         figure.subplots_adjust(bottom=0.115)
     return panel
 

@@ -2,29 +2,37 @@
 intensity measures, with lognormal fits and their confidence."""
 
 import argparse
+import dataclasses
+import itertools
 import pathlib
 import textwrap
 
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from overturn.block_groups import groups_of
 from overturn.interpreter import run_elsewhere
-from overturn.result_file import USAGE, PlotError, add_picture_argument, name_picture, save
+from overturn.result_file import (USAGE, PlotError, add_picture_argument, escaped, name_picture, plain,
+                                  save, shortened)
 from overturn.ticks import name_ticks
 
 EXAMPLE = """\
 example:
   tools/synthetic_record --suite 50 -o jobs/suite    # writes 50 synthetic records
   overturn run jobs/suite/fragility.toml             # writes fragility.h5
-  tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility.png, a panel for each measure
+  tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility_fragility.png, a panel each
+  tools/plot_fragility fragility.h5 --by size        # four curves, each of a quarter of the sizes
 
 The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence interval at each
 value, by bootstrap over the motions. beta is the scatter: the smaller, the better the measure predicts
 the outcome. Points without a verdict (undecided, or not computed yet) are left out, counted and reported.
+All blocks are pooled in one curve, unless --by groups them.
 
 Other choices of blocks, and the numbers as arrays: overturn.fragility() in Python."""
 
-CURVE, BAND, POINT = "#0b3c5d", "#b9cfdd", "#b3541e"  # CIE L* 24, 82 and 44: distinct in greyscale
+BAND, POINT = "#b9cfdd", "#b3541e"
+# Of the curves: CIE L* from 24 to 60, with markers of their own.
+COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#3f7a43", "#8f2d56", "#7d7d85", "#4b2e83"), "osD^vP"
 NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
          "significant_duration": "significant duration"}
 UNITS = {"m s-1": "m/s"}
@@ -37,43 +45,70 @@ def fragility(curve, ax=None):
     points could give. Notes are written below the axes."""
     if ax is None:
         ax = pyplot.figure(figsize=(5.5, 4.8), layout="constrained").add_subplot()
-    if len(curve.edges):
-        draw_bins(ax, curve)
+    return draw_panel(ax, [curve])
+
+
+def draw_panel(ax, curves):
+    """Draws the curves of one intensity measure, one for each group of blocks."""
+    first, is_alone = curves[0], len(curves) == 1
+    styles = itertools.product(("-", "--"), zip(COLOURS, MARKERS))
+    for curve, (line, (colour, marker)) in zip(curves, styles):
+        if len(curve.edges):
+            draw_bins(ax, curve, POINT if is_alone else colour, marker, "full" if line == "-" else "none")
+        if np.isfinite(curve.median):
+            draw_fit(ax, curve, colour, line, len(curves))
+    ends = [end for curve in curves if len(curve.edges) for end in (curve.edges[0] / 1.05, curve.edges[-1] * 1.05)]
+    if ends:
         ax.set_xscale("log")
-        ax.set_xlim(curve.edges[0] / 1.05, curve.edges[-1] * 1.05)
+        ax.set_xlim(min(ends), max(ends))
         name_ticks(ax.xaxis)
-    if np.isfinite(curve.median):
-        draw_fit(ax, curve)
     ax.set_ylim(-0.03, 1.03)
-    ax.set_ylabel("fraction that overturns" if curve.limit is None
-                  else rf"fraction with a peak $|\theta|\,/\,\alpha$ above {curve.limit:g}")
-    ax.set_xlabel("\n".join([f"{NAMES.get(curve.im, curve.im)} [{UNITS.get(curve.units, curve.units)}]",
-                             *(line for note in curve.notes for line in textwrap.wrap(note, TEXT_WIDTH))]))
+    ax.set_ylabel("fraction that overturns" if first.limit is None
+                  else rf"fraction with a peak $|\theta|\,/\,\alpha$ above {first.limit:g}")
+    notes = [escaped(f"{curve.group}: {note}" if curve.group else note) for curve in curves for note in curve.notes]
+    ax.set_xlabel("\n".join([f"{NAMES.get(first.im, first.im)} [{UNITS.get(first.units, first.units)}]",
+                             *(line for note in notes for line in textwrap.wrap(note, TEXT_WIDTH))]))
+    ax.set_title(counts_text(curves), fontsize=9)
     ax.grid(color="0.9")
     ax.set_axisbelow(True)
     if ax.get_legend_handles_labels()[0]:
-        ax.legend(loc="best", fontsize=9)
+        where = {"loc": "best"} if is_alone else {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
+        ax.legend(fontsize=9, **where)
     return ax
 
 
-def draw_bins(ax, curve):
+def counts_text(curves):
+    motions, blocks = max(curve.motions for curve in curves), sum(curve.blocks for curve in curves)
+    what = f"{motions} motion{'s' * (motions != 1)},  {blocks} block{'s' * (blocks != 1)}"
+    if len(curves) > 1:
+        return what + f" in {len(curves)} groups"
+    return what + " pooled" * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
+
+
+def draw_bins(ax, curve, colour, marker, fillstyle):
     middle = np.sqrt(curve.edges[:-1] * curve.edges[1:])
     decided = curve.points > 0
-    ax.plot(middle[decided], curve.fraction[decided], "o", color=POINT, zorder=3,
-            label="fraction of the points in a bin")
+    blocks = f"{curve.blocks} block{'s' * (curve.blocks != 1)}"
+    ax.plot(middle[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
+            label=escaped(f"{shortened(curve.group, 32)} ({blocks})") if curve.group
+            else "fraction of the points in a bin")
     unknown = curve.without_verdict > 0
     if unknown.any():
         total = (curve.points + curve.without_verdict)[unknown]
         low, high = curve.exceeding[unknown] / total, (curve.exceeding + curve.without_verdict)[unknown] / total
-        ax.vlines(middle[unknown], low, high, color=POINT, linewidth=4, alpha=0.45,
+        ax.vlines(middle[unknown], low, high, color=colour, linewidth=4, alpha=0.45,
                   label="with points without a verdict")
 
 
-def draw_fit(ax, curve):
-    if np.isfinite(curve.band).all():
-        ax.fill_between(curve.value, *curve.band, color=BAND, linewidth=0, label="95 % confidence of the curve")
-    ax.plot(curve.value, curve.probability, color=CURVE, linewidth=2,
-            label=rf"lognormal: median {curve.median:.3g}, $\beta$ = {curve.beta:.2f}")
+def draw_fit(ax, curve, colour, line, count):
+    is_alone = count == 1
+    if np.isfinite(curve.band).all() and count <= len(COLOURS):  # more bands would hide each other
+        how = {"color": BAND, "label": "95 % confidence of the curve"} if is_alone else {"color": colour, "alpha": 0.12}
+        ax.fill_between(curve.value, *curve.band, linewidth=0, **how)
+    is_within = curve.edges[0] <= curve.median <= curve.edges[-1]
+    ax.plot(curve.value, curve.probability, line, color=colour, linewidth=2,
+            label=rf"{'lognormal: ' * is_alone}median {curve.median:.3g}{'' if is_within else ' (extrapolated)'}, "
+                  rf"$\beta$ = {curve.beta:.2f}")
 
 
 def read_arguments(argv):
@@ -86,20 +121,24 @@ def read_arguments(argv):
     parser.add_argument("--limit", type=float, metavar="PEAK",
                         help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
                              "otherwise those that overturn")
+    parser.add_argument("--by", metavar="COLUMN",
+                        help="a curve for each value of a column of the table of blocks, or of an axis such as "
+                             "size; of more than 6 numbers, for each quarter of the blocks")
     parser.add_argument("--bins", type=int, metavar="N", default=10, help="number of bins (default: %(default)s)")
     parser.add_argument("--samples", type=int, metavar="N", default=1000,
                         help="samples of the bootstrap (default: %(default)s)")
     parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
     parser.add_argument("--csv", metavar="OUT.csv",
-                        help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures")
-    add_picture_argument(parser)
+                        help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
+                             "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
+    add_picture_argument(parser, "FILE_fragility.png")
     arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
+    name_picture(parser, arguments, pathlib.Path(arguments.file).stem + "_fragility.png")
     return arguments
 
 
 def compute(arguments):
-    """Returns the curve of each measure."""
+    """Returns the title, and the curves of each measure, one for each group of blocks."""
     try:
         import h5netcdf  # noqa: F401 (for overturn.open)
         import scipy  # noqa: F401 (for overturn.fragility)
@@ -112,34 +151,49 @@ def compute(arguments):
         raise PlotError(f"cannot read \"{arguments.file}\": {error}") from error
     with dataset:
         try:
-            return [overturn.fragility(dataset, im, arguments.limit, bins=arguments.bins,
-                                       samples=arguments.samples, seed=arguments.seed) for im in arguments.im]
+            return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
         except ValueError as error:
             raise PlotError(f"\"{arguments.file}\": {error}", USAGE) from error
 
 
-def write_csv(curve, arguments):
+def curves_of(dataset, im, arguments):
+    def curve_of(blocks):
+        return overturn.fragility(blocks, im, arguments.limit, bins=arguments.bins, samples=arguments.samples,
+                                  seed=arguments.seed)
+    if arguments.by is None:
+        return [curve_of(dataset)]
+    from overturn.fragility_curve import expect_records  # needs SciPy
+    expect_records(dataset)
+    return [dataclasses.replace(curve_of(blocks), group=group)
+            for group, blocks in groups_of(dataset, arguments.by).items()]
+
+
+def title_of(dataset, arguments):
+    name = dataset.attrs.get("title") or f"Fragility: {pathlib.Path(arguments.file).name}"
+    return name + f", by {arguments.by}" * bool(arguments.by)
+
+
+def write_csv(curve, number, arguments):
     path = pathlib.Path(arguments.csv)
-    if len(arguments.im) > 1:
-        path = path.with_name(f"{path.stem}_{curve.im}{path.suffix}")
-    try:
-        curve.to_csv(path)
-    except OSError as error:
-        raise PlotError(f"cannot write \"{path}\": {error.strerror}.") from error
+    words = [curve.im] * (len(arguments.im) > 1) + [str(number)] * bool(curve.group)
+    path = path.with_name("_".join([path.stem, *words]) + path.suffix)
+    curve.to_csv(path)
     print(path)
 
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    curves = compute(arguments)
-    for curve in curves:
-        print(curve.summary())
-        if arguments.csv:
-            write_csv(curve, arguments)
-    figure, panels = pyplot.subplots(1, len(curves), squeeze=False, sharey=True, layout="constrained",
-                                     figsize=(5.5 * len(curves), 4.8))
-    for panel, curve in zip(panels.flat, curves):
-        fragility(curve, panel)
+    title, by_measure = compute(arguments)
+    for curves in by_measure:
+        for number, curve in enumerate(curves, 1):
+            print(curve.summary())
+            if arguments.csv:
+                write_csv(curve, number, arguments)
+    figure, panels = pyplot.subplots(1, len(by_measure), squeeze=False, sharey=True, layout="constrained",
+                                     figsize=((5.5 if arguments.by is None else 8.3) * len(by_measure), 5.2))
+    for panel, curves in zip(panels.flat, by_measure):
+        draw_panel(panel, curves)
     for panel in panels.flat[1:]:
         panel.set_ylabel("")
+    figure.suptitle(plain(title, 58 * len(by_measure)), fontsize=12, x=0.02, ha="left")
     save(figure, arguments.output, dpi=150)

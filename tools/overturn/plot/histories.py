@@ -14,6 +14,7 @@ from overturn.captions import (JOB, PHYSICAL, ground_text, ground_word, is_linea
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import (PlotError, add_picture_argument, damage_reported, events_of,
                                   name_picture, open_result, path_of, plain, save, title_of)
+from overturn.ticks import name_ticks
 from overturn.units import add_units_argument, expect_size, uplift_threshold
 
 EXAMPLE = """\
@@ -35,6 +36,8 @@ INK = "#1f3b57"
 LIMIT = "#c8422b"
 MARKS = {UPLIFT: ("^", "uplift"), REST: ("s", "at rest"), FALL: ("X", "fall")}
 MOST_IMPACT_LINES = 60
+LIMITS = {"angle": r"$|\theta| = \alpha$: balance on an edge"}  # meaning of the dashed lines
+LIMITS_OF_UPRIGHT = "limits for an upright block that does not overturn"
 
 # Variable, axis label, share of the height.
 PULSE_PANELS = (
@@ -106,6 +109,7 @@ class History:
 
 
 def draw_panel(axes, history, name, label):
+    """Draws a quantity; returns legend entries of its dashed lines."""
     values = history.values[name]
     axes.axvspan(0, min(history.end_of_ground_motion, history.time[-1]), color="#eeeeee", zorder=0)
     impacts = history.impacts()
@@ -116,23 +120,30 @@ def draw_panel(axes, history, name, label):
     axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
     spread = np.ptp(values) or 1
     low, high = values.min() - 0.08 * spread, values.max() + 0.08 * spread
-    for limit in history.limits(name):
-        if low - spread <= limit <= high + spread:  # a distant limit would flatten the curve
-            axes.axhline(limit, color=LIMIT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=2)
-            low, high = min(low, limit - 0.08 * spread), max(high, limit + 0.08 * spread)
+    dashed = {"color": LIMIT, "linewidth": 0.9, "linestyle": (0, (4, 3))}
+    shown = [limit for limit in history.limits(name)
+             if low - spread <= limit <= high + spread]  # a distant limit would flatten the curve
+    for limit in shown:
+        axes.axhline(limit, zorder=2, **dashed)
+        low, high = min(low, limit - 0.08 * spread), max(high, limit + 0.08 * spread)
     axes.axhline(0, color="0.6", linewidth=0.6, zorder=1)
     axes.set_ylim(low, high)
     axes.set_ylabel(label, fontsize=9)
     axes.tick_params(labelsize=8)
-    axes.ticklabel_format(axis="y", scilimits=(-2, 3))
-    axes.yaxis.get_offset_text().set_fontsize(8)
+    name_ticks(axes.yaxis)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+    return [Line2D([], [], label=LIMITS.get(name, LIMITS_OF_UPRIGHT), **dashed)] * bool(shown)
 
 
-def mark_events(axes, history, **place_of_legend):
-    """Marks uplift, rest and overturning on the curve of the angle. Under a record, impacts are
-    ticks below it, because they are often too many for lines."""
+def explain(axes, handles, **place):
+    if handles:
+        axes.legend(handles=handles, fontsize=8, handletextpad=0.4, **place)
+
+
+def mark_events(axes, history):
+    """Marks uplift, rest and overturning on the curve of the angle, and returns their legend entries. Under a record,
+    impacts are ticks below it, because they are often too many for lines."""
     handles = []
     for kind, (marker, name) in MARKS.items():
         points = [(when, angle) for when, what, angle in history.events if what == kind]
@@ -154,8 +165,7 @@ def mark_events(axes, history, **place_of_legend):
         many = count > MOST_IMPACT_LINES and not history.is_recorded
         handles.append(Line2D([], [], **style, label=f"{count} impact{'s' * (count > 1)}"
                                                      f"{', too many to mark' * many}"))
-    if handles:
-        axes.legend(handles=handles, fontsize=8, handletextpad=0.4, **place_of_legend)
+    return handles
 
 
 def point_of(file, units):
@@ -183,13 +193,13 @@ def describe(file, units=JOB):
                if region in REGIONS and region != UNDECIDED else "undecided")
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     values = point_of(file, units)
-    point = [f"{symbol.replace('{threshold}', threshold)} = {values[name]:g}{unit}, "
+    point = [f"{symbol.replace('{threshold}', threshold)} = {values[name]:.4g}{unit}, "
              for name, symbol, unit in AXES if name in values]
     alpha = (slenderness_text(attributes["slenderness"], units) if units == PHYSICAL
-             else rf"$\alpha$ = {attributes['slenderness']:.6g} rad")
+             else rf"$\alpha$ = {attributes['slenderness']:.4g} rad")
     record = [plain(ground_text(file), 40) + ", "] * is_recorded(file)
     return ("".join([*record, *point]) +
-            rf"{alpha}, $r$ = {attributes['restitution']:.6g}: "
+            rf"{alpha}, $r$ = {attributes['restitution']:.4g}: "
             f"{outcome}")
 
 
@@ -204,11 +214,12 @@ def draw_figure(file, history, units):
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):
-        draw_panel(axes, history, name, label)
+        handles = draw_panel(axes, history, name, label)
         axes.yaxis.set_label_coords(-0.075, 0.5)
         if name == "angle":
-            mark_events(axes, history, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0,
-                        frameon=False, ncols=len(MARKS) + 1)
+            handles += mark_events(axes, history)
+        explain(axes, handles, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0, frameon=False,
+                ncols=len(MARKS) + 2)
     name_time(panels[-1], file, history)
     title = title_of(file, ("plane", "block")) or ground_text(file)
     figure.suptitle(plain(title), fontsize=11, x=0.02, ha="left", y=1 - 0.092 / height)
@@ -227,8 +238,8 @@ def draw(path, arguments, ax=None):
         if ax is None:
             return draw_figure(file, shown, arguments.units).axes
         label = next(label for name, label, _ in shown.panels if name == "angle")
-        draw_panel(ax, shown, "angle", label)
-        mark_events(ax, shown)
+        dashed = draw_panel(ax, shown, "angle", label)
+        explain(ax, mark_events(ax, shown) + dashed)
         name_time(ax, file, shown)
         return ax
 

@@ -1,0 +1,51 @@
+"""Groups of the blocks of a result, by the values of a column of its table or of an axis."""
+
+import numpy as np
+
+MOST_GROUPS = 12  # curves that can be told apart
+MOST_NUMBERS = 6  # different numbers with a group of their own
+RANGES = 4  # of a column with more
+
+
+def groups_of(dataset, column):
+    """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn". There is a group for each
+    value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks.
+
+    Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
+    known = sorted(name for name in dataset.variables if _is_of_blocks(dataset, name))
+    if column not in known:
+        raise ValueError(f"{column!r} is not a property of the blocks. This result has {', '.join(known)}.")
+    values, (dimension,) = dataset[column].values, dataset[column].dims
+    labels = _labels(column, values)
+    return {f"{column} = {label}": dataset.isel({dimension: np.flatnonzero(labels == label)})
+            for label in dict.fromkeys(labels[np.argsort(values, kind="stable")] if values.dtype.kind in "fiu"
+                                       else sorted(labels))}
+
+
+def _is_of_blocks(dataset, name):
+    dimensions = dataset[name].dims
+    return (len(dimensions) == 1 and dimensions[0] in dataset["region"].dims
+            and dimensions[0] not in ("motion", "scale", "pga"))
+
+
+def _labels(column, values):
+    """Returns the group of each value."""
+    if values.dtype.kind not in "fiu":
+        labels = np.array([str(value).strip() or "(empty)" for value in values], object)
+        count = len(set(labels))
+        if count > MOST_GROUPS:
+            raise ValueError(f"{column} has {count} different texts; a picture has at most {MOST_GROUPS} curves. "
+                             "Choose another column.")
+        return labels
+    labels = np.full(len(values), "not given", object)
+    known = np.isfinite(values)
+    numbers = values[known]
+    if len(np.unique(numbers)) <= MOST_NUMBERS:
+        labels[known] = [f"{number:g}" for number in numbers]
+        return labels
+    ends = np.quantile(numbers, np.arange(1, RANGES) / RANGES)
+    place = np.searchsorted(ends, numbers)
+    for each in range(RANGES):
+        some = numbers[place == each]
+        labels[np.flatnonzero(known)[place == each]] = f"{some.min():.4g} to {some.max():.4g}" if some.size else ""
+    return labels
