@@ -46,10 +46,12 @@ inline constexpr const char* topple = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --plot tilt.png
 
 Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
-it, and the ranges of the PGA, up to --pga-max, in which it topples: for the given restitution, and
-for 0.8 to 1 times r_max, because restitutions are rarely known. g is 9.81 m/s2, unless --set
-scene.gravity=... changes it. The exit code is 0 whatever the verdict. Spectra and suites of records
-need a job file: see overturn run.)";
+it, and the ranges of the PGA in which it topples or the verdict is undecided: for the given
+restitution, and for 0.8 to 1 times r_max, because restitutions are rarely known. Accelerations
+within the search and in none of the ranges are safe. The search ends at --pga-max, or where the
+vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... changes it. Values
+that are probably in another unit cause a warning. The exit code is 0 whatever the verdict. Spectra
+and suites of records need a job file: see overturn run.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";

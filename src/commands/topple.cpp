@@ -18,8 +18,10 @@
 #include <array>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -314,6 +316,17 @@ struct TemporaryFolder {
     }
 };
 
+/// The last line of a file, such as the message of a program that failed.
+std::string last_line_of(const std::string& path)
+{
+    std::ifstream file(path);
+    std::string last = "no reason was given.";
+    for (std::string line; std::getline(file, line);) {
+        last = line.empty() ? last : line;
+    }
+    return last;
+}
+
 void plot(const Job& job, const std::string& picture)
 {
     const std::string tool = plotting_tool().string();
@@ -331,12 +344,15 @@ void plot(const Job& job, const std::string& picture)
     posix_spawn_file_actions_t silent; // only the answer is printed
     posix_spawn_file_actions_init(&silent);
     posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const std::string errors = folder.path + "/errors";
+    posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT,
+                                     S_IRUSR | S_IWUSR);
     const bool ran =
         posix_spawn(&child, tool.c_str(), &silent, nullptr, arguments.data(), environ) == 0 &&
         waitpid(child, &status, 0) == child;
     posix_spawn_file_actions_destroy(&silent);
     if (!ran || status != 0) {
-        throw FileError(fmt::format("{} could not draw \"{}\".", tool, picture));
+        throw FileError(fmt::format("--plot: the picture was not drawn: {}", last_line_of(errors)));
     }
 }
 

@@ -128,6 +128,14 @@ class Toppling(Scratch):
             self.assertIn(f">{words}<", picture)
         self.assertNotIn("history.h5", self.files())
 
+    def test_that_cannot_be_drawn_tells_why(self):
+        for picture, reason in (("none/tilt.png", "No such file or directory"),
+                                ("tilt.xyz", "must end in .png")):
+            result = self.overturn("topple", *PULSE, "--pga", "0.9", "--plot", picture)
+            self.assert_exit(result, 74)
+            self.assertEqual(len(result.stderr.splitlines()), 1)
+            self.assertIn(reason, result.stderr)
+
     def assert_partition(self, answer):
         """Checks that the ranges of the three kinds cover the search without gaps."""
         end = answer["end_of_search"]
