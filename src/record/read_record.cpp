@@ -1,6 +1,7 @@
 #include "overturn/record/read_record.hpp"
 
 #include "overturn/record/text_file.hpp"
+#include "overturn/record/utf8.hpp"
 
 #include "formats.hpp"
 #include "numbers.hpp"
@@ -224,6 +225,9 @@ RecordFile parse_record(std::string_view text, const std::string& name,
     case Format::smc: file = read_smc(lines); break;
     case Format::text: file = read_text_with_unit(lines, name, options); break;
     case Format::unknown: refuse_format(lines, name);
+    }
+    for (RecordComponent& component : file.components) {
+        component.name = as_utf8(component.name);
     }
     if (file.format != "AT2") { // which may state any unit
         expect_no_other_unit(file, name);

@@ -99,9 +99,12 @@ TEST(At2, MayBeginWithTheByteOrderMarkOfUtf8)
     EXPECT_EQ(component_of("\xef\xbb\xbf" + sound).header, component_of(sound).header);
 }
 
-TEST(At2, KeepsHeadersInAnyEncoding)
+TEST(At2, KeepsHeadersInAnyEncodingButNamesItsComponentInUtf8)
 {
-    EXPECT_EQ(component_of(with(sound, "A Station, 230", "M\xe9xico, \xd1")).name, "\xd1");
+    const RecordComponent component =
+        component_of(with(sound, "A Station, 230", "M\xe9xico, \xd1"));
+    EXPECT_EQ(component.header[1], "Somewhere-01, 1/17/1994, M\xe9xico, \xd1");
+    EXPECT_EQ(component.name, "\u00d1");
 }
 
 struct Data {

@@ -32,7 +32,8 @@ constexpr std::string_view name_of(AccelerationUnit unit)
 
 /// One component of a recorded motion.
 struct RecordComponent {
-    /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat.
+    /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat. Bytes
+    /// that are not UTF-8 are read as Latin-1.
     std::string name;
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
