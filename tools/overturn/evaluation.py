@@ -44,7 +44,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              pulse_period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
              frequency: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None,
-             pulse: str = "one_sine", window: float | None = None, cycles: float | None = None,
+             pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
              record: ArrayLike | None = None, vertical: ArrayLike | None = None,
              time_step: float | None = None, scale: ArrayLike | None = None,
@@ -64,7 +64,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     A pulse:
         pulse_period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
         pga*: peak ground acceleration over g [1]; or amplitude*, over the acceleration that lifts the block [1].
-        pulse: its kind; window, cycles, gamma, nu: numbers that complete some kinds, see docs/jobs.md.
+        pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
+            docs/jobs.md.
     Or a record:
         record: horizontal accelerations over g [1], one-dimensional, linear between samples.
         vertical: vertical accelerations over g [1] at the same times, positive upwards.
@@ -95,9 +96,10 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             raise TypeError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
                             "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
-        scene = core.scene_of_pulse(pulse, theory, numbers["gravity"], {name: numbers[name] for name in shape_numbers})
+        scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, numbers["gravity"],
+                                    {name: numbers[name] for name in shape_numbers})
     else:
-        _refuse({**of_pulse, **shape_numbers}, "cannot be combined with record")
+        _refuse({**_given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
         if time_step is None or (scale is None) == (pga is None):
             raise TypeError("a record needs time_step, and either scale or pga.")
         columns |= _given(scale=scale)
@@ -119,10 +121,22 @@ def _number(name, value):
 
 
 def _numbers(name, value):
+    if _has_masked_values(value):
+        raise ValueError(f"{name} has masked values. Remove these points.")
     try:
-        return np.asarray(value, float)
+        array = np.asarray(value)
+        kinds = {np.asarray(each).dtype.kind for each in array.flat} if array.dtype.kind == "O" else {array.dtype.kind}
+        if kinds & set("cMmV"):  # complex numbers, dates and times, records
+            raise TypeError
+        return np.asarray(array, float)
     except (TypeError, ValueError):
         raise ValueError(f"{name} is not a number or an array of numbers.") from None
+
+
+def _has_masked_values(value):
+    if isinstance(value, (list, tuple)):
+        return any(map(_has_masked_values, value))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.getmaskarray(value).any())
 
 
 def _refuse(arguments, reason):
