@@ -45,9 +45,24 @@ std::string override_of(const std::string& at)
     return fmt::format("plane.{}.values=[{}]", name, value);
 }
 
+/// Refuses two values of one axis, or of two axes that give the same quantity.
+void expect_one_value_per_axis(const std::vector<std::string>& given)
+{
+    const auto axis_of = [](const std::string& at) { return trimmed(at.substr(0, at.find('='))); };
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (exclude_each_other(axis_of(given[i]), axis_of(given[j]))) {
+                throw UsageError(fmt::format("--at {}: {} gives the same quantity. Give one value.",
+                                             given[i], given[j]));
+            }
+        }
+    }
+}
+
 /// Messages name the --at argument, not the override that it stands for.
 Job read_job_at(const HistoryOptions& options)
 {
+    expect_one_value_per_axis(options.at);
     std::vector<std::string> overrides = options.job.overrides;
     for (const std::string& at : options.at) {
         overrides.push_back(override_of(at));
@@ -124,7 +139,7 @@ void expect_gravity(const Job& job, double scale)
         throw JobError(fmt::format("plane.{} = {}: the vertical motion of \"{}\" cancels gravity. "
                                    "Use a scale below {:.6g}, which is a PGA of {:.6g} g.",
                                    name_of(job.plane.amplitude_is), job.plane.amplitude.first(),
-                                   motion.file, motion.largest_scale,
+                                   motion.name, motion.largest_scale,
                                    motion.largest_scale * motion.measures.pga));
     }
 }

@@ -1,28 +1,13 @@
 // Text from untrusted files, made safe for a terminal.
 #pragma once
 
+#include "overturn/record/utf8.hpp"
+
 #include <algorithm>
 #include <string>
 #include <string_view>
 
 namespace overturn {
-
-/// The number of bytes in the first UTF-8 character; 0 if it is invalid.
-inline std::size_t letter_length(std::string_view text)
-{
-    const auto first = static_cast<unsigned char>(text[0]);
-    const std::size_t length = first < 0x80                    ? 1
-                               : first >= 0xc2 && first < 0xe0 ? 2
-                               : first >= 0xe0 && first < 0xf0 ? 3
-                               : first >= 0xf0 && first < 0xf5 ? 4
-                                                               : 0;
-    const auto continues = [](char byte) {
-        return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
-    };
-    const bool is_whole = length > 0 && length <= text.size() &&
-                          std::all_of(text.begin() + 1, text.begin() + length, continues);
-    return is_whole ? length : 0;
-}
 
 /// Replaces each control character except newline, and each byte of invalid UTF-8, by a question
 /// mark. Job files and result files are untrusted, and could contain terminal escape sequences.

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -26,7 +28,26 @@ inline void shorten(std::vector<std::string>& lines)
     }
 }
 
-/// A line for each record: its file, components, duration and intensity.
+/// A line for each record whose accelerations are those of an earlier one under another name.
+inline std::vector<std::string> lines_of_equal_records(const Job& job)
+{
+    std::vector<std::string> lines;
+    std::map<std::pair<std::string, double>, std::string> names;
+    for (const Motion& motion : job.motions) {
+        const auto [first, is_new] =
+            names.emplace(std::pair(motion.checksum, motion.time_step), motion.name);
+        if (!is_new) {
+            lines.push_back(printable(
+                fmt::format("{}: the same accelerations as {}; it counts as another motion",
+                            motion.name, first->second)));
+        }
+    }
+    shorten(lines);
+    return lines;
+}
+
+/// A line for each record: its file, components, duration and intensity. Then a line for each that
+/// equals another one.
 inline std::vector<std::string> record_lines(const Job& job)
 {
     std::vector<std::string> lines;
@@ -40,6 +61,8 @@ inline std::vector<std::string> record_lines(const Job& job)
                                               motion.measures.pga, motion.measures.pgv)));
     }
     shorten(lines);
+    const std::vector<std::string> equal = lines_of_equal_records(job);
+    lines.insert(lines.end(), equal.begin(), equal.end());
     return lines;
 }
 
@@ -53,7 +76,7 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
                 "are undecided (status 16, free_fall)",
-                motion.file, motion.largest_scale)));
+                motion.name, motion.largest_scale)));
         }
     }
     shorten(lines);

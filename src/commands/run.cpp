@@ -218,6 +218,9 @@ int compute_missing_tiles(const Task& task)
                 file.forget(task.tiling[number]);
             }
         }
+        for (const std::string& line : lines_of_equal_records(task.job)) {
+            say(line);
+        }
         for (const std::string& line : free_fall_lines(task.job)) {
             say(line);
         }

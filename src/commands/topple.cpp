@@ -34,10 +34,15 @@ namespace fs = std::filesystem;
 
 std::string quoted(const std::string& text)
 {
+    if (!is_utf8(text)) {
+        throw UsageError(fmt::format("{} is not UTF-8. Rename the file.", as_utf8(text)));
+    }
     std::string result;
-    for (const char letter : text) {
-        result +=
-            letter == '"' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
+    for (const char letter : text) { // as in TOML
+        const bool is_control = static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
+        result += is_control                        ? fmt::format("\\u{:04X}", int(letter))
+                  : letter == '"' || letter == '\\' ? std::string("\\") + letter
+                                                    : std::string(1, letter);
     }
     return '"' + result + '"';
 }

@@ -51,7 +51,7 @@ std::vector<Names> names_of(const Job& job)
     if (job.scene.is_recorded()) {
         all.push_back({"motion_name", "motion", {}, "file of the recorded ground motion"});
         for (const Motion& motion : job.motions) {
-            all.back().values.push_back(motion.file);
+            all.back().values.push_back(motion.name);
         }
     }
     if (job.blocks) {
@@ -255,7 +255,7 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
         std::size_t longest = 1;
         for (const Motion& motion : job.motions) {
             bytes += Count(record_text(motion).size());
-            longest = std::max(longest, motion.file.size());
+            longest = std::max(longest, motion.name.size());
         }
         bytes += motions * Count(longest);
     } else if (plane.size) {

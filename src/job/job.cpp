@@ -93,6 +93,23 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides)
 
 namespace {
 
+/// Throws JobError if the factor on a record, or the scaled vertical motion, overflows.
+void expect_finite_scales(const Entry& entry, const Job& job)
+{
+    for (const Motion& motion : job.motions) {
+        const double scale = job.largest_scale(motion);
+        const double upwards = motion.record ? motion.record->upwards_peak() : 0;
+        if (!std::isfinite(scale) || !std::isfinite(scale * upwards)) {
+            refuse(*find(*find(entry, "plane"), name_of(job.plane.amplitude_is)),
+                   fmt::format(" {} {}, which exceeds the range of double precision as a factor on "
+                               "\"{}\", whose peak is {} g. Correct the unit of the record, or "
+                               "lower the value.",
+                               job.plane.amplitude.size() > 1 ? "reaches" : "is",
+                               job.plane.amplitude.last(), motion.name, motion.measures.pga));
+        }
+    }
+}
+
 /// Throws JobError if the vertical motion of every record cancels gravity at every point.
 void expect_gravity(const Entry& entry, const Job& job)
 {
@@ -113,7 +130,7 @@ void expect_gravity(const Entry& entry, const Job& job)
                    fmt::format(" have scales of {:.6g} or more under \"{}\", whose vertical motion "
                                "cancels gravity from the scale {:.6g} on, which is a PGA of {:.6g} "
                                "g. Give smaller values of scale or pga in the table.",
-                               job.smallest_scale(motion), motion.file, motion.largest_scale,
+                               job.smallest_scale(motion), motion.name, motion.largest_scale,
                                motion.largest_scale * motion.measures.pga));
         }
         const bool is_range = job.plane.amplitude.size() > 1;
@@ -121,7 +138,7 @@ void expect_gravity(const Entry& entry, const Job& job)
                fmt::format(" {} {}, where the vertical motion of \"{}\" cancels gravity. {} below "
                            "the scale {:.6g}, which is a PGA of {:.6g} g.",
                            is_range ? "begins at" : "is", job.plane.amplitude.first(),
-                           job.motions.front().file, is_range ? "Begin" : "Choose a value",
+                           job.motions.front().name, is_range ? "Begin" : "Choose a value",
                            job.motions.front().largest_scale,
                            job.motions.front().largest_scale * job.motions.front().measures.pga));
     }
@@ -157,6 +174,7 @@ Job read_any_job(std::string text, const std::string& name,
         job.blocks = read_blocks(*blocks, folder, job, kind);
     }
     read_plane(entry, job.plane);
+    expect_finite_scales(entry, job);
     expect_gravity(entry, job);
     expect_fillable(entry, job);
     if (job.numerics.fill) {

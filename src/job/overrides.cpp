@@ -264,6 +264,17 @@ void replace_number(toml::table& job, toml::table& given, const Path& path)
 
 } // namespace
 
+bool exclude_each_other(std::string_view axis, std::string_view other)
+{
+    return axis == other ||
+           std::any_of(alternatives.begin(), alternatives.end(), [&](const Alternatives& group) {
+               const auto has = [&](std::string_view key) {
+                   return std::find(group.keys.begin(), group.keys.end(), key) != group.keys.end();
+               };
+               return group.table == "plane" && has(axis) && has(other);
+           });
+}
+
 std::vector<std::string> override_keys()
 {
     std::vector<std::string> keys{"title"};

@@ -11,6 +11,10 @@ namespace overturn {
 
 namespace {
 
+// Each process stores the values of all axes; `check`, which scans a line of amplitudes, takes 400
+// bytes for each value.
+constexpr std::int64_t most_values = 10'000'000;
+
 double read_value(const Entry& entry, const Quantity& rule)
 {
     const double value = number_of(entry);
@@ -122,6 +126,10 @@ AxisRange read_range(const Entry& entry, const Quantity& rule)
         range.spacing = choice_of<Spacing>(*spacing, spacing_names);
     }
     check_range(entry, range);
+    if (range.count > most_values) {
+        refuse(count, fmt::format(" = {} is above {}, the maximum for one axis. Lower it.",
+                                  range.count, most_values));
+    }
     return range;
 }
 

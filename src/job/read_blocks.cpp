@@ -1,7 +1,9 @@
 #include "read_steps.hpp"
 
+#include "motion_names.hpp"
 #include "overturn/record/read_table.hpp"
 #include "overturn/record/text_file.hpp"
+#include "overturn/record/utf8.hpp"
 #include "overturn/sweep/block_list.hpp"
 #include "toml_text.hpp"
 
@@ -25,10 +27,21 @@ constexpr TextFileKind table_file{"a table", largest_table_file,
 
 constexpr std::string_view motion_column = "motion";
 
-/// Names of columns that the result file needs for itself.
-constexpr std::array<std::string_view, 8> reserved_names{
-    "block",    "motion_name", "restitution_ratio", "tile",
-    "checksum", "run_token",   "motion_number",     "crossing"};
+/// Names of columns that the result file needs for itself; the second list: under records.
+constexpr std::array<std::string_view, 9> reserved_names{
+    "block",     "motion_name", "restitution_ratio", "tile", "checksum",
+    "run_token", "crossing",    "motion_number",     "run"};
+constexpr std::array<std::string_view, 5> reserved_under_records{
+    "motion_name_length", "record_pga", "pgv", "arias_intensity", "significant_duration"};
+
+// netCDF limits names to 256 bytes, including the suffix of the dimension of a column of texts.
+constexpr std::string_view length_suffix = "_length";
+constexpr std::size_t longest_name = 255 - length_suffix.size(); // [bytes]
+
+bool is_one_of(std::string_view name, Names names)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 /// The table of a job, and the refusal of its rows and columns.
 class TableReader {
@@ -60,12 +73,12 @@ public:
     }
 
     /// The columns of numbers that block_list() reads. Their values must be numbers.
-    Columns columns() const
+    Columns columns(bool is_recorded) const
     {
         Columns columns;
         for (const TableColumn& column : table_->columns) {
             if (find_quantity(column.name) == nullptr) {
-                expect_free_name(column.name);
+                expect_free_name(column.name, is_recorded);
                 continue;
             }
             if (column.first_text >= 0) {
@@ -105,54 +118,74 @@ public:
     }
 
 private:
-    /// The motion whose file has this path, this name, or this name without its ending.
+    /// The only motion of this name, see motions_named().
     std::int64_t motion_named(const std::string& name, const std::vector<Motion>& motions,
                               std::int64_t row) const
     {
         if (const auto known = numbers_.find(name); known != numbers_.end()) {
             return known->second;
         }
-        std::int64_t found = -1;
-        for (std::size_t i = 0; i < motions.size(); ++i) {
-            const std::filesystem::path path(motions[i].file);
-            if (name != path.string() && name != path.filename().string() &&
-                name != path.stem().string()) {
-                continue;
-            }
-            if (found >= 0) {
-                refuse(row, motion_column,
-                       fmt::format("motion = {} is the name of two records, {} and {}. Give the "
-                                   "path as in scene.record.",
-                                   in_quotes(name), motions[std::size_t(found)].file,
-                                   motions[i].file));
-            }
-            found = std::int64_t(i);
-        }
-        if (found < 0) {
+        const std::vector<std::int64_t> found = motions_named(name, motions);
+        if (found.empty()) {
             refuse(row, motion_column,
                    fmt::format("motion = {} is not a record of the job. Give the name of a file "
                                "in scene.record, such as {}.",
-                               in_quotes(shortened(name, 40)), in_quotes(motions[0].file)));
+                               in_quotes(shortened(name, 40)), in_quotes(motions[0].name)));
         }
-        numbers_[name] = found;
-        return found;
+        if (found.size() > 1) {
+            const auto name_of = [&](std::int64_t i) {
+                return in_quotes(motions[std::size_t(i)].name);
+            };
+            refuse(
+                row, motion_column,
+                fmt::format("motion = {} is the name of several records: {}{}. Give one of these "
+                            "names.",
+                            in_quotes(name), name_of(found[0]) + " and " + name_of(found[1]),
+                            found.size() > 2 ? " and others" : ""));
+        }
+        return numbers_[name] = found[0];
     }
 
-    void expect_free_name(const std::string& name) const
+    /// The text column whose texts have a length of this name, or nullptr.
+    const TableColumn* with_length(std::string_view name) const
     {
-        const bool is_reserved =
-            std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end() ||
-            std::find(field_names.begin(), field_names.end(), name) != field_names.end();
-        const bool is_valid = name.find('/') == name.npos && name[0] != '.' &&
-                              std::none_of(name.begin(), name.end(), [](unsigned char letter) {
-                                  return letter < 0x20 || letter == 0x7f;
-                              });
-        if (is_reserved || !is_valid) {
+        if (!name.ends_with(length_suffix)) {
+            return nullptr;
+        }
+        const TableColumn* column =
+            table_->find(name.substr(0, name.size() - length_suffix.size()));
+        return column == nullptr || column->texts.empty() ? nullptr : column;
+    }
+
+    void expect_free_name(const std::string& name, bool is_recorded) const
+    {
+        if (is_one_of(name, reserved_names) || is_one_of(name, field_names) ||
+            (is_recorded && is_one_of(name, reserved_under_records))) {
             refuse(ListError::no_row, name,
-                   is_reserved ? "is the name of a variable of the result. Rename the column."
-                               : "cannot be the name of a variable in a result file, because it "
-                                 "begins with a dot or contains a slash or a control character. "
-                                 "Rename the column.");
+                   "is the name of a variable of the result. Rename the column.");
+        }
+        if (const TableColumn* texts = with_length(name)) {
+            refuse(ListError::no_row, name,
+                   fmt::format("is the name of the dimension of the texts of {} in the result. "
+                               "Rename the column.",
+                               texts->name));
+        }
+        const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char letter) {
+            return letter < 0x20 || letter == 0x7f;
+        });
+        const char* reason = name.size() > longest_name    ? "it is too long"
+                             : name[0] == '.'              ? "it begins with a dot"
+                             : name.find('/') != name.npos ? "it contains a slash"
+                             : has_control                 ? "it contains a control character"
+                             : has_white_space(name)       ? "it contains a blank"
+                                                           : nullptr;
+        if (reason != nullptr) {
+            throw JobError(fmt::format(
+                "{}:1:{}: the column {} cannot be a variable of a result file, because {}. Allowed "
+                "are up to {} bytes without blanks, slashes and control characters, and without a "
+                "dot at the beginning. Rename the column.",
+                file_, table_->find(name) - table_->columns.data() + 1,
+                in_quotes(shortened(name, 40)), reason, longest_name));
         }
     }
 
@@ -247,8 +280,8 @@ BlockTable read_blocks(const Entry& entry, const std::string& folder, Job& job, 
     try {
         const TableReader reader(string_of(table), folder);
         try {
-            job.plane.list = std::make_shared<BlockList>(
-                block_list(job.scene, reader.columns(), reader.motions(job.motions)));
+            job.plane.list = std::make_shared<BlockList>(block_list(
+                job.scene, reader.columns(job.scene.is_recorded()), reader.motions(job.motions)));
         } catch (const ListError& error) {
             reader.refuse(error.row(), error.column(), error.what());
         }

@@ -1,6 +1,8 @@
 #include "read_steps.hpp"
 
+#include "motion_names.hpp"
 #include "overturn/record/read_record.hpp"
+#include "overturn/record/utf8.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace overturn {
 
@@ -20,11 +23,18 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_records = 10'000;
 
 /// The keys of scene.record in a resolved job, which describes records without reading their files.
-constexpr std::array<std::string_view, 11> described_keys{
-    "file",          "component",       "vertical",
-    "samples",       "time_step",       "pga",
-    "pgv",           "arias_intensity", "significant_duration",
-    "largest_scale", "checksum"};
+constexpr std::array<std::string_view, 12> described_keys{"file",
+                                                          "component",
+                                                          "vertical",
+                                                          "samples",
+                                                          "time_step",
+                                                          "pga",
+                                                          "pgv",
+                                                          "arias_intensity",
+                                                          "significant_duration",
+                                                          "largest_scale",
+                                                          "name",
+                                                          "checksum"};
 
 /// Which component of a file: its name, or its number counted from 1.
 struct ComponentChoice {
@@ -110,6 +120,11 @@ std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
                                   in_quotes(text)));
     }
     std::sort(files.begin(), files.end());
+    const auto other = std::find_if_not(files.begin(), files.end(), is_utf8);
+    if (other != files.end()) {
+        refuse(entry, fmt::format(" = {} matches the file {}, whose name is not UTF-8. Rename it.",
+                                  in_quotes(text), as_utf8(*other)));
+    }
     return files;
 }
 
@@ -142,9 +157,10 @@ public:
         : folder_(folder), options_(options), gravity_(gravity)
     {}
 
-    Motion read(const Entry& entry, const std::string& file,
-                const std::optional<ComponentChoice>& component,
-                const std::optional<ComponentChoice>& vertical)
+    /// The motion, without a name, and the label of its component in the file.
+    std::pair<Motion, std::string> read(const Entry& entry, const std::string& file,
+                                        const std::optional<ComponentChoice>& component,
+                                        const std::optional<ComponentChoice>& vertical) const
     {
         const RecordFile content = content_of(entry, file);
         const RecordComponent* horizontal =
@@ -157,7 +173,8 @@ public:
         Motion motion;
         motion.file = file;
         motion.component = horizontal->name;
-        motion.header = horizontal->header;
+        std::transform(horizontal->header.begin(), horizontal->header.end(),
+                       std::back_inserter(motion.header), as_utf8);
         std::vector<double> upwards;
         if (vertical) {
             upwards = upwards_of(*vertical, content, *horizontal);
@@ -178,7 +195,7 @@ public:
         if (!(motion.measures.pga > 0)) {
             refuse(entry, fmt::format(" = {} is zero at all times. Remove it.", in_quotes(file)));
         }
-        return motion;
+        return {std::move(motion), label_of(content, *horizontal)};
     }
 
 private:
@@ -250,6 +267,7 @@ Motion described_motion(const Entry& entry)
     };
     Motion motion;
     motion.file = text("file");
+    motion.name = find(entry, "name") ? text("name") : motion.file;
     motion.component = text("component");
     motion.vertical = text("vertical");
     motion.checksum = text("checksum");
@@ -304,14 +322,25 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
     if (const auto vertical = find(scene, "vertical")) {
         verticals = choices_of(*vertical, files.size());
     }
-    RecordReader reader(folder, read_options(scene), gravity);
+    const RecordReader reader(folder, read_options(scene), gravity);
+    std::vector<std::string> labels;
+    std::set<std::string> known; // file, component and accelerations
     for (std::size_t i = 0; i < files.size(); ++i) {
         const auto choice = [&](const std::vector<ComponentChoice>& from) {
             return from.empty() ? std::nullopt : std::optional(from[i]);
         };
-        motions.push_back(
-            reader.read(files[i].first, files[i].second, choice(components), choice(verticals)));
+        const auto& [place, file] = files[i];
+        auto [motion, label] = reader.read(place, file, choice(components), choice(verticals));
+        const std::string path = fs::weakly_canonical(fs::path(folder) / file).string();
+        if (!known.insert(fmt::format("{}:{}:{}", path, label, motion.checksum)).second) {
+            refuse(place, fmt::format(" = {} is listed more than once with the same component, and "
+                                      "would count as several motions. List each motion once.",
+                                      in_quotes(file)));
+        }
+        motions.push_back(std::move(motion));
+        labels.push_back(std::move(label));
     }
+    name_motions(motions, labels);
     return motions;
 }
 

@@ -46,6 +46,9 @@ std::string motion_text(const Motion& motion)
     if (std::isfinite(motion.largest_scale)) {
         text += fmt::format("largest_scale = {}, ", float_text(motion.largest_scale));
     }
+    if (motion.name != motion.file) {
+        text += fmt::format("name = {}, ", in_quotes(motion.name));
+    }
     return text + fmt::format("checksum = {} }}", in_quotes(motion.checksum));
 }
 

@@ -6,8 +6,10 @@
 
 namespace overturn {
 
-/// PEER: four lines of header, the fourth with NPTS and DT, then NPTS numbers in g.
-RecordFile read_at2(Lines lines);
+/// PEER: four lines of header, the fourth with NPTS and DT, then NPTS numbers in the unit that the
+/// header states. If it states none, or one that is not understood, `unit` is used; it is refused
+/// otherwise. Without both, the unit is g.
+RecordFile read_at2(Lines lines, const std::optional<AccelerationUnit>& unit);
 
 /// GeoNet: up to three components, each with 26 lines of header and with acceleration, velocity and
 /// displacement in mm/s2, mm/s and mm. Only the acceleration is kept.

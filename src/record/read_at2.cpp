@@ -1,7 +1,9 @@
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_unit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -12,6 +14,7 @@ namespace overturn {
 namespace {
 
 constexpr std::size_t header_lines = 4;
+constexpr std::size_t unit_line = 3;
 
 struct Sampling {
     std::size_t count;
@@ -58,13 +61,18 @@ Sampling read_sampling(const Lines& lines)
                                  "NPTS= 4000, DT= .01 SEC.",
                                  quoted(line)));
     }
+    const char* after = step->data() + step->size();
+    if (line.data() + line.size() - after > 1 && after[0] == ',' && '0' <= after[1] &&
+        after[1] <= '9') {
+        lines.refuse(fmt::format("the time step {} has a decimal comma. Write it with a point, as "
+                                 "in DT= .01 SEC.",
+                                 quoted(std::string_view(step->data(), step->size() + 2))));
+    }
     return {.count = count_of(lines, *count, "NPTS"),
             .time_step = time_step_of(lines, without_unit(*step))};
 }
 
-/// Refuses velocities, displacements, and units other than g, in `ACCELERATION TIME SERIES IN UNITS
-/// OF G`.
-void expect_acceleration_in_g(const Lines& lines)
+void expect_acceleration(const Lines& lines)
 {
     const std::string_view line = lines.line();
     if (!contains(line, "ACCELERATION") &&
@@ -73,24 +81,50 @@ void expect_acceleration_in_g(const Lines& lines)
             fmt::format("{} does not contain accelerations. Give the AT2 file of this record.",
                         quoted(trimmed(line))));
     }
-    const std::size_t place = place_after(line, "UNITS OF");
-    if (place == line.npos) {
-        return;
+}
+
+struct Unit {
+    AccelerationUnit unit;
+    bool is_given; ///< not stated by the file
+};
+
+/// The unit that the header states. If it states none, or one that is not understood, the given
+/// one; g if there is neither.
+Unit unit_of_header(const Lines& before, const std::optional<AccelerationUnit>& given)
+{
+    std::optional<StatedUnit> found;
+    for (Lines lines = before; lines.number() < header_lines && lines.next();) {
+        // The first two lines name the database and the station.
+        const auto places =
+            lines.number() < unit_line ? UnitPlaces::after_units : UnitPlaces::title;
+        for (const StatedUnit& stated : stated_units(lines.line(), places)) {
+            if (stated.unit && (!found || found->unit == stated.unit)) {
+                found = stated;
+                continue;
+            }
+            if (given) {
+                return {*given, true};
+            }
+            const std::string reason = stated.unit
+                                           ? fmt::format("contradicts {}", quoted(found->text))
+                                           : "is not understood";
+            lines.refuse(fmt::format("the unit {} {}. Understood are {} and their usual spellings, "
+                                     "such as CM/SEC/SEC. State the unit of the samples: {}.",
+                                     quoted(stated.text), reason,
+                                     fmt::join(acceleration_unit_names, ", "),
+                                     how_to_state("units")));
+        }
     }
-    const std::string_view unit = trimmed(line.substr(place));
-    const std::string_view word = unit.substr(0, unit.find_first_of(" \t,.;"));
-    if (word != "G" && word != "g") {
-        lines.refuse(fmt::format("the unit is {}, but must be G in AT2 files. Give the values as "
-                                 "text with their unit.",
-                                 quoted(word)));
-    }
+    return found ? Unit{*found->unit, false}
+                 : Unit{given.value_or(AccelerationUnit::g), given.has_value()};
 }
 
 } // namespace
 
-RecordFile read_at2(Lines lines)
+RecordFile read_at2(Lines lines, const std::optional<AccelerationUnit>& unit)
 {
     RecordComponent component;
+    const Lines before = lines;
     Header header;
     for (std::size_t i = 0; i < header_lines; ++i) {
         header.take(lines, 1);
@@ -98,17 +132,18 @@ RecordFile read_at2(Lines lines)
             const std::string_view title = lines.line();
             const std::size_t comma = title.rfind(',');
             component.name = comma == title.npos ? "" : trimmed(title.substr(comma + 1));
-        } else if (i == 2) {
-            expect_acceleration_in_g(lines);
+        } else if (i + 1 == unit_line) {
+            expect_acceleration(lines);
         }
     }
     const Sampling sampling = read_sampling(lines);
     component.header = std::move(header).kept();
+    const Unit used = unit_of_header(before, unit);
+    component.unit = used.unit;
     component.time_step = sampling.time_step;
-    component.unit = AccelerationUnit::g;
     component.acceleration =
         take_free_numbers(lines, {.count = sampling.count, .name = "NPTS", .line = lines.number()});
-    return {.format = "AT2", .components = {std::move(component)}};
+    return {.format = "AT2", .components = {std::move(component)}, .has_given_unit = used.is_given};
 }
 
 } // namespace overturn

@@ -1,9 +1,11 @@
 #include "overturn/record/read_record.hpp"
 
 #include "overturn/record/text_file.hpp"
+#include "overturn/record/utf8.hpp"
 
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,13 @@
 namespace overturn {
 
 namespace {
+
+/// How many of a unit are one m/s2; 0 for g.
+double units_per_m_per_s2(AccelerationUnit unit)
+{
+    constexpr std::array<double, acceleration_unit_names.size()> numbers{0, 1, 100, 1000, 100};
+    return numbers[std::size_t(unit)];
+}
 
 enum class Format { at2, v2a, smc, text, unknown };
 
@@ -67,6 +76,29 @@ Format format_of(const Lines& lines)
         }
     }
     return Format::unknown;
+}
+
+/// Refuses a file whose header or comments state a unit other than that of its samples.
+void expect_no_other_unit(const RecordFile& file, const std::string& name)
+{
+    const auto is_same = [](AccelerationUnit one, AccelerationUnit other) {
+        return units_per_m_per_s2(one) == units_per_m_per_s2(other);
+    };
+    for (const RecordComponent& component : file.components) {
+        for (const std::string& line : component.header) {
+            for (const StatedUnit& stated : stated_units(line, UnitPlaces::after_units)) {
+                if (stated.unit && !is_same(*stated.unit, component.unit)) {
+                    refuse_record(
+                        name,
+                        fmt::format("the line {} states the unit {}, but {} is {}. Correct one of "
+                                    "them.",
+                                    quoted(trimmed(line)), quoted(std::string_view(stated.text)),
+                                    file.has_given_unit ? "the given unit" : "that of the format",
+                                    name_of(component.unit)));
+                }
+            }
+        }
+    }
 }
 
 /// Refuses characters that no text has. A carriage return may only precede the end of a line.
@@ -124,8 +156,8 @@ RecordFile read_text_with_unit(const Lines& lines, const std::string& name,
         refuse_record(
             name,
             fmt::format("files in text format do not state the unit of the accelerations. Give "
-                        "the unit: {}.",
-                        fmt::join(acceleration_unit_names, ", ")));
+                        "one of {}: {}.",
+                        fmt::join(acceleration_unit_names, ", "), how_to_state("units")));
     }
     return read_text(lines, options);
 }
@@ -149,9 +181,9 @@ void expect_no_options(const RecordFile& file, const RecordOptions& options,
                        const std::string& name)
 {
     const RecordComponent& component = file.components.front();
-    if (options.unit) {
+    if (options.unit && !file.has_given_unit) {
         refuse_record(name,
-                      fmt::format("the unit {} was given, but {} files are in {}. Remove the unit.",
+                      fmt::format("units = {} was given, but this {} file is in {}. Remove units.",
                                   name_of(*options.unit), file.format, name_of(component.unit)));
     }
     if (options.time_step) {
@@ -170,10 +202,9 @@ constexpr TextFileKind record_file{"a record", largest_record_file,
 
 std::vector<double> over_gravity(const RecordComponent& component, double gravity)
 {
-    constexpr std::array metres{0, 1, 100, 1000}; // units per metre, in the order of the units
     std::vector<double> values = component.acceleration;
     if (component.unit != AccelerationUnit::g) {
-        const double g = gravity * metres[std::size_t(component.unit)];
+        const double g = gravity * units_per_m_per_s2(component.unit);
         std::transform(values.begin(), values.end(), values.begin(),
                        [&](double value) { return value / g; });
     }
@@ -189,13 +220,21 @@ RecordFile parse_record(std::string_view text, const std::string& name,
     const Lines lines(text, name);
     RecordFile file;
     switch (format_of(lines)) {
-    case Format::at2: file = read_at2(lines); break;
+    case Format::at2: file = read_at2(lines, options.unit); break;
     case Format::v2a: file = read_v2a(lines); break;
     case Format::smc: file = read_smc(lines); break;
-    case Format::text: return read_text_with_unit(lines, name, options);
+    case Format::text: file = read_text_with_unit(lines, name, options); break;
     case Format::unknown: refuse_format(lines, name);
     }
-    expect_no_options(file, options, name);
+    for (RecordComponent& component : file.components) {
+        component.name = as_utf8(component.name);
+    }
+    if (file.format != "AT2") { // which may state any unit
+        expect_no_other_unit(file, name);
+    }
+    if (file.format != "text") { // which states neither
+        expect_no_options(file, options, name);
+    }
     return file;
 }
 

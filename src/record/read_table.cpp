@@ -1,5 +1,7 @@
 #include "overturn/record/read_table.hpp"
 
+#include "overturn/record/utf8.hpp"
+
 #include "lines.hpp"
 
 #include <fmt/format.h>
@@ -129,6 +131,20 @@ std::string_view without_empty_lines_at_the_end(std::string_view text)
     return last == text.npos ? "" : text.substr(0, last + 1);
 }
 
+/// Refuses the first value that is not UTF-8.
+void expect_utf8(Values values)
+{
+    while (!values.at_end()) {
+        const std::int64_t line = values.line();
+        const std::int64_t column = values.column();
+        const std::string_view value = values.next();
+        if (!is_utf8(value)) {
+            values.refuse(line, column,
+                          fmt::format("{} is not UTF-8. Save the table in UTF-8.", quoted(value)));
+        }
+    }
+}
+
 std::vector<TableColumn> read_names(Values& values)
 {
     std::vector<TableColumn> columns;
@@ -149,6 +165,12 @@ std::vector<TableColumn> read_names(Values& values)
         }
         columns.push_back({std::move(name), {}, {}});
     } while (!values.ends_row());
+    if (columns.size() == 1 && columns[0].name.find_first_of(";\t|") != std::string::npos) {
+        values.refuse(1, 1,
+                      fmt::format("{} is one name. Separate names and values by commas, and write "
+                                  "numbers with a decimal point.",
+                                  quoted(columns[0].name)));
+    }
     return columns;
 }
 
@@ -166,7 +188,8 @@ void for_each_value_of_row(Values& values, std::size_t columns, const Visit& vis
             if (i + 1 != columns) {
                 throw TableError(fmt::format("{}:{}: the row has {} value{}, but the first line "
                                              "names {} column{}. Separate values by commas; put "
-                                             "a value that contains one in quotes.",
+                                             "a value that contains one in quotes. The decimal "
+                                             "mark is a point.",
                                              values.name(), line, i + 1, i == 0 ? "" : "s", columns,
                                              columns == 1 ? "" : "s"));
             }
@@ -197,6 +220,9 @@ Table read_table(std::string_view text, const std::string& name)
                          "it as comma-separated values in UTF-8.");
     }
     Values values(text, name);
+    if (!is_utf8(text)) {
+        expect_utf8(values);
+    }
     Table table;
     table.columns = read_names(values);
     const Values rows = values;

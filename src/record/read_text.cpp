@@ -1,6 +1,7 @@
 #include "even_times.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -56,8 +57,10 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected)
 void expect_time_step_of_column(const Lines& lines, const std::optional<double>& time_step)
 {
     if (!time_step) {
-        lines.refuse("the file has one column, so the time step is not known. Give time_step "
-                     "in seconds, or two columns with time in seconds first.");
+        lines.refuse(fmt::format("the file has one column, so the time step is not known. Give "
+                                 "two columns with time in seconds first, or the time step in "
+                                 "seconds: {}.",
+                                 how_to_state("time_step")));
     }
 }
 
@@ -70,10 +73,48 @@ void expect_no_time_step(const Lines& lines, const std::optional<double>& time_s
     }
 }
 
+/// Whether a comma is between two digits, as in 1,5: it separates two columns or is a decimal mark.
+bool has_doubtful_comma(std::string_view line)
+{
+    const auto is_digit = [&](std::size_t i) {
+        return i < line.size() && '0' <= line[i] && line[i] <= '9';
+    };
+    for (std::size_t i = line.find(','); i != line.npos; i = line.find(',', i + 1)) {
+        if (i > 0 && is_digit(i - 1) && is_digit(i + 1)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Refuses decimal commas: commas between digits in a file without any decimal point.
+void expect_decimal_points(Lines lines)
+{
+    std::optional<Lines> doubtful;
+    while (lines.next()) {
+        if (is_comment(lines.line())) {
+            continue;
+        }
+        if (lines.line().find('.') != std::string_view::npos) {
+            return;
+        }
+        if (!doubtful && has_doubtful_comma(lines.line())) {
+            doubtful = lines;
+        }
+    }
+    if (doubtful) {
+        doubtful->refuse(fmt::format(
+            "{} may be a number with a decimal comma, because the file has no decimal point. Write "
+            "numbers with a point, and separate columns by blanks.",
+            quoted(trimmed(doubtful->line()))));
+    }
+}
+
 } // namespace
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
 {
+    expect_decimal_points(lines);
     RecordComponent component;
     component.unit = options.unit.value();
     Header header;
@@ -111,7 +152,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     }
     component.header = std::move(header).kept();
     component.time_step = columns == 1 ? *options.time_step : times.step();
-    return {.format = "text", .components = {std::move(component)}};
+    return {.format = "text", .components = {std::move(component)}, .has_given_unit = true};
 }
 
 } // namespace overturn

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
 namespace overturn {
 
@@ -55,6 +56,22 @@ public:
 private:
     const Columns& columns_;
 };
+
+/// The factor on a record. Throws ListError if it or the scaled vertical motion overflows. name: of
+/// the strength.
+double factor_on(const Accelerogram& record, const char* name, double strength, std::size_t row)
+{
+    const bool is_pga = name == std::string_view("pga");
+    const double factor = strength / (is_pga ? record.peak() : 1);
+    if (!std::isfinite(factor) || !std::isfinite(factor * record.upwards_peak())) {
+        throw ListError(std::int64_t(row), name,
+                        fmt::format("{} = {} exceeds the range of double precision as a factor on "
+                                    "the record, whose peak is {} g. Correct the unit of the "
+                                    "record, or lower {}.",
+                                    name, strength, record.peak(), name));
+    }
+    return factor;
+}
 
 [[noreturn]] void refuse_columns(const std::string& message)
 {
@@ -226,10 +243,9 @@ void read_scales(const Scene& scene, const ColumnReader& columns,
     }
     list.motion = motion.empty() ? std::vector<std::int64_t>(p.size()) : motion;
     const std::vector<double>& strengths = columns.values(strength);
-    const bool is_pga = columns.has("pga");
     list.amplitude = for_each_row(strengths.size(), [&](std::size_t row) {
-        const double unit = is_pga ? pga_of_unit_amplitude(scene, list.motion[row], 0) : 1;
-        return strengths[row] / unit;
+        const Accelerogram& record = *scene.records[std::size_t(list.motion[row])];
+        return factor_on(record, strength, strengths[row], row);
     });
     list.frequency = for_each_row(p.size(), [&](std::size_t row) {
         return frequency_of_point(scene, FrequencyQuantity::frequency_parameter, list.motion[row],

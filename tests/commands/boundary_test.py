@@ -86,9 +86,10 @@ class ABoundary(Scratch):
     def test_is_refused_if_too_large_for_any_file(self):
         # 1e18 lines: a spectrum of two amplitudes would be refused for lack of disk space.
         result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.count=2",
-                               "--set", "plane.frequency.count=1000000000000000",
-                               *(f"--set=plane.restitution.{key}={value}"
-                                 for key, value in (("first", 0.5), ("last", 1), ("count", 1000))),
+                               "--set", "plane.frequency.count=10000000",
+                               *(f"--set=plane.{axis}.{key}={value}"
+                                 for axis, count in (("restitution", 10000000), ("slenderness", 10000))
+                                 for key, value in (("first", 0.5), ("last", 0.9), ("count", count))),
                                "--set", "output.fields=[\"region\"]")
         self.assert_exit(result, 65, "whose boundaries would take 6.4e+20 bytes")
 

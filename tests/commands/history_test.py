@@ -72,6 +72,8 @@ class AHistory(Scratch):
         for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
             self.assert_exit(self.history("--at", words), 2, "where AXIS is one of frequency")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "--at frequency=-3: ", "outside (0, inf)")
+        self.assert_exit(self.history("--at", "frequency=3,amplitude=1,frequency=4"), 2,
+                         "--at frequency=4: frequency=3 gives the same quantity. Give one value.")
 
     @unittest.mock.patch.dict(ENVIRONMENT, OVERTURN_UNTRAPPED="1")  # this motion overflows
     def test_refuses_a_motion_beyond_the_range_of_numbers(self):

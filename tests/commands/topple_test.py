@@ -241,7 +241,8 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--restitution", "1.2"), 65,
                          "outside (0, 1]")
         self.assert_exit(self.overturn("topple", *PULSE, "--pulse", "sinus"), 65, "is unknown")
-        self.assert_exit(self.overturn("topple", *STATUE, "--record", "none.AT2"), 65, "none.AT2")
+        self.assert_exit(self.overturn("topple", *STATUE, "--record", "none\n\"\\.AT2"), 65,
+                         "none \"\\.AT2: cannot be read")
 
 
 if __name__ == "__main__":

@@ -233,6 +233,18 @@ TEST(AnOverride, IsShortenedInMessages)
     }
 }
 
+TEST(Axes, ExcludeEachOtherIfTheyGiveOneQuantity)
+{
+    for (const auto& [axis, other] :
+         {std::pair("size", "size"), std::pair("size", "frequency_parameter"),
+          std::pair("pga", "scale"), std::pair("pulse_period", "frequency")}) {
+        EXPECT_TRUE(exclude_each_other(axis, other)) << axis;
+        EXPECT_TRUE(exclude_each_other(other, axis)) << axis;
+    }
+    EXPECT_FALSE(exclude_each_other("size", "pulse_period"));
+    EXPECT_FALSE(exclude_each_other("restitution", "slenderness"));
+}
+
 } // namespace
 
 } // namespace overturn

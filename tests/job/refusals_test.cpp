@@ -4,6 +4,9 @@
 #include "overturn/job/job.hpp"
 #include "support/untrapped_floating_point.hpp"
 
+#include <fmt/format.h>
+
+#include <climits>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -212,10 +215,10 @@ TEST(ReadingAJob, RefusesAPlaneTooLargeToAddress)
     const JobFile file(R"([scene]
 pulse = "one_sine"
 [plane]
-frequency   = { first = 0.1, last = 12.0, count = 1099511627776 }
-amplitude   = { first = 0.1, last = 12.0, count = 1099511627776 }
-restitution = { first = 0.1, last = 1.0, count = 1099511627776 }
-slenderness = { first = 0.1, last = 1.0, count = 1099511627776 }
+frequency   = { first = 0.1, last = 12.0, count = 10000000 }
+amplitude   = { first = 0.1, last = 12.0, count = 10000000 }
+restitution = { first = 0.1, last = 1.0, count = 10000000 }
+slenderness = { first = 0.1, last = 1.0, count = 10000000 }
 [output]
 fields = ["region", "angle"]
 )");
@@ -224,27 +227,53 @@ fields = ["region", "angle"]
         FAIL() << "the job was accepted";
     } catch (const JobError& error) {
         const std::string message = error.what();
-        // 2^160 points of 9 bytes.
-        EXPECT_NE(message.find(":3:1: plane has 1.462e+48 points"), message.npos) << message;
-        EXPECT_NE(message.find("1.315e+49 bytes"), message.npos) << message;
+        // 10^28 points of 9 bytes.
+        EXPECT_NE(message.find(":3:1: plane has 1e+28 points"), message.npos) << message;
+        EXPECT_NE(message.find("9e+28 bytes"), message.npos) << message;
     }
 }
 
 TEST(ReadingAJob, AcceptsTheLargestPlaneThatCanBeAddressed)
 {
-    // 2^40 x 2^22 points of one byte; one more frequency is one more row than 2^62 bytes.
+    // 2^23 x 2^23 x 2^8 x 2^8 points of one byte; one more frequency is one more row than 2^62
+    // bytes.
     const std::string job = R"([scene]
 pulse = "one_sine"
 [plane]
-frequency   = { first = 0.1, last = 12.0, count = 1099511627776 }
-amplitude   = { first = 0.1, last = 12.0, count = 4194304 }
-restitution = { values = [1.0] }
-slenderness = { values = [0.2] }
+frequency   = { first = 0.1, last = 12.0, count = 8388608 }
+amplitude   = { first = 0.1, last = 12.0, count = 8388608 }
+restitution = { first = 0.5, last = 1.0, count = 256 }
+slenderness = { first = 0.1, last = 0.2, count = 256 }
 )";
     const JobFile file(job);
     EXPECT_EQ(read_job(file.path()).plane.points(), std::int64_t(1) << 62);
-    EXPECT_THROW(read_job(file.path(), {"plane.frequency.count=1099511627777"}), JobError);
+    EXPECT_THROW(read_job(file.path(), {"plane.frequency.count=8388609"}), JobError);
     EXPECT_THROW(read_job(file.path(), {"output.fields=['region', 'status']"}), JobError);
+}
+
+TEST(ReadingAJob, RefusesAnAxisThatDoesNotFitIntoMemory)
+{
+    const JobFile file(R"([scene]
+pulse = "one_sine"
+[plane]
+frequency   = { first = 1, last = 2, count = 2 }
+amplitude   = { first = 1, last = 2, count = 2 }
+restitution = { first = 0.5, last = 1, count = 2 }
+slenderness = { first = 0.1, last = 0.2, count = 2 }
+)");
+    for (const std::string axis : {"frequency", "amplitude", "restitution", "slenderness"}) {
+        for (const std::int64_t count :
+             {10'000'001L, 1L << 31, (1L << 32) + 1, 1L << 45, LONG_MAX}) {
+            const std::string setting = fmt::format("plane.{}.count={}", axis, count);
+            try {
+                read_job(file.path(), {setting});
+                ADD_FAILURE() << setting << " was accepted";
+            } catch (const JobError& error) {
+                EXPECT_TRUE(std::string(error.what()).starts_with("--set " + setting))
+                    << error.what();
+            }
+        }
+    }
 }
 
 } // namespace

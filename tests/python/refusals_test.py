@@ -48,6 +48,25 @@ class ARefusal(Refused):
         self.assert_refused(ValueError, "r_max is defined only for a slenderness below", restitution=None,
                             restitution_of_maximum=1, width=6)
 
+    def test_of_a_factor_on_a_record_that_overflows(self):
+        for peak in (1e-309, 5e-324, 1e-320, -1e-310):
+            self.assert_refused(ValueError, "pga = 1 exceeds the range of double precision as a factor", RECORD,
+                                record=[0, peak, 0], scale=None, pga=1)
+        self.assert_refused(ValueError, "scale = 1e+200 exceeds", RECORD, record=[0, 1e200, 0],
+                            vertical=[0, 1e200, 0], scale=1e200)
+
+    def test_of_masked_values(self):
+        for masked in (np.ma.array([0.5, 0.6], mask=[0, 1]), [np.ma.array([0.5], mask=[1])], np.ma.masked):
+            self.assert_refused(ValueError, "width has masked values", width=masked)
+        self.assert_refused(ValueError, "record has masked values", RECORD,
+                            record=np.ma.array([0, 0.3, 0], mask=[0, 1, 0]))
+        self.assertEqual(overturn.evaluate(**{**GOOD, "width": np.ma.array([0.6, 0.7])})["region"].shape, (2,))
+
+    def test_of_arrays_that_are_not_numbers(self):
+        for array in (np.array([0.6 + 0.1j]), np.array([0.6 + 0j], object), np.array(["2020"], "M8[D]"),
+                      np.array([1], "m8[s]"), np.array([np.datetime64("2020")], object), np.array([object()])):
+            self.assert_refused(ValueError, "width is not a number or an array of numbers", width=array)
+
     def test_of_samples(self):
         self.assert_refused(ValueError, "record[1] = nan is not finite", RECORD, record=[0, np.nan])
         self.assert_refused(ValueError, "vertical has 2 samples, but record has 3", RECORD, vertical=[0, 0])
@@ -61,6 +80,10 @@ class ARefusal(Refused):
 
 
 class AnArgumentError(Refused):
+    def test_for_a_pulse_beside_a_record(self):
+        for kind in (TypeError, ValueError):
+            self.assert_refused(kind, "pulse cannot be combined with record", RECORD, pulse="one_sine")
+
     def test_of_missing_arguments(self):
         self.assert_refused(TypeError, "Give width and height", width=None)
         self.assert_refused(TypeError, "the restitution is missing", restitution=None)

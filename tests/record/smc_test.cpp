@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SmcRefusal, testing::Values(
 TEST(Smc, RefusesAUnitBecauseItStatesItsOwn)
 {
     EXPECT_EQ(refusal_of(sound, in_g),
-              "a.txt: the unit g was given, but SMC files are in cm/s2. Remove the unit.");
+              "a.txt: units = g was given, but this SMC file is in cm/s2. Remove units.");
 }
 
 } // namespace

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <string>
+#include <vector>
 
 namespace overturn {
 namespace {
@@ -93,6 +96,47 @@ TEST(Table, IsRefusedWithLineAndColumn)
     EXPECT_TRUE(
         refusal_of("a,b\n\"1\"2,3\n").starts_with("t.csv:2:1: text follows the closing quot"))
         << refusal_of("a,b\n\"1\"2,3\n");
+}
+
+TEST(Table, ThatIsNotUtf8IsRefusedWithLineAndColumn)
+{
+    EXPECT_EQ(refusal_of("a,b\n1,2\n3,Mus\xe9"
+                         "e\n"),
+              "t.csv:3:2: \"Mus\\xe9"
+              "e\" is not UTF-8. Save the table in UTF-8.");
+    std::mt19937_64 random(6);
+    for (int i = 0; i < 200; ++i) {
+        const std::uint64_t row = random() % 3;
+        const std::uint64_t column = random() % 3;
+        const std::string wrong =
+            std::vector<std::string>{"\xff",         "\xe9t",    "\xc3",
+                                     "\xed\xa0\x80", "\xc0\xaf", "\xf5\x80\x80\x80",
+                                     "\x80"}[random() % 7];
+        std::string text;
+        for (std::uint64_t r = 0; r < 3; ++r) {
+            for (std::uint64_t c = 0; c < 3; ++c) {
+                const std::string value =
+                    r == row && c == column ? "\u00e9" + wrong : "\u20ac" + std::to_string(c);
+                text += (random() % 2 == 0 ? "\"" + value + "\"" : value) + (c == 2 ? "\n" : ",");
+            }
+        }
+        EXPECT_TRUE(refusal_of(text).starts_with("t.csv:" + std::to_string(row + 1) + ":" +
+                                                 std::to_string(column + 1) + ": "))
+            << refusal_of(text);
+        EXPECT_NE(refusal_of(text).find("is not UTF-8"), std::string::npos);
+    }
+}
+
+TEST(Table, WithOtherSeparatorsOrDecimalCommasIsRefused)
+{
+    EXPECT_EQ(
+        refusal_of("width;height\n0.5;2\n"),
+        "t.csv:1:1: \"width;height\" is one name. Separate names and values by commas, and write "
+        "numbers with a decimal point.");
+    for (const char* text : {"width;height\n0,5;2\n", "width\theight\n0,5\t2\n", "width\n0,5\n",
+                             "width,height\n0,5,2,5\n"}) {
+        EXPECT_NE(refusal_of(text).find("decimal"), std::string::npos) << text;
+    }
 }
 
 } // namespace

@@ -1,8 +1,11 @@
 // Files of one or two columns.
 #include "reading.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 namespace overturn {
 namespace {
@@ -133,6 +136,35 @@ TEST(TimeStep, IsPositiveEvenIfTheTimesHaveFewDigits)
     EXPECT_EQ(component_of("0.6 0\n1 0\n", in_g).time_step, 0.4);
 }
 
+TEST(ACommaBetweenDigits, SeparatesColumnsOnlyIfTheFileHasADecimalPoint)
+{
+    EXPECT_EQ(component_of("0,0\n0.5,1\n", in_g).acceleration, (Values{0, 1}));
+    EXPECT_EQ(component_of("# 0.5\n0, 0\n1, 2\n", in_g).acceleration, (Values{0, 2}));
+    EXPECT_EQ(
+        refusal_of("# 0.5\n0\n1,5\n", one_column),
+        "a.txt:3: \"1,5\" may be a number with a decimal comma, because the file has no decimal "
+        "point. Write numbers with a point, and separate columns by blanks.");
+}
+
+TEST(DecimalCommas, AreRefusedInAnyColumnsAndWithAnySeparator)
+{
+    std::mt19937_64 random(4);
+    for (int i = 0; i < 300; ++i) {
+        const std::string separator =
+            std::vector<std::string>{";", "\t", " ", "; ", ", ", ","}[random() % 6];
+        const bool has_times = random() % 2 == 0;
+        std::string text;
+        for (std::uint64_t row = 0, first = random() % 3, end = first + 2 + random() % 3; row < end;
+             ++row) {
+            const std::string fraction = fmt::format("{},{}", row, random() % 100);
+            text += (has_times ? fmt::format("{}{}", row, separator) : "") +
+                    (random() % 2 == 0 ? "-" : "") + fraction + "\n";
+        }
+        EXPECT_NE(refusal_of(text, has_times ? in_g : one_column), "accepted") << text;
+        EXPECT_NE(refusal_of(text, has_times ? one_column : in_g), "accepted") << text;
+    }
+}
+
 struct Refusal {
     const char* name;
     std::string text;
@@ -153,12 +185,15 @@ constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
 // clang-format off
 INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
     Refusal{"AMissingUnit", "0.1\n", only_a_time_step,
-            "a.txt: files in text format do not state the unit of the accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+            "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
+            "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
     Refusal{"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
-            "a.txt: files in text format do not state the unit of the accelerations. Give the unit: g, m/s2, cm/s2, mm/s2."},
+            "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
+            "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
     Refusal{"AMissingTimeStep", "# a\n0.1\n", in_g,
-            "a.txt:2: the file has one column, so the time step is not known. Give time_step in seconds, or "
-            "two columns with time in seconds first."},
+            "a.txt:2: the file has one column, so the time step is not known. Give two columns with time in seconds first, "
+            "or the time step in seconds: scene.time_step in a job, --set scene.time_step=... on the command line, or "
+            "time_step=... in Python."},
     Refusal{"ATimeStepForTwoColumns", "0 0.1\n1 0.1\n", one_column,
             "a.txt:1: time_step = 0.02 was given, but the file has two columns, which state the times. Remove "
             "time_step."},
@@ -166,13 +201,13 @@ INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
             "a.txt:1: the line has 3 columns. Give one column of accelerations, or two of times and accelerations; "
             "the decimal mark is a point."},
     Refusal{"DecimalCommas", "0,01 0,2\n", in_g,
-            "a.txt:1: the line has 4 columns. Give one column of accelerations, or two of times and accelerations; "
-            "the decimal mark is a point."},
+            "a.txt:1: \"0,01 0,2\" may be a number with a decimal comma, because the file has no decimal point. Write "
+            "numbers with a point, and separate columns by blanks."},
     Refusal{"ASecondColumnFromSomeLineOn", "1\n2 3\n", one_column,
             "a.txt:2: the line has 2 columns, but the previous lines have 1. Correct it."},
     Refusal{"AMissingColumn", "0 1\n1\n", in_g,
             "a.txt:2: the line has 1 column, but the previous lines have 2. Correct it."},
-    Refusal{"AnEmptyColumn", "0,1\n1,\n", in_g,
+    Refusal{"AnEmptyColumn", "0,1.5\n1,\n", in_g,
             "a.txt:2: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
     Refusal{"AWord", "1\nend\n", one_column,
             "a.txt:2: \"end\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},

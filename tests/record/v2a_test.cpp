@@ -191,7 +191,7 @@ INSTANTIATE_TEST_SUITE_P(Of, V2aRefusal, testing::Values(
 TEST(V2a, RefusesAUnitBecauseItStatesItsOwn)
 {
     EXPECT_EQ(refusal_of(sound, in_g),
-              "a.txt: the unit g was given, but V2A files are in mm/s2. Remove the unit.");
+              "a.txt: units = g was given, but this V2A file is in mm/s2. Remove units.");
 }
 
 } // namespace

@@ -45,13 +45,13 @@ def ground_text(file):
 
 @functools.cache
 def motion_names(file):
-    """Returns the name of each record: that of its file, or path and index if several files of the
-    suite have the same name."""
+    """Returns the name of each record without its folder; with it if several would be equal. The index
+    is added only in files of version 1.0.0 whose motions have equal names."""
     paths = [row.tobytes().decode(errors="replace").rstrip("\0") for row in file["motion_name"][:]]
     names = [file_name(path) for path in paths]
     if len(set(names)) == len(names):
         return names
-    return [f"{path} (motion {place})" for place, path in enumerate(paths)]
+    return paths if len(set(paths)) == len(paths) else [f"{path} (motion {i})" for i, path in enumerate(paths)]
 
 
 def value_text(file, name, place):

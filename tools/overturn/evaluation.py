@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
+class ArgumentError(TypeError, ValueError):
+    """Arguments are missing or contradict each other."""
+
+
 class Verdict(enum.IntEnum):
     """The codes of `verdict`. An undecided point counts neither as safe nor as overturning."""
 
@@ -45,7 +49,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              pulse_period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
              frequency: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None,
-             pulse: str = "one_sine", window: float | None = None, cycles: float | None = None,
+             pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
              record: ArrayLike | None = None, vertical: ArrayLike | None = None,
              time_step: float | None = None, scale: ArrayLike | None = None,
@@ -65,7 +69,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     A pulse:
         pulse_period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
         pga*: peak ground acceleration over g [1]; or amplitude*, over the acceleration that lifts the block [1].
-        pulse: its kind; window, cycles, gamma, nu: numbers that complete some kinds, see docs/jobs.md.
+        pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
+            docs/jobs.md.
     Or a record:
         record: horizontal accelerations over g [1], one-dimensional, linear between samples.
         vertical: vertical accelerations over g [1] at the same times, positive upwards.
@@ -79,7 +84,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         gravity: g [m/s2].
 
     Warns, once a call, of values that are probably in another unit. Raises ValueError if a value is not allowed, with its index in the broadcast shape, or if arrays do not
-    broadcast; TypeError if arguments are missing or contradict each other.
+    broadcast; ArgumentError, a TypeError and ValueError, if arguments are missing or contradict each other.
     """
     columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
                      slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
@@ -93,14 +98,15 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     if record is None:
         _refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
-            raise TypeError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
+            raise ArgumentError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
                             "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
-        scene = core.scene_of_pulse(pulse, theory, numbers["gravity"], {name: numbers[name] for name in shape_numbers})
+        scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, numbers["gravity"],
+                                    {name: numbers[name] for name in shape_numbers})
     else:
-        _refuse({**of_pulse, **shape_numbers}, "cannot be combined with record")
+        _refuse({**_given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
         if time_step is None or (scale is None) == (pga is None):
-            raise TypeError("a record needs time_step, and either scale or pga.")
+            raise ArgumentError("a record needs time_step, and either scale or pga.")
         columns |= _given(scale=scale)
         horizontal, upwards = _accelerations(record, vertical)
         scene = core.scene_of_record(horizontal, upwards, numbers["time_step"], theory, numbers["gravity"])
@@ -120,15 +126,27 @@ def _number(name, value):
 
 
 def _numbers(name, value):
+    if _has_masked_values(value):
+        raise ValueError(f"{name} has masked values. Remove these points.")
     try:
-        return np.asarray(value, float)
+        array = np.asarray(value)
+        kinds = {np.asarray(each).dtype.kind for each in array.flat} if array.dtype.kind == "O" else {array.dtype.kind}
+        if kinds & set("cMmV"):  # complex numbers, dates and times, records
+            raise TypeError
+        return np.asarray(array, float)
     except (TypeError, ValueError):
         raise ValueError(f"{name} is not a number or an array of numbers.") from None
 
 
+def _has_masked_values(value):
+    if isinstance(value, (list, tuple)):
+        return any(map(_has_masked_values, value))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.getmaskarray(value).any())
+
+
 def _refuse(arguments, reason):
     if arguments:
-        raise TypeError(f"{next(iter(arguments))} {reason}. Remove it.")
+        raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
 
 
 def _accelerations(record, vertical):
@@ -170,6 +188,6 @@ def _evaluated(scene, numerics, columns):
 def _error_of(row, column, message, shape):
     """Returns the error of a list with the names of the arguments and the index of the point."""
     if row < 0:
-        return TypeError(f"{column} {message}".lstrip())
+        return ArgumentError(f"{column} {message}".lstrip())
     index = tuple(map(int, np.unravel_index(row, shape)))
     return ValueError(f"at index {index}: {message}" if shape else message)

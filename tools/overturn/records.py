@@ -31,7 +31,8 @@ def read_record(path: str | os.PathLike, component: int | str = 1, *, time_step:
     """Reads one component of a recorded ground motion, as jobs do (docs/records.md).
 
     component: its number, counted from 1, or its name.
-    time_step [s] and units ("g", "m/s2", "cm/s2" or "mm/s2"): of files of text, which do not state them.
+    time_step [s] and units ("g", "m/s2", "cm/s2", "mm/s2" or "gal"): of files of text, which do not state
+        them; units also of AT2 files whose header does not state a unit that is understood.
     gravity: g [m/s2], by which accelerations that are not in g are divided.
 
     Raises RecordError if the file cannot be read; ValueError if an argument is not allowed.

@@ -37,9 +37,10 @@ inline std::int64_t most_crossings(const Scene& scene)
 /// not contain their accelerations.
 struct Motion {
     std::string file;      ///< path as the job spells it, or as a pattern matched it
+    std::string name;      ///< of its own among the motions of the job: the file, or with component
     std::string component; ///< its name in the file; may be empty
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
-    std::vector<std::string> header; ///< lines of the file; not in a resolved job
+    std::vector<std::string> header; ///< lines of the file in UTF-8; not in a resolved job
 
     std::int64_t samples = 0;
     double time_step = 0; ///< [s]
@@ -88,6 +89,9 @@ struct Job {
 inline constexpr std::array<std::string_view, 10> axis_names{
     "frequency", "pulse_period", "pulse_frequency",     "amplitude",   "pga",
     "scale",     "size",         "frequency_parameter", "restitution", "slenderness"};
+
+/// Whether a job gives at most one value of these two axes: they are equal, or give one quantity.
+bool exclude_each_other(std::string_view axis, std::string_view other);
 
 /// The keys that an override of read_job() may replace, such as "scene.pulse" and
 /// "plane.frequency.count".

@@ -19,11 +19,11 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-enum class AccelerationUnit { g, m_per_s2, cm_per_s2, mm_per_s2 };
+enum class AccelerationUnit { g, m_per_s2, cm_per_s2, mm_per_s2, gal };
 
 /// Names in job files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 4> acceleration_unit_names{"g", "m/s2", "cm/s2",
-                                                                         "mm/s2"};
+inline constexpr std::array<std::string_view, 5> acceleration_unit_names{"g", "m/s2", "cm/s2",
+                                                                         "mm/s2", "gal"};
 
 constexpr std::string_view name_of(AccelerationUnit unit)
 {
@@ -32,7 +32,8 @@ constexpr std::string_view name_of(AccelerationUnit unit)
 
 /// One component of a recorded motion.
 struct RecordComponent {
-    /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat.
+    /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat. Bytes
+    /// that are not UTF-8 are read as Latin-1.
     std::string name;
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
@@ -47,12 +48,14 @@ std::vector<double> over_gravity(const RecordComponent& component, double gravit
 struct RecordFile {
     std::string format; ///< "AT2", "V2A", "SMC" or "text"
     std::vector<RecordComponent> components;
+    bool has_given_unit = false; ///< whether the unit is that of the options
 };
 
 /// What a file of plain text does not state. Both are refused if the file states them.
 struct RecordOptions {
     std::optional<double> time_step;      ///< of one column [s]
-    std::optional<AccelerationUnit> unit; ///< of one or two columns
+    std::optional<AccelerationUnit> unit; ///< of one or two columns, and of an AT2 file that states
+                                          ///< none or one that is not understood
 };
 
 /// Larger records are refused.
@@ -62,7 +65,7 @@ inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [b
 /// Reads the text of a file; `name` replaces the path in messages. The format is recognised from
 /// the text:
 ///
-///   AT2   line 4 contains NPTS, and is not a comment
+///   AT2   line 4 contains NPTS, and is not a comment; the unit is g if the header states none
 ///   V2A   line 10 begins with "Number of points"
 ///   SMC   line 1 is a digit and the kind of data, such as "2 CORRECTED ACCELEROGRAM"
 ///   text  the first line that is neither blank nor a comment (# or %) begins with a number: one

@@ -37,8 +37,8 @@ struct Table {
 
 inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [bytes]
 
-/// Reads the text of a file; `name` replaces the path in messages. The first line names the
-/// columns. Lines end with LF or CR LF; empty ones at the end are skipped. Throws TableError.
+/// Reads the text of a file, in UTF-8; `name` replaces the path in messages. The first line names
+/// the columns. Lines end with LF or CR LF; empty ones at the end are skipped. Throws TableError.
 Table read_table(std::string_view text, const std::string& name);
 
 } // namespace overturn

@@ -1,0 +1,234 @@
+// Names of motions and of columns, and strengths, of jobs with records and tables.
+#include "motion_names.hpp"
+
+#include "overturn/job/job.hpp"
+#include "support/scratch_folder.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+namespace overturn {
+namespace {
+
+using testing::HasSubstr;
+
+class JobWithFiles : public testing::Test {
+protected:
+    void write(const std::string& name, const std::string& text) const
+    {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+
+    void write_record(const std::string& name, const std::string& samples) const
+    {
+        write(name, "PEER\nA, 1\nIN UNITS OF G\nNPTS= 3, DT= .1\n" + samples + "\n");
+    }
+
+    /// A V2A file with these components, of two samples each.
+    void write_components(const std::string& name, const std::vector<std::string>& names) const
+    {
+        std::string text;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            for (int line = 1; line <= 26; ++line) {
+                text +=
+                    line == 1    ? "Corrected accelerogram"
+                    : line == 10 ? "Number of points 2"
+                    : line == 13 ? "Component " + names[i]
+                    : line == 14 ? "Acceleration: peak 5 mm/s/s"
+                    : line == 20 ? fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 0, 0, 0, 2, 0, 0)
+                    : line == 23 ? fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 0, 0, 0, 0, 0, 0.1)
+                                 : "";
+                text += '\n';
+            }
+            text += fmt::format("{:>8}{:>8}\n", 0, i + 1);
+        }
+        write(name, text);
+    }
+
+    Job job(const std::string& scene, const std::string& rest) const
+    {
+        return read_job_text("[scene]\n" + scene + "\n" + rest, folder_ / "job.toml");
+    }
+
+    Job plane(const std::string& scene, const std::string& strength = "scale = 1") const
+    {
+        return job(scene,
+                   "[plane]\n" + strength + "\nsize = 1\nslenderness = 0.2\nrestitution = 0.9\n");
+    }
+
+    /// A job with a table of one block; pulse: under this pulse, else records of the scene.
+    Job table(const std::string& text, const std::string& scene = "pulse = \"one_sine\"") const
+    {
+        write("t.csv", text);
+        return job(scene, scene.starts_with("pulse")
+                              ? "[blocks]\ntable = \"t.csv\"\n[plane]\npga = 1\n"
+                                "pulse_period = 1\n"
+                              : "[blocks]\ntable = \"t.csv\"\n");
+    }
+
+    ScratchFolder folder_;
+};
+
+template <class Read>
+std::string refusal_of(const Read& read)
+{
+    try {
+        read();
+    } catch (const JobError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+std::vector<std::string> names_of(const Job& job)
+{
+    std::vector<std::string> names;
+    for (const Motion& motion : job.motions) {
+        names.push_back(motion.name);
+    }
+    return names;
+}
+
+using Motions = JobWithFiles;
+
+TEST_F(Motions, AreNamedByTheirFilesAndThoseOfOneFileAlsoByTheirComponents)
+{
+    write_components("a.V2A", {"N28W", "S62W", "S62W"});
+    write_record("b.AT2", "0 1 0");
+    const Job one = plane("record = ['a.V2A', 'b.AT2']");
+    EXPECT_EQ(names_of(one), (std::vector<std::string>{"a.V2A", "b.AT2"}));
+    EXPECT_THAT(one.resolved, testing::Not(HasSubstr("name =")));
+    const std::vector<std::string> names{"a.V2A:N28W", "a.V2A:2", "b.AT2", "a.V2A:3"};
+    const Job suite =
+        plane("record = ['a.V2A', 'a.V2A', 'b.AT2', 'a.V2A']\ncomponent = [1, 2, 1, 3]");
+    EXPECT_EQ(names_of(suite), names);
+    EXPECT_EQ(names_of(read_resolved_job(suite.resolved, "resolved")), names);
+}
+
+TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)
+{
+    write_components("a.V2A", {"N", "E", "Up"});
+    EXPECT_EQ(names_of(plane("record = ['a.V2A', 'a.V2A']\nvertical = ['E', 'Up']")),
+              (std::vector<std::string>{"a.V2A:N:E", "a.V2A:N:Up"}));
+}
+
+TEST_F(Motions, AreRefusedIfOneIsListedTwiceUnderAnySpelling)
+{
+    write_components("a.V2A", {"N", "E"});
+    for (const char* scene : {"record = ['a.V2A', 'a.V2A']", "record = ['a.V2A', './a.V2A']",
+                              "record = ['a.V2A', 'a.*']\ncomponent = [2, 'E']"}) {
+        EXPECT_THAT(refusal_of([&] { plane(scene); }), HasSubstr("is listed more than once"))
+            << scene;
+    }
+}
+
+TEST_F(Motions, AreChosenInTablesByTheirNames)
+{
+    write_components("a.V2A", {"N", "E"});
+    const auto motion_of = [&](const std::string& name) {
+        return table("slenderness,size,restitution,scale,motion\n0.2,1,0.9,1," + name + "\n",
+                     "record = ['a.V2A', 'a.V2A']\ncomponent = ['N', 'E']")
+            .plane.list->motion;
+    };
+    EXPECT_EQ(motion_of("a.V2A:E"), std::vector<std::int64_t>{1});
+    EXPECT_EQ(motion_of("a:N"), std::vector<std::int64_t>{0});
+    EXPECT_THAT(
+        refusal_of([&] { motion_of("a.V2A"); }),
+        HasSubstr("t.csv:2:5: motion = \"a.V2A\" is the name of several records: \"a.V2A:N\" "
+                  "and \"a.V2A:E\". Give one of these names."));
+}
+
+TEST_F(Motions, OfFilesWhoseNamesAreNotUtf8AreRefused)
+{
+    write_record("b\xe9.AT2", "0 1 0");
+    EXPECT_THAT(refusal_of([&] { plane("record = '*.AT2'"); }),
+                HasSubstr("matches the file b\u00e9.AT2, whose name is not UTF-8. Rename it."));
+}
+
+TEST_F(Motions, InLatin1AreReadAgainFromTheResolvedJob)
+{
+    write("b.AT2", "PEER\nM\xe9xico, \xd1\nIN UNITS OF G\nNPTS= 3, DT= .1\n0 1 0\n");
+    const Job job = plane("record = 'b.AT2'");
+    EXPECT_EQ(read_resolved_job(job.resolved, "resolved").motions[0].component, "\u00d1");
+    EXPECT_EQ(job.motions[0].header[1], "M\u00e9xico, \u00d1");
+}
+
+using Strengths = JobWithFiles;
+
+TEST_F(Strengths, WhoseFactorOnTheRecordOverflowsAreRefused)
+{
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 20; ++i) {
+        const double peak = std::pow(10.0, -308.5 - double(random() % 100) / 10);
+        write_record("b.AT2", fmt::format("0 {} 0", peak));
+        EXPECT_THAT(refusal_of([&] { plane("record = 'b.AT2'", "pga = 1"); }),
+                    HasSubstr("plane.pga is 1, which exceeds the range of double precision as a "
+                              "factor on \"b.AT2\", whose peak is"))
+            << peak;
+        EXPECT_THAT(refusal_of([&] {
+                        table("slenderness,size,restitution,pga\n0.2,1,0.9,0\n0.2,1,0.9,1\n",
+                              "record = 'b.AT2'");
+                    }),
+                    HasSubstr("t.csv:3:4: pga = 1 exceeds the range of double precision"))
+            << peak;
+        EXPECT_EQ(refusal_of([&] { plane("record = 'b.AT2'", "scale = 1"); }), "accepted");
+    }
+}
+
+using Columns = JobWithFiles;
+
+std::string with_column(const std::string& name, const std::string& value = "1")
+{
+    return fmt::format("slenderness,size,restitution,\"{}\"\n0.2,1,0.9,{}\n", name, value);
+}
+
+TEST_F(Columns, WhoseNamesCannotBeVariablesAreRefused)
+{
+    std::mt19937_64 random(6);
+    const std::vector<std::string> wrong{
+        " ", "\t", "\n", "\u00a0", "\u2003", "\u3000", "/", "\x7f", std::string(249, 'x')};
+    for (int i = 0; i < 100; ++i) {
+        const std::string name = std::string(random() % 3, 'a') +
+                                 wrong[std::size_t(i) % wrong.size()] +
+                                 std::string(1 + random() % 3, 'b');
+        EXPECT_THAT(refusal_of([&] { table(with_column("c" + name)); }),
+                    HasSubstr("t.csv:1:4: the column"))
+            << name;
+    }
+    EXPECT_THAT(
+        refusal_of([&] { table(with_column("my note")); }),
+        HasSubstr("t.csv:1:4: the column \"my note\" cannot be a variable of a result file, "
+                  "because it contains a blank. Allowed are up to 248 bytes without blanks"));
+    for (const std::string& name : {std::string(248, 'x'), std::string("\u00fcber-h\u00f6he;[m]"),
+                                    std::string("pgv"), std::string("x_length")}) {
+        EXPECT_EQ(refusal_of([&] { table(with_column(name)); }), "accepted") << name;
+    }
+}
+
+TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
+{
+    write_record("b.AT2", "0 1 0");
+    for (const char* name : {"run", "block", "motion_name"}) {
+        EXPECT_THAT(refusal_of([&] { table(with_column(name)); }),
+                    HasSubstr("is the name of a variable"));
+    }
+    for (const char* name :
+         {"pgv", "arias_intensity", "significant_duration", "motion_name_length"}) {
+        EXPECT_THAT(refusal_of([&] {
+                        write("t.csv", with_column(name));
+                        job("record = 'b.AT2'",
+                            "[blocks]\ntable = \"t.csv\"\n[plane]\nscale = 1\n");
+                    }),
+                    HasSubstr("t.csv:1:4: " + std::string(name) + " is the name of a variable"));
+    }
+    EXPECT_THAT(
+        refusal_of([&] { table("slenderness,size,restitution,id,id_length\n0.2,1,0.9,a,1\n"); }),
+        HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,160 @@
+// Units of acceleration that headers state.
+#include "reading.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace overturn {
+namespace {
+
+/// An AT2 file with these lines of the database, of the unit and of the sampling.
+std::string at2(const std::string& unit_line, const std::string& first_line = "PEER",
+                const std::string& sampling = "NPTS= 2, DT= .01 SEC")
+{
+    return first_line + "\nSan Fernando, 2/9/1971, LA - Unit 2 Gals Bldg. G, 230\n" + unit_line +
+           "\n" + sampling + "\n.5 -1\n";
+}
+
+/// The number of units of the first sample in 1 m/s2, or -1 if the text is refused; g is 0.
+double factor_of(const std::string& text)
+{
+    try {
+        const RecordComponent component = component_of(text);
+        return component.unit == AccelerationUnit::g ? 0 : .5 / over_gravity(component, 1).front();
+    } catch (const RecordError&) {
+        return -1;
+    }
+}
+
+struct Group {
+    double factor;
+    std::vector<std::string> lines;
+};
+
+// clang-format off
+const std::vector<Group> groups{
+    {0, {"ACCELERATION TIME SERIES IN UNITS OF G",
+         "ACCELERATION TIME HISTORY IN UNITS OF G",
+         "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 HZ LP=30.0 HZ",
+         "ACCELERATION TIME SERIES IN UNITS OF G, FILTERED",
+         "ACCELERATION TIME HISTORY, UNITS OF G - CORRECTED", "Acceleration in g", "Acceleration (g)",
+         "acceleration [g]", "ACCELERATION IN G'S", "UNITS: G", "Units = g", "ACC. IN G.", "ACCELERATION (G), DT IN SEC",
+         "ACCELERATION TIME HISTORY IN FRACTIONS OF G", "ACCELERATION UNITS ARE G", "ACCELERATION IN UNITS OF GRAVITY",
+         // a title without a unit, perhaps with words that resemble one
+         "ACCELERATION TIME HISTORY", "ACCELERATION TIME SERIES", "", "CORRECTED ACCELERATION, COMPONENT 230",
+         "ACCELERATION RECORDED IN GILROY", "ACCELERATION IN DIRECTION 230", "ACCELERATION IN THE BASEMENT OF BUILDING G",
+         "ACCELERATION RECORDED IN MILLIKAN LIBRARY", "ACCELERATION, COMPONENT N/S (UP)", "ACCELERATION E/W 1/17/1994",
+         "ACCELERATION TIME HISTORY, PGA = 0.35 G", "ACCELERATION IN G, PEAK = 343 CM/S/S AT 2.4 SEC",
+         "ACCELERATION (FILTERED)", "ACCELERATION HISTORY OF UNIT 2", "ACCELERATION IN M. SMITH BUILDING"}},
+    {100, {"ACCELERATION IN CM/S/S", "ACCELERATION TIME SERIES (CM/SEC/SEC)", "UNITS: CM/S**2", "ACCELERATION [cm/s^2]",
+           "ACCELERATION TIME SERIES IN UNITS OF CM/S/S", "ACCELERATION TIME SERIES IN UNITS OF CM/S/S, FILTERED",
+           "acceleration in cm/sec2", "Acceleration (Gal)", "ACCELERATION IN GALS", "UNITS OF GAL.",
+           "ACCELERATION, CM/SEC**2", "ACCELERATION CM/S2 CORRECTED", "Acceleration in cm per sec per sec",
+           "ACCELERATION IN CM/SEC SQUARED", "acceleration in cm s-2", "acceleration in cm/s\xc2\xb2",
+           "acceleration in cm/s\xb2", "ACCELERATION: CM / SEC / SEC", "ACCELERATION IN CM/(S*S)"}},
+    {1, {"ACCELERATION IN M/S/S", "UNITS: M/S^2", "acceleration (m/s2)", "ACCELERATION IN METERS/SEC/SEC", "units = m s^-2"}},
+    {1000, {"ACCELERATION IN MM/S/S", "UNITS OF MM/SEC**2", "acceleration [mm/s^2]"}},
+    {-1, {"ACCELERATION IN G/10", "ACCELERATION IN G / 10", "UNITS OF G*981", "ACCELERATION (G/100)", "ACCELERATION IN 0.01 G",
+          "ACCELERATION IN 10**-3 G", "ACCELERATION IN PERCENT OF G", "ACCELERATION IN % G", "ACCELERATION (%G)",
+          "ACCELERATION IN MILLI-G", "ACCELERATION IN TENTHS OF G", "UNITS: FURLONGS", "ACCELERATION (CM/S)",
+          "ACCELERATION IN FT/S/S", "ACCELERATION IN IN/SEC/SEC", "ACCELERATION IN SI UNITS", "ACCELERATION IN COUNTS",
+          "ACCELERATION IN CM", "ACCELERATION IN CM/S/S * 10", "ACCELERATION IN UNITS OF G (CM/S/S)", "UNITS: MG",
+          "ACCELERATION IN CM/S/S/S", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G"}}};
+// clang-format on
+
+TEST(AStatedUnit, OfAnAt2FileIsUsedIfItIsUnderstoodAndRefusedOtherwise)
+{
+    for (const auto& [factor, lines] : groups) {
+        for (const std::string& line : lines) {
+            EXPECT_EQ(factor_of(at2(line)), factor) << line;
+        }
+    }
+}
+
+TEST(AStatedUnit, OfAnAt2FileIsFoundInAnyLineOfTheHeader)
+{
+    const std::string title = "ACCELERATION TIME SERIES";
+    EXPECT_EQ(factor_of(at2(title, "PEER, UNITS: CM/S/S")), 100);
+    EXPECT_EQ(factor_of(at2(title, "PEER", "NPTS= 2, DT= .01 SEC, UNITS OF MM/S/S")), 1000);
+    EXPECT_EQ(factor_of(at2(title, "PEER", "NPTS= 2, DT= .01 SEC, CM/S/S")), 100);
+    EXPECT_EQ(factor_of(at2(title, "PEER", "2 .01 NPTS, DT, IN G/10")), -1);
+    EXPECT_EQ(factor_of(at2("IN UNITS OF G", "PEER, UNITS: CM/S/S")), -1);
+}
+
+TEST(AStatedUnit, InAnySpellingCaseAndContextIsUnderstoodOrRefusedButNeverG)
+{
+    std::mt19937_64 random(4);
+    const auto one_of = [&](const std::vector<std::string>& words) {
+        return words[random() % words.size()];
+    };
+    for (int i = 0; i < 4000; ++i) {
+        const std::string length = one_of({"mm", "cm", "m"});
+        const std::string blank = one_of({"", "", " "});
+        const std::string second = one_of({"s", "sec", "second"});
+        const std::string square =
+            one_of({blank + "/" + blank + second, "2", "^2", "**2", " squared"});
+        std::string unit = length + blank + "/" + blank + second + square;
+        const bool is_understood = random() % 4 != 0;
+        if (!is_understood) {
+            unit = one_of({unit + "/10", unit + " * 10", unit + " x 0.1", "0.01 " + unit, "km/s2",
+                           "g/10", "g * 10", "0.1 g", "percent of g", "mg", "ft" + square});
+        }
+        for (char& letter : unit) {
+            letter = random() % 2 == 0 ? char(std::toupper(letter)) : letter;
+        }
+        const auto [before,
+                    after] = std::vector<std::pair<std::string, std::string>>{{"in ", ""},
+                                                                              {"(", ")"},
+                                                                              {"[", "] corrected"},
+                                                                              {"UNITS: ", ""},
+                                                                              {"in units of ",
+                                                                               ", filtered"}}
+            [random() % (unit.find_first_of(".k") == unit.npos && std::isalpha(unit[0]) ? 5 : 1)];
+        const std::string line = "Acceleration time series " + before + unit + after;
+        const double factor = length == "mm" ? 1000 : length == "cm" ? 100 : 1;
+        EXPECT_EQ(factor_of(at2(line)), is_understood ? factor : -1) << line;
+    }
+}
+
+TEST(AStatedUnit, ThatIsNotUnderstoodIsNamedWithTheWaysToStateIt)
+{
+    EXPECT_EQ(refusal_of(at2("ACCELERATION TIME SERIES IN G/10")),
+              "a.txt:3: the unit \"G/10\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, "
+              "gal and their usual spellings, such as CM/SEC/SEC. State the unit of the samples: "
+              "scene.units in a job, --set scene.units=... on the command line, or units=... in "
+              "Python.");
+    EXPECT_THAT(refusal_of(at2("IN UNITS OF G (CM/S/S)")),
+                testing::StartsWith("a.txt:3: the unit \"CM/S/S\" contradicts \"G\". Understood"));
+}
+
+TEST(AStatedUnit, ThatIsNotUnderstoodOrMissingMayBeGiven)
+{
+    const RecordOptions in_gal{.time_step = {}, .unit = AccelerationUnit::gal};
+    for (const char* line : {"ACCELERATION IN G/10", "ACCELERATION TIME SERIES"}) {
+        EXPECT_EQ(component_of(at2(line), in_gal).unit, AccelerationUnit::gal) << line;
+    }
+    EXPECT_EQ(refusal_of(at2("ACCELERATION IN CM/S/S"), in_g),
+              "a.txt: units = g was given, but this AT2 file is in cm/s2. Remove units.");
+}
+
+TEST(AStatedUnit, InTheCommentsOfATextMustBeTheGivenOne)
+{
+    const RecordOptions in_gal{.time_step = 0.01, .unit = AccelerationUnit::gal};
+    EXPECT_EQ(refusal_of("# units: m/s2\n1\n", in_gal),
+              "a.txt: the line \"# units: m/s2\" states the unit \"m/s2\", but the given unit is "
+              "gal. Correct one of them.");
+    EXPECT_EQ(component_of("# in units of cm/s^2\n# from m/s/s, unit 2\n1\n", in_gal).acceleration,
+              Values{1});
+}
+
+TEST(Gal, IsOneCentimetrePerSquareSecond)
+{
+    const auto over_g = [](AccelerationUnit unit) {
+        return over_gravity(component_of("3\n", {.time_step = 1, .unit = unit}), 9.81);
+    };
+    EXPECT_EQ(over_g(AccelerationUnit::gal), over_g(AccelerationUnit::cm_per_s2));
+}
+
+} // namespace
+} // namespace overturn
