@@ -83,8 +83,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         resolve: settle verdicts in doubt with up to 50 digits.
         gravity: g [m/s2].
 
-    Warns, once a call, of values that are probably in another unit. Raises ValueError if a value is not allowed, with its index in the broadcast shape, or if arrays do not
-    broadcast; ArgumentError, a TypeError and ValueError, if arguments are missing or contradict each other.
+    Warns, once a call, of values that are probably in another unit. Raises ValueError if a value is not
+    allowed, with its index in the broadcast shape, or if arrays do not broadcast; ArgumentError, which is a
+    TypeError and a ValueError, if arguments are missing or contradict each other.
     """
     columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
                      slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
@@ -99,7 +100,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         _refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
             raise ArgumentError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
-                            "frequency) and pga (or amplitude), or a record.")
+                                "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
         scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, numbers["gravity"],
                                     {name: numbers[name] for name in shape_numbers})
