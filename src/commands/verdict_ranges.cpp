@@ -22,7 +22,7 @@ std::vector<double> scan(const Scene& scene, double first, double last)
 {
     const double steps = scene.is_recorded() ? std::log(last / first) / toppling_step
                                              : std::min((last - first) / (0.1 * first), 2000.0);
-    const std::int64_t count = 1 + std::int64_t(std::ceil(std::max(steps, 50.0)));
+    const std::int64_t count = 1 + std::int64_t(std::ceil(std::max(steps, 10.0)));
     return Axis(AxisRange{first, last, count, scene.is_recorded() ? Spacing::log : Spacing::linear})
         .values();
 }

@@ -194,8 +194,8 @@ class ASlowTile(ScratchWithRuns):
                         env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                         text=True) as process:
                     self.addCleanup(process.kill)
-                    beginning = process.stdout.readline()
-                    self.assertRegex(beginning, "in (1 tile|[0-9]+ tiles);")
+                    self.assertIn("r = 1 is above r_max", process.stdout.readline())
+                    self.assertRegex(process.stdout.readline(), "in (1 tile|[0-9]+ tiles);")
                     process.send_signal(signal.SIGUSR1)
                     output, _ = process.communicate(timeout=PATIENCE / 2)
                     self.assert_stopped(process.returncode, output, ranks)
