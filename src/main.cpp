@@ -2,7 +2,10 @@
 #include "commands/exit_code.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
+#include "overturn/file/file_error.hpp"
 #include "overturn/sweep/sweep_tile.hpp"
+
+#include <cstdio>
 
 int main(int argc, char** argv)
 {
@@ -14,7 +17,15 @@ int main(int argc, char** argv)
     keep_freed_memory();
     try {
         const Command command = read_command_line(argc, argv);
-        return leads || command.on_every_rank ? command.execute() : exit_code::complete;
+        if (!leads && !command.on_every_rank) {
+            return exit_code::complete;
+        }
+        const int code = command.execute();
+        if (code == exit_code::complete && !command.on_every_rank &&
+            (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+            throw FileError("cannot write to stdout.");
+        }
+        return code;
     } catch (const std::exception& error) {
         return leads ? complain(error) : exit_code::complete;
     }

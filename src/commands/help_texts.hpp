@@ -48,7 +48,8 @@ inline constexpr const char* topple = R"(Examples:
 Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
 it, and the ranges of the PGA in which it topples or the verdict is undecided: for the given
 restitution, and for 0.8 to 1 times r_max, because restitutions are rarely known. Accelerations
-within the search and in none of the ranges are safe. The search ends at --pga-max, or where the
+within the search and in none of the ranges are safe, except for very narrow ranges that may be
+missed. The search ends at --pga-max, or where the
 vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... changes it. Values
 that are probably in another unit cause a warning. The exit code is 0 whatever the verdict. Spectra
 and suites of records need a job file: see overturn run.)";

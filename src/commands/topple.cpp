@@ -107,7 +107,7 @@ void expect_consistent(const ToppleOptions& options)
 
 /// The answer for one restitution.
 struct RestitutionAnswer {
-    double share; ///< r / r_max
+    double share; ///< r / r_max; NaN if there is no r_max
     double ratio; ///< r
     VerdictRanges ranges;
 };
@@ -123,6 +123,14 @@ struct Answer {
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 };
 
+/// r_max of the block (Eq. 17), which does not exist for wide blocks.
+std::optional<double> r_max_of(const Job& job)
+{
+    const double alpha = job.plane.slenderness.first();
+    return alpha < std::asin(std::sqrt(2.0 / 3)) ? std::optional(largest_restitution(alpha))
+                                                 : std::nullopt;
+}
+
 Answer answer_of(const Job& job, const ToppleOptions& options)
 {
     Answer answer;
@@ -136,11 +144,13 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
                                                    : Verdict::safe;
     }
     answer.lifting_pga = lifting_pga(job.scene, 0, alpha);
-    const double r_max = largest_restitution(alpha);
     const double requested = job.plane.restitution_ratio(0, 0);
+    const auto r_max = r_max_of(job);
     std::vector<double> ratios{requested};
-    for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
-        ratios.push_back(share * r_max);
+    if (r_max) {
+        for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
+            ratios.push_back(share * *r_max);
+        }
     }
     Progress progress(0, std::int64_t(ratios.size()), "restitutions");
     const auto show_progress = [&] {
@@ -159,7 +169,7 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
             .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first()),
             .unit = unit};
         answer.by_restitution.push_back(
-            {ratio / r_max, ratio,
+            {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
              verdict_ranges(job.scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
     }
     return answer;
@@ -185,10 +195,13 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     print_row("motion", is_recorded ? record_lines(job).front()
                                     : fmt::format("{}, period {} s", name_of(job.scene.pulse),
                                                   *options.period));
-    print_row("restitution",
-              requested.share == 1
-                  ? fmt::format("r = r_max = {:.4g}", requested.ratio)
-                  : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
+    print_row(
+        "restitution",
+        std::isnan(requested.share)
+            ? fmt::format("r = {:.4g}; r_max is not defined for so wide a block", requested.ratio)
+        : requested.share == 1
+            ? fmt::format("r = r_max = {:.4g}", requested.ratio)
+            : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
     if (answer.verdict) {
         const std::string_view verdict = verdict_texts[std::size_t(*answer.verdict)];
         print_row("verdict", options.pga
@@ -202,7 +215,9 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
                                                 requested.ranges.end_of_search())
                                   : ""));
-    fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
+    if (answer.by_restitution.size() > 1) {
+        fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
+    }
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
@@ -243,8 +258,21 @@ std::string json_of(const RestitutionAnswer& answer)
         "\"restitution\": {}, \"restitution_of_maximum\": {}, "
         "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
         "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
-        answer.ratio, answer.share, json_of(toppling), json_of(ranges.with(Verdict::safe)),
+        answer.ratio, std::isnan(answer.share) ? "null" : fmt::format("{}", answer.share),
+        json_of(toppling), json_of(ranges.with(Verdict::safe)),
         json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
+}
+
+std::string json_of_motion(const Job& job, const ToppleOptions& options)
+{
+    if (job.motions.empty()) {
+        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}}}", name_of(job.scene.pulse),
+                           *options.period);
+    }
+    const Motion& motion = job.motions.front();
+    return fmt::format("{{\"record\": {}, \"component\": {}, \"vertical\": {}}}",
+                       quoted(motion.file), quoted(motion.component),
+                       motion.vertical.empty() ? "null" : quoted(motion.vertical));
 }
 
 void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
@@ -260,30 +288,33 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
     }
     const bool is_requested = answer.verdict.has_value();
     const std::string warning = implausible_values_of(job);
-    fmt::print("{{\n"
-               "  \"topples\": {},\n"
-               "  \"pga\": {},\n"
-               "  \"peak_of_alpha\": {},\n"
-               "  \"peak_degrees\": {},\n"
-               "  \"slenderness\": {},\n"
-               "  \"frequency_parameter\": {},\n"
-               "  \"gravity\": {},\n"
-               "  \"lifting_pga\": {},\n"
-               "  \"pga_max\": {},\n"
-               "  \"narrower_ranges_exist\": {},\n"
-               "  \"warnings\": [{}],\n"
-               "  {},\n"
-               "  \"by_restitution\": [{}\n  ]\n"
-               "}}\n",
-               answer.verdict == Verdict::topples ? "true"
-               : answer.verdict == Verdict::safe  ? "false"
-                                                  : "null",
-               is_requested ? number(answer.pga) : "null",
-               is_requested ? number(answer.peak) : "null",
-               is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
-               *parameter_of_only_block(job), job.scene.gravity, number(answer.lifting_pga),
-               options.pga_max, job.scene.is_recorded(), warning.empty() ? "" : quoted(warning),
-               json_of(answer.by_restitution.front()), others);
+    fmt::print(
+        "{{\n"
+        "  \"block\": {{\"width\": {}, \"height\": {}}},\n"
+        "  \"motion\": {},\n"
+        "  \"topples\": {},\n"
+        "  \"pga\": {},\n"
+        "  \"peak_of_alpha\": {},\n"
+        "  \"peak_degrees\": {},\n"
+        "  \"slenderness\": {},\n"
+        "  \"frequency_parameter\": {},\n"
+        "  \"gravity\": {},\n"
+        "  \"lifting_pga\": {},\n"
+        "  \"pga_max\": {},\n"
+        "  \"narrower_ranges_exist\": {},\n"
+        "  \"warnings\": [{}],\n"
+        "  {},\n"
+        "  \"by_restitution\": [{}\n  ]\n"
+        "}}\n",
+        options.width, options.height, json_of_motion(job, options),
+        answer.verdict == Verdict::topples ? "true"
+        : answer.verdict == Verdict::safe  ? "false"
+                                           : "null",
+        is_requested ? number(answer.pga) : "null", is_requested ? number(answer.peak) : "null",
+        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
+        *parameter_of_only_block(job), job.scene.gravity, number(answer.lifting_pga),
+        options.pga_max, job.scene.is_recorded() ? "true" : "null",
+        warning.empty() ? "" : quoted(warning), json_of(answer.by_restitution.front()), others);
 }
 
 /// plot_history of the folder in which this program is installed, or of its source folder.
@@ -368,6 +399,12 @@ int topple(const ToppleOptions& options)
     widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
     const Job job = read_job_text(job_text(options), command_line, options.overrides);
+    if (job.motions.size() > 1) {
+        throw UsageError(
+            fmt::format("--record matches {} files, but topple answers for one motion. "
+                        "Give one file; for a suite, write a job for overturn run.",
+                        job.motions.size()));
+    }
     if (!options.json) {
         warn_of_implausible_values(job);
     }

@@ -12,7 +12,6 @@ namespace {
 
 /// Answers take seconds, even if a slow pulse has hundreds of flips. A line of usual pulses needs a
 /// few hundred amplitudes, none of them in 50 digits, in which one may take a second.
-constexpr double finest_step = 1e-4;
 constexpr std::size_t most_amplitudes = 2000;
 constexpr int most_in_50_digits = 4;
 
@@ -35,7 +34,6 @@ SearchResolution resolution_of(const Scene& scene)
         resolution.finest_step = 2 * toppling_step;
         resolution.most_in_50_digits = 0;
     } else {
-        resolution.finest_step = finest_step;
         resolution.most_amplitudes = most_amplitudes;
         resolution.most_in_50_digits = most_in_50_digits;
     }
@@ -55,7 +53,7 @@ std::string list_of(const std::vector<std::pair<double, double>>& ranges, int de
         }
         list += list.empty() ? "" : ", ";
         if (is_last && i >= most) {
-            list += fmt::format("{} more, ", ranges.size() - most);
+            list += fmt::format("{} more (see --json), ", ranges.size() - most);
         }
         const auto& [first, last] = ranges[i];
         list += last == end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
@@ -153,7 +151,7 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
     text += undecided.empty() ? "" : "; undecided: " + undecided;
     text += fmt::format(", searched up to {:.6g} g", end);
     if (coarse) {
-        text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.1g} %",
+        text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
                             coarse->first, decimals, coarse->last, decimals, 100 * coarse->step);
     }
     return text;

@@ -46,11 +46,12 @@ bool is_one_of(std::string_view name, Names names)
 /// The table of a job, and the refusal of its rows and columns.
 class TableReader {
 public:
-    TableReader(std::string file, const std::string& folder)
+    /// Under records, the column `motion` contains names.
+    TableReader(std::string file, const std::string& folder, bool is_recorded)
         : file_(std::move(file)),
           table_(std::make_shared<Table>(read_table(
               text_of_file<JobError>((std::filesystem::path(folder) / file_).string(), table_file),
-              file_)))
+              file_, is_recorded ? motion_column : "")))
     {}
 
     const std::shared_ptr<const Table>& table() const { return table_; }
@@ -109,10 +110,7 @@ public:
             return numbers;
         }
         for (std::int64_t row = 0; row < table_->rows(); ++row) {
-            const std::string name = column->texts.empty()
-                                         ? fmt::format("{}", column->numbers[std::size_t(row)])
-                                         : column->texts[std::size_t(row)];
-            numbers.push_back(motion_named(name, motions, row));
+            numbers.push_back(motion_named(column->texts[std::size_t(row)], motions, row));
         }
         return numbers;
     }
@@ -278,7 +276,7 @@ BlockTable read_blocks(const Entry& entry, const std::string& folder, Job& job, 
     expect_table(entry, blocks_keys);
     const Entry table = require(entry, "table", "Give the path of a table of blocks.");
     try {
-        const TableReader reader(string_of(table), folder);
+        const TableReader reader(string_of(table), folder, job.scene.is_recorded());
         try {
             job.plane.list = std::make_shared<BlockList>(block_list(
                 job.scene, reader.columns(job.scene.is_recorded()), reader.motions(job.motions)));

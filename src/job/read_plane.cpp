@@ -82,7 +82,8 @@ void check_restitution(const Entry& slenderness, const Entry& restitution, const
         refuse(slenderness,
                fmt::format("{} {} rad, but plane.restitution.of = \"maximum\" is defined only "
                            "below arcsin sqrt(2/3) = {} rad (Eq. 17). Choose a more slender "
-                           "block, or use of = \"absolute\".",
+                           "block, or give r itself: of = \"absolute\", or --restitution "
+                           "of topple.",
                            has_slenderness, last, limit));
     }
     if (!(plane.restitution_ratio(plane.slenderness.size() - 1, 0) > 0)) {

@@ -93,7 +93,8 @@ std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
     if (text.empty() || text.find('\0') != text.npos) {
         refuse(entry, " is not a file name. Give the path of a record, relative to the job file.");
     }
-    if (text.find_first_of("*?[") == text.npos) {
+    std::error_code not_found;
+    if (text.find_first_of("*?[") == text.npos || fs::exists(folder / text, not_found)) {
         return {text};
     }
     // Only the text is a pattern, not the folder of the job.
@@ -232,6 +233,11 @@ private:
                                "s. Both must be equal.",
                                component->acceleration.size(), component->time_step,
                                horizontal.acceleration.size(), horizontal.time_step));
+        }
+        if (component->acceleration == horizontal.acceleration) {
+            refuse(choice.entry, fmt::format(" = {} has the accelerations of the horizontal "
+                                             "component. Give the vertical one.",
+                                             choice.text));
         }
         return over_gravity(*component, gravity_);
     }

@@ -1,6 +1,7 @@
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
+#include "unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,6 +68,15 @@ Sampling read_sampling(const Lines& lines)
         lines.refuse(fmt::format("the time step {} has a decimal comma. Write it with a point, as "
                                  "in DT= .01 SEC.",
                                  quoted(std::string_view(step->data(), step->size() + 2))));
+    }
+    const std::string_view unit =
+        first_word(trimmed(line.substr(std::size_t(step->data() - line.data()) + step->size())));
+    const std::string of_step = simplified(unit.substr(0, unit.find_first_of(",;.")));
+    const bool is_word = !of_step.empty() && 'a' <= of_step[0] && of_step[0] <= 'z';
+    if (is_word && of_step[0] != 's' && of_step != "npts") {
+        lines.refuse(fmt::format("the unit {} of the time step is not understood. Write it in "
+                                 "seconds, as in DT= .01 SEC.",
+                                 quoted(unit)));
     }
     return {.count = count_of(lines, *count, "NPTS"),
             .time_step = time_step_of(lines, without_unit(*step))};

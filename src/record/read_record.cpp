@@ -78,25 +78,35 @@ Format format_of(const Lines& lines)
     return Format::unknown;
 }
 
-/// Refuses a file whose header or comments state a unit other than that of its samples.
+/// Refuses a file whose header or comments state another unit than that of its samples, and not
+/// this one as well, as "converted from cm/s2, units: g" does.
 void expect_no_other_unit(const RecordFile& file, const std::string& name)
 {
-    const auto is_same = [](AccelerationUnit one, AccelerationUnit other) {
-        return units_per_m_per_s2(one) == units_per_m_per_s2(other);
-    };
+    // Comments of a text describe its columns, as in "time [s], acceleration [g]"; the header of a
+    // station contains other brackets.
+    const bool is_text = file.format == "text";
+    const auto places = is_text ? UnitPlaces::title : UnitPlaces::after_units;
     for (const RecordComponent& component : file.components) {
+        std::optional<std::pair<StatedUnit, std::string>> other;
+        bool is_stated = false;
         for (const std::string& line : component.header) {
-            for (const StatedUnit& stated : stated_units(line, UnitPlaces::after_units)) {
-                if (stated.unit && !is_same(*stated.unit, component.unit)) {
-                    refuse_record(
-                        name,
-                        fmt::format("the line {} states the unit {}, but {} is {}. Correct one of "
-                                    "them.",
-                                    quoted(trimmed(line)), quoted(std::string_view(stated.text)),
-                                    file.has_given_unit ? "the given unit" : "that of the format",
-                                    name_of(component.unit)));
+            for (const StatedUnit& stated : stated_units(line, places)) {
+                const bool is_same = stated.unit && units_per_m_per_s2(*stated.unit) ==
+                                                        units_per_m_per_s2(component.unit);
+                is_stated = is_stated || is_same;
+                if (!is_same && !other && (stated.unit || is_text)) {
+                    other = {stated, line};
                 }
             }
+        }
+        if (other && !is_stated) {
+            refuse_record(
+                name, fmt::format("the line {} states the unit {}, but {} is {}. Correct one of "
+                                  "them.",
+                                  quoted(trimmed(std::string_view(other->second))),
+                                  quoted(std::string_view(other->first.text)),
+                                  file.has_given_unit ? "the given unit" : "that of the format",
+                                  name_of(component.unit)));
         }
     }
 }

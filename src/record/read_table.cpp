@@ -207,7 +207,7 @@ const TableColumn* Table::find(std::string_view name) const
     return found == columns.end() ? nullptr : &*found;
 }
 
-Table read_table(std::string_view text, const std::string& name)
+Table read_table(std::string_view text, const std::string& name, std::string_view text_column)
 {
     text = without_empty_lines_at_the_end(without_byte_order_mark(text));
     if (text.empty()) {
@@ -225,6 +225,9 @@ Table read_table(std::string_view text, const std::string& name)
     }
     Table table;
     table.columns = read_names(values);
+    for (TableColumn& column : table.columns) {
+        column.first_text = column.name == text_column ? 0 : column.first_text;
+    }
     const Values rows = values;
     while (!values.at_end()) {
         const std::int64_t row = table.rows();

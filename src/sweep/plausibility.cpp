@@ -29,7 +29,7 @@ constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
                                 "periods are in seconds, and lengths in metres"};
 constexpr PlausibleRange acceleration{"the peak ground acceleration", " g", 0, 5,
                                       "accelerations are in g"};
-constexpr PlausibleRange peak{"the peak of a record", " g", 0, 5,
+constexpr PlausibleRange peak{"the peak of a record", " g", 0.001, 5,
                               "state its unit if the file does not"};
 constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
                                    "times are in seconds"};

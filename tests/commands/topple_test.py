@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 import subprocess
 import time
 import unittest
@@ -209,6 +210,22 @@ class Toppling(Scratch):
             self.addCleanup(process.kill)
             self.assertRegex(process.stderr.readline(), "[0-5] of 6 restitutions, ")
             process.kill()
+
+    def test_of_a_wide_block_has_no_rows_of_r_max(self):
+        # r_max is defined below 54.7 degrees.
+        wide = ("--width", "3", "--height", "1", "--period", "1", "--restitution", "0.5")
+        self.assertIn("r = 0.5; r_max is not defined for so wide a block", self.topple(*wide))
+        answer = self.answer(*wide)
+        self.assertEqual((answer["restitution_of_maximum"], answer["by_restitution"]), (None, []))
+        self.assertEqual(len(answer["toppling_pga"]), 1)
+
+    def test_needs_one_record_and_a_place_for_its_answer(self):
+        for name in ("1.AT2", "2.AT2"):
+            shutil.copy(JOBS / "synthetic.AT2", self.folder / name)
+        self.assert_exit(self.overturn("topple", *STATUE, "--record", "*.AT2", "--scale", "1"), 2,
+                         "--record matches 2 files")
+        self.assert_exit(self.overturn("topple", *PULSE, "--pga", "0.4",
+                                       shell_setup="exec > /dev/full"), 74, "cannot write to stdout")
 
     def test_warns_of_other_units(self):
         for wrong, words in ((("--width", "62", "--height", "210", "--period", "0.5"), "R = 109"),

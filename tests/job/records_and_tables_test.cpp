@@ -230,5 +230,36 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
         HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
 }
 
+TEST_F(Motions, AreFoundInATableByNamesThatLookLikeNumbers)
+{
+    const std::vector<std::string> names{"3", "03", "1e1", "10"};
+    std::string records;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        write_record(names[i] + ".AT2", fmt::format("0 {} 0", 0.1 * double(i + 1)));
+        records += fmt::format("{}\"{}.AT2\"", i > 0 ? ", " : "", names[i]);
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Job found =
+            table("width,height,restitution,motion,scale\n1,4,0.8," + names[i] + ",1\n",
+                  "record = [" + records + "]");
+        EXPECT_EQ(found.plane.list->motion, std::vector{std::int64_t(i)}) << names[i];
+    }
+}
+
+TEST_F(Motions, AreNotVerticalAndHorizontalAtOnce)
+{
+    write_record("a.AT2", "0 0.1 0");
+    EXPECT_THAT(refusal_of([&] { plane("record = \"a.AT2\"\nvertical = 1"); }),
+                HasSubstr("has the accelerations of the horizontal component"));
+    EXPECT_THAT(refusal_of([&] { plane("record = \"a.AT2\"\nvertical = \"a.AT2\""); }),
+                HasSubstr("has the accelerations of the horizontal component"));
+}
+
+TEST_F(Motions, OfAFileWhoseNameIsAPatternAreFound)
+{
+    write_record("a[1].AT2", "0 0.1 0");
+    EXPECT_EQ(plane("record = \"a[1].AT2\"").motions.size(), 1);
+}
+
 } // namespace
 } // namespace overturn

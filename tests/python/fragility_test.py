@@ -77,7 +77,8 @@ def result(region, scale, motions=None, pgv=1.0, **fields):
     measures = {"pga": 0.5, "pgv": pgv, "arias_intensity": 3.0, "significant_duration": 8.0}
     return xarray.Dataset(data, coords={
         "motion": np.arange(1.0, motions + 1), "scale": np.asarray(scale, float),
-        **{name: ("motion", np.full(motions, value), {"units": "m s-1"}) for name, value in measures.items()}})
+        **{name: ("motion", np.full(motions, value), {"units": "1" if name == "pga" else "m s-1"})
+           for name, value in measures.items()}})
 
 
 def graded(motions=10, blocks=8):
@@ -282,6 +283,32 @@ class AnEdgeCase(unittest.TestCase):
         region[:, 2:] = F
         self.assert_no_fit(region, [0.5, 1, 2, 4],
                            "no point overturns up to pgv = 1, and every point does so from 2 on")
+
+    def test_points_that_were_masked_or_have_unknown_codes_have_no_verdict(self):
+        region, scale = graded()
+        whole = result(region, scale)
+        random = np.random.default_rng(5)
+        kept = xarray.DataArray(random.random(whole.region.shape) < 0.5, dims=whole.region.dims)
+        masked = overturn.fragility(whole.where(kept), samples=20)
+        marked = whole.assign(region=whole.region.where(kept, UNDECIDED).assign_attrs(whole.region.attrs))
+        expected = overturn.fragility(marked, samples=20)
+        self.assertEqual((masked.points.sum(), masked.undecided), (kept.sum(), (~kept).sum()))
+        self.assertEqual((masked.median, masked.beta), (expected.median, expected.beta))
+        unknown = whole.assign(region=xarray.full_like(whole.region, 77))
+        self.assertEqual(overturn.fragility(unknown, samples=20).points.sum(), 0)
+
+    def test_what_is_no_field_or_no_limit_is_refused(self):
+        whole = result(*graded())
+        plain = xarray.DataArray(whole.region.values, dims=whole.region.dims)
+        with self.assertRaisesRegex(ValueError, "region has no flag_meanings"):
+            overturn.fragility(whole.assign(region=plain))
+        with self.assertRaisesRegex(ValueError, "limit = nan"):
+            overturn.fragility(whole, limit=float("nan"))
+
+    def test_units_are_those_of_the_variable(self):
+        whole = result(*graded())
+        pga = xarray.DataArray(np.full(whole.sizes["motion"], 9.81), dims="motion", attrs={"units": "m/s2"})
+        self.assertEqual(overturn.fragility(whole.assign_coords(pga=pga), "pga", samples=20).units, "m/s2")
 
     def test_fewer_points_overturn_at_larger_values(self):
         region, scale = graded()

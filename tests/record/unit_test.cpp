@@ -148,6 +148,35 @@ TEST(AStatedUnit, InTheCommentsOfATextMustBeTheGivenOne)
               Values{1});
 }
 
+TEST(AStatedUnit, InTheHeadOfAColumnMustBeTheGivenOne)
+{
+    const RecordOptions in_metres{.time_step = 0.01, .unit = AccelerationUnit::m_per_s2};
+    for (const char* other :
+         {"# acceleration [g]", "# acc (g)", "# Time [s]  Acc [g]", "# in g", "# ACC(GAL)",
+          "# [cm/s2]", "# velocity [cm/s]", "# units: mg", "# displacement [cm]"}) {
+        EXPECT_NE(refusal_of(std::string(other) + "\n1\n", in_metres), "accepted") << other;
+    }
+    for (const char* same :
+         {"# acceleration [m/s2]", "# Time [s]  Acc [m/s^2]", "# in m/s/s", "# no unit",
+          "# converted from cm/s2, units: m/s2", "# PGA = 0.35 g, acceleration [m/s2]"}) {
+        EXPECT_EQ(component_of(std::string(same) + "\n1\n", in_metres).acceleration, Values{1})
+            << same;
+    }
+}
+
+TEST(AStatedUnit, OfTheTimeStepIsSeconds)
+{
+    const auto text = [](const std::string& step) {
+        return at2("ACCELERATION TIME SERIES IN UNITS OF G", "PEER", "NPTS= 2, DT= " + step);
+    };
+    for (const char* seconds : {"0.01 SEC", "0.01 sec,", "0.01", ".0100 S", "0.01SEC"}) {
+        EXPECT_EQ(component_of(text(seconds)).time_step, 0.01) << seconds;
+    }
+    for (const char* other : {"10 MSEC", "100 Hz", "10 ms"}) {
+        EXPECT_NE(refusal_of(text(other)), "accepted") << other;
+    }
+}
+
 TEST(Gal, IsOneCentimetrePerSquareSecond)
 {
     const auto over_g = [](AccelerationUnit unit) {

@@ -105,6 +105,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     """
     if bins < 1 or samples < 1:
         raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
+    if limit is not None and not math.isfinite(limit):
+        raise ValueError(f"limit = {limit} is not a number. Give the peak |theta| / alpha that counts as exceeding.")
     measure = _measure(dataset, im)
     cells = _cells(dataset, measure, limit)
     edges = _edges(cells, bins)
@@ -159,16 +161,21 @@ def _blocks(region):
 
 
 def _units(measure, im):
-    return "g" if im == "pga" else str(measure.attrs.get("units", "1"))
+    units = str(measure.attrs.get("units", "1"))
+    return "g" if im == "pga" and units == "1" else units
 
 
 def _cells(dataset, measure, limit):
     """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
     of points of each kind."""
     region = dataset["region"]
+    if "flag_meanings" not in region.attrs:
+        raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points by "
+                         "sel() or isel(); do not compute with region codes.")
     meanings = dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
     not_computed = region == meanings["not_computed"]
-    decided = (region != meanings["undecided"]) & ~not_computed
+    # NaN, as after where(), and unknown codes are no verdicts.
+    decided = region.isin([code for name, code in meanings.items() if name not in ("undecided", "not_computed")])
     if limit is None:
         exceeding = decided & ~region.isin([code for name, code in meanings.items() if name.startswith("S")])
     elif "peak" in dataset:

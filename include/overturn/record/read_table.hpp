@@ -38,7 +38,8 @@ struct Table {
 inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [bytes]
 
 /// Reads the text of a file, in UTF-8; `name` replaces the path in messages. The first line names
-/// the columns. Lines end with LF or CR LF; empty ones at the end are skipped. Throws TableError.
-Table read_table(std::string_view text, const std::string& name);
+/// the columns. Lines end with LF or CR LF; empty ones at the end are skipped. text_column: a
+/// column whose values are texts even if they look like numbers. Throws TableError.
+Table read_table(std::string_view text, const std::string& name, std::string_view text_column = "");
 
 } // namespace overturn
