@@ -107,7 +107,8 @@ TEST(Plausibility, OfRecordsJudgesPeakAndTimeStep)
         return found_in(columns, scene);
     };
     EXPECT_THAT(found(0.5, 0.01), IsEmpty());
-    EXPECT_THAT(found(300, 0.01), HasSubstr("the peak of a record = 300 g is outside 0.001 to 5 g"));
+    EXPECT_THAT(found(300, 0.01),
+                HasSubstr("the peak of a record = 300 g is outside 0.001 to 5 g"));
     EXPECT_THAT(found(0.5e-4, 0.01), HasSubstr("the peak of a record = 5e-05 g is outside"));
     EXPECT_THAT(found(0.5, 100), HasSubstr("the time step of a record = 100 s"));
 }
