@@ -74,7 +74,7 @@ public:
                 take_any();
             } else if (places == UnitPlaces::after_units) {
                 ++at_;
-            } else if (is_expected()) {
+            } else if (is_expected() || is_named_factor()) {
                 take_if_unit();
             } else {
                 take_if_nothing_else();
@@ -119,6 +119,9 @@ private:
         const bool is_introduced = words_[at_].before.find_first_of(":=([{<") != std::string::npos;
         return is_introduced || (continues(at_) && at_ > 0 && word(at_ - 1) == "in");
     }
+
+    /// Whether the current word is a factor such as % or begins with one, as MILLI-G does.
+    bool is_named_factor() const { return !is_number_like(word(at_)) && after_factor(word(at_)); }
 
     struct Match {
         AccelerationUnit unit;

@@ -106,10 +106,10 @@ bool is_operator(std::string_view word)
 
 bool resembles_unit(std::string_view word)
 {
-    constexpr std::array<std::string_view, 23> names{
-        "g",      "gs", "gal", "gals", "mgal",   "mg",    "ug",    "cms",
-        "mm",     "cm", "dm",  "km",   "ft",     "feet",  "foot",  "inch",
-        "inches", "si", "cgs", "mks",  "metric", "count", "counts"};
+    constexpr std::array<std::string_view, 24> names{
+        "g",    "gs",     "gal", "gals", "mgal", "mg",     "ug",    "cms",
+        "cmss", "mm",     "cm",  "dm",   "km",   "ft",     "feet",  "foot",
+        "inch", "inches", "si",  "cgs",  "mks",  "metric", "count", "counts"};
     const auto end = std::find_if_not(word.begin(), word.end(), is_letter);
     const std::string_view name = word.substr(0, std::size_t(end - word.begin()));
     const bool is_short = name == "m" || name == "in"; // also an initial, and a preposition
