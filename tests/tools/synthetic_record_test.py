@@ -129,6 +129,13 @@ class TestASyntheticRecordRefused(Written):
         for pga in ("1e-9", "1e9"):
             self.refuses(2, "is outside 0.001 to 1000", "--pga", pga)
 
+    def test_of_a_suite_among_other_records(self):
+        self.assertEqual(self.run_tool("--suite", "5").returncode, 0)
+        refused = self.run_tool("--suite", "2")
+        self.assertEqual(refused.returncode, 74)
+        self.assertIn("it holds other records, such as 03.AT2", refused.stderr)
+        self.assertEqual(self.run_tool("--suite", "5").returncode, 0)
+
     def test_of_a_pulse_that_does_not_fit_or_a_suite_of_none(self):
         self.refuses(2, "is above a quarter of the duration", "--pulse-period", "6")
         self.refuses(2, "is outside 1 to 9999", "--suite", "0")
