@@ -85,8 +85,9 @@ Sampling read_sampling(const Lines& lines)
 void expect_acceleration(const Lines& lines)
 {
     const std::string_view line = lines.line();
-    if (!contains(line, "ACCELERATION") &&
-        (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT"))) {
+    if (contains(line, "SPECTR") ||
+        (!contains(line, "ACCELERATION") &&
+         (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT")))) {
         lines.refuse(
             fmt::format("{} does not contain accelerations. Give the AT2 file of this record.",
                         quoted(trimmed(line))));

@@ -6,6 +6,7 @@
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
+#include "unit_spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -91,6 +92,12 @@ void expect_no_other_unit(const RecordFile& file, const std::string& name)
         bool is_stated = false;
         for (const std::string& line : component.header) {
             for (const StatedUnit& stated : stated_units(line, places)) {
+                if (is_text && is_time(simplified(stated.text))) {
+                    refuse_record(name, fmt::format("the line {} states times in {}. Give times in "
+                                                    "seconds.",
+                                                    quoted(trimmed(std::string_view(line))),
+                                                    stated.text));
+                }
                 const bool is_same = stated.unit && units_per_m_per_s2(*stated.unit) ==
                                                         units_per_m_per_s2(component.unit);
                 is_stated = is_stated || is_same;

@@ -26,7 +26,33 @@ struct Word {
     std::string before;
 };
 
-/// Brackets within a unit, as in cm/(s*s), belong to the word.
+bool is_acceleration(std::string_view word)
+{
+    constexpr std::array<std::string_view, 6> names{"a",    "acc",          "accel",
+                                                    "accn", "acceleration", "accelerations"};
+    return is_one_of(word, names);
+}
+
+/// Where a unit begins in the name of a column, such as acc_x_cm_s2, a/g or time_ms; npos if it has
+/// none.
+std::size_t unit_of_column(std::string_view name)
+{
+    bool is_named = false;
+    for (std::size_t begin = 0, end = 0; end != name.npos; begin = end + 1) {
+        const std::string_view rest = name.substr(begin);
+        if (is_named && !rest.empty() &&
+            (resembles_unit(rest) || resembles_unit(after_factor(rest).value_or("")))) {
+            return begin;
+        }
+        end = name.find_first_of("_/-.", begin);
+        const std::string_view part = name.substr(begin, end - begin);
+        is_named = is_named || is_acceleration(part) || part == "t" || part == "time";
+    }
+    return name.npos;
+}
+
+/// Brackets within a unit, as in cm/(s*s), belong to the word. The unit in the name of a column is
+/// a word as if it were in brackets.
 std::vector<Word> words_of(std::string_view line)
 {
     constexpr std::string_view punctuation = ",;:=()[]{}<>\"|";
@@ -41,6 +67,11 @@ std::vector<Word> words_of(std::string_view line)
             word.before += marks;
         } else {
             word.text = simplified(word.spelling);
+            if (const std::size_t unit = unit_of_column(word.text); unit != std::string::npos) {
+                words.push_back({word.spelling.substr(0, unit - 1), word.text.substr(0, unit - 1),
+                                 word.before});
+                word = {word.spelling.substr(unit), word.text.substr(unit), "["};
+            }
             words.push_back(std::exchange(word, Word{{}, {}, marks}));
         }
     };
@@ -113,11 +144,22 @@ private:
         return true;
     }
 
-    /// Whether the current word is where a unit is expected, after "in" or a bracket.
+    /// Whether the current word is where a unit is expected: after a bracket, "in", "divided by" or
+    /// "acceleration".
     bool is_expected() const
     {
-        const bool is_introduced = words_[at_].before.find_first_of(":=([{<") != std::string::npos;
-        return is_introduced || (continues(at_) && at_ > 0 && word(at_ - 1) == "in");
+        if (words_[at_].before.find_first_of(":=([{<") != std::string::npos) {
+            return true;
+        }
+        if (at_ == 0) {
+            return false;
+        }
+        constexpr std::array<std::string_view, 3> divided{"divided", "normalised", "normalized"};
+        const std::string& previous = word(at_ - 1);
+        const bool is_quotient = previous == "by" && at_ > 1 && is_one_of(word(at_ - 2), divided);
+        return continues(at_) ? previous == "in" || is_quotient ||
+                                    (is_acceleration(previous) && previous != "a")
+                              : is_acceleration(previous) && words_[at_].before == ",";
     }
 
     /// Whether the current word is a factor such as % or begins with one, as MILLI-G does.

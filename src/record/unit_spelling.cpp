@@ -87,7 +87,7 @@ std::optional<AccelerationUnit> unit_of(std::string_view normal)
     for (const auto& [length, unit] :
          {Length("mm", AccelerationUnit::mm_per_s2), Length("cm", AccelerationUnit::cm_per_s2),
           Length("m", AccelerationUnit::m_per_s2)}) {
-        for (const std::string_view rest : {"/s/s", "/s2", "/ss", "s-2"}) {
+        for (const std::string_view rest : {"/s/s", "/s2", "/ss", "s-2", "s2", "ps2"}) {
             if (normal == std::string(length) + std::string(rest)) {
                 return unit;
             }
@@ -106,15 +106,22 @@ bool is_operator(std::string_view word)
 
 bool resembles_unit(std::string_view word)
 {
-    constexpr std::array<std::string_view, 24> names{
-        "g",    "gs",     "gal", "gals", "mgal", "mg",     "ug",    "cms",
-        "cmss", "mm",     "cm",  "dm",   "km",   "ft",     "feet",  "foot",
-        "inch", "inches", "si",  "cgs",  "mks",  "metric", "count", "counts"};
+    constexpr std::array<std::string_view, 35> names{
+        "g",    "gs",  "gal",  "gals",   "mgal",  "mg",     "ug",           "cms",  "cmss",
+        "mm",   "cm",  "dm",   "km",     "ft",    "feet",   "foot",         "inch", "inches",
+        "si",   "cgs", "mks",  "metric", "count", "counts", "mss",          "mps",  "cmps",
+        "mmps", "mms", "volt", "volts",  "ms",    "msec",   "milliseconds", "us"};
     const auto end = std::find_if_not(word.begin(), word.end(), is_letter);
     const std::string_view name = word.substr(0, std::size_t(end - word.begin()));
     const bool is_short = name == "m" || name == "in"; // also an initial, and a preposition
     return (is_short && end != word.end()) || is_one_of(name, names) ||
            (name.size() > 2 && is_one_of(normal_form(name), names));
+}
+
+bool is_time(std::string_view word)
+{
+    constexpr std::array<std::string_view, 4> units{"ms", "msec", "milliseconds", "us"};
+    return is_one_of(word, units);
 }
 
 bool is_length_over_time(std::string_view word)
@@ -123,8 +130,9 @@ bool is_length_over_time(std::string_view word)
                                                       "m",  "ft", "in", "inches"};
     const std::string normal = normal_form(word);
     const std::size_t slash = std::min(normal.find('/'), normal.size());
-    return is_one_of(normal.substr(0, slash), lengths) && normal.substr(slash).starts_with("/s") &&
-           (normal.size() == slash + 2 || !is_letter(normal[slash + 2]));
+    return normal == "cmss" ||
+           (is_one_of(normal.substr(0, slash), lengths) && normal.substr(slash).starts_with("/s") &&
+            (normal.size() == slash + 2 || !is_letter(normal[slash + 2])));
 }
 
 bool is_number_like(std::string_view word)

@@ -25,6 +25,9 @@ bool is_operator(std::string_view word);
 /// units or of raw data, alone or before something other than a letter.
 bool resembles_unit(std::string_view word);
 
+/// Whether a word is a unit of time other than the second.
+bool is_time(std::string_view word);
+
 /// Whether a word is like CM/SEC: a length over a second.
 bool is_length_over_time(std::string_view word);
 

@@ -60,7 +60,7 @@ const std::vector<Group> groups{
           "ACCELERATION IN MILLI-G", "ACCELERATION IN TENTHS OF G", "UNITS: FURLONGS", "ACCELERATION (CM/S)",
           "ACCELERATION IN FT/S/S", "ACCELERATION IN IN/SEC/SEC", "ACCELERATION IN SI UNITS", "ACCELERATION IN COUNTS",
           "ACCELERATION IN CM", "ACCELERATION IN CM/S/S * 10", "ACCELERATION IN UNITS OF G (CM/S/S)", "UNITS: MG",
-          "ACCELERATION IN CM/S/S/S", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G",
+          "ACCELERATION IN CM/S/S/S", "ACCELERATION IN VOLTS", "ACCELERATION G X 100", "SPECTRAL ACCELERATION (G)", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G",
           "ACCELERATION, % OF G", "ACCELERATION, MICRO-G", "ACCELERATION IN CMSS", "ACCELERATION PERCENT G"}}};
 // clang-format on
 
@@ -152,17 +152,72 @@ TEST(AStatedUnit, InTheCommentsOfATextMustBeTheGivenOne)
 TEST(AStatedUnit, InTheHeadOfAColumnMustBeTheGivenOne)
 {
     const RecordOptions in_metres{.time_step = 0.01, .unit = AccelerationUnit::m_per_s2};
-    for (const char* other :
-         {"# acceleration [g]", "# acc (g)", "# Time [s]  Acc [g]", "# in g", "# ACC(GAL)",
-          "# [cm/s2]", "# velocity [cm/s]", "# units: mg", "# displacement [cm]"}) {
+    for (const char* other : {"# acceleration [g]",
+                              "# acc (g)",
+                              "# Time [s]  Acc [g]",
+                              "# in g",
+                              "# ACC(GAL)",
+                              "# [cm/s2]",
+                              "# velocity [cm/s]",
+                              "# units: mg",
+                              "# displacement [cm]",
+                              "# acc_g",
+                              "# acceleration, g",
+                              "# a/g",
+                              "# t a_g",
+                              "# acceleration_cm_s2",
+                              "# t,acc_x_cmps2",
+                              "# cmss",
+                              "# acceleration, milli-g",
+                              "# accel, g/1000",
+                              "# normalised by gravity",
+                              "# acc.%g",
+                              "# acceleration divided by g",
+                              "# Acc-gal",
+                              "# acceleration g"}) {
         EXPECT_NE(refusal_of(std::string(other) + "\n1\n", in_metres), "accepted") << other;
     }
     for (const char* same :
          {"# acceleration [m/s2]", "# Time [s]  Acc [m/s^2]", "# in m/s/s", "# no unit",
-          "# converted from cm/s2, units: m/s2", "# PGA = 0.35 g, acceleration [m/s2]"}) {
+          "# converted from cm/s2, units: m/s2", "# PGA = 0.35 g, acceleration [m/s2]",
+          "# acc_m_s2", "# t a_g [m/s2]", "# acceleration, mps2", "# acc_x", "# t_s, a/b",
+          "# acceleration, component G", "# acceleration, 230"}) {
         EXPECT_EQ(component_of(std::string(same) + "\n1\n", in_metres).acceleration, Values{1})
             << same;
     }
+}
+
+TEST(AStatedUnit, InTheNameOfAColumnMustBeTheGivenOne)
+{
+    std::mt19937_64 random(9);
+    const auto one_of = [&](const std::vector<std::string>& words) {
+        return words[random() % words.size()];
+    };
+    for (int i = 0; i < 2000; ++i) {
+        const std::string length = one_of({"mm", "cm", "m"});
+        const std::string unit =
+            length + one_of({"/s2", "_s2", "ps2", "/s/s", "/s^2", "s-2", "_per_s2", "/sec2"});
+        std::string name = one_of({"a", "acc", "accel", "acceleration", "t,acc", "time_s acc"}) +
+                           one_of({"_", "/", "-", ".", "_x_", "_230_"}) + unit;
+        for (char& letter : name) {
+            letter = random() % 2 == 0 ? char(std::toupper(letter)) : letter;
+        }
+        const RecordOptions given{.time_step = 0.01, .unit = AccelerationUnit::m_per_s2};
+        EXPECT_EQ(refusal_of("# " + name + "\n1\n", given) == "accepted", length == "m") << name;
+        const RecordOptions in_g_too{.time_step = 0.01, .unit = AccelerationUnit::g};
+        EXPECT_NE(refusal_of("# " + name + "\n1\n", in_g_too), "accepted") << name;
+    }
+}
+
+TEST(AStatedUnit, OfTheTimesOfATextIsSeconds)
+{
+    for (const char* other :
+         {"# t [ms]  a [g]", "# time_ms, acc_g", "# acceleration in g, time in ms"}) {
+        EXPECT_THAT(refusal_of(std::string(other) + "\n0 1\n10 2\n", in_g),
+                    testing::HasSubstr("Give times in seconds."))
+            << other;
+    }
+    EXPECT_EQ(component_of("# t [s]  a [g]\n0 1\n10 2\n", in_g).time_step, 10);
 }
 
 TEST(AStatedUnit, OfTheTimeStepIsSeconds)
