@@ -1,9 +1,9 @@
 #include "commands/command_line.hpp"
-#include "commands/exit_code.hpp"
+#include "commands/complain.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
-#include "overturn/file/file_error.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+#include "overturn/text/error.hpp"
 
 #include <cstdio>
 
@@ -23,7 +23,7 @@ int main(int argc, char** argv)
         const int code = command.execute();
         if (code == exit_code::complete && !command.on_every_rank &&
             (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
-            throw FileError("cannot write to stdout.");
+            throw Error(exit_code::output, "cannot write to stdout.");
         }
         return code;
     } catch (const std::exception& error) {

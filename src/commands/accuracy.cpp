@@ -1,12 +1,12 @@
 // Measures error and computing time on a sample of a job's plane.
-#include "child_process.hpp"
 #include "commands.hpp"
-#include "exit_code.hpp"
+#include "guarded_reading.hpp"
 #include "output_lines.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -38,16 +38,16 @@ double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
 double seconds_in_digits(const Job& job)
 {
     std::int64_t samples = 0;
-    for (const Motion& motion : job.motions) {
-        samples = std::max(samples, motion.samples);
+    for (const auto& record : job.problem.scene.records) {
+        samples = std::max(samples, record->samples());
     }
     return 0.02 + 2e-4 * double(samples);
 }
 
 void print_head(const AccuracySample& sample)
 {
-    say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n",
-                    sample.plane.points(), sample.settled, sample.in_digits));
+    say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n", sample.grid.points(),
+                    sample.settled, sample.in_digits));
     say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>6} {:>9}", "", "",
                     "time per", "", "evalu-", "error of the margin", "wrong", "unde-", "error",
                     "bound /"));
@@ -88,27 +88,28 @@ int accuracy(const AccuracyOptions& options)
     const Kernel kernel = widest_kernel();
     const Job job = read_job(options.job.path, options.job.overrides);
     if (job.blocks) {
-        throw UsageError(fmt::format("{} lists its blocks in {}, but accuracy is studied on a "
-                                     "plane. Give [plane] instead of [blocks].",
-                                     options.job.path, job.blocks->file));
+        throw Error(exit_code::usage,
+                    "{} lists its blocks in {}, but accuracy is studied on a "
+                    "plane. Give [plane] instead of [blocks].",
+                    options.job.path, job.blocks->file);
     }
     const SoleWriter sole_writer(options.output);
-    const int refusal =
-        run_in_child(options.output, [&] { expect_room_for(options.output, FileKind::accuracy); });
-    if (refusal != exit_code::complete) {
-        return refusal;
+    {
+        const GuardedReading guarded(options.output, sole_writer.lock());
+        expect_room_for(options.output, FileKind::accuracy);
     }
 
     warn_of_implausible_values(job);
     say(fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",
                     options.digits, std::ceil(seconds_in_digits(job) * double(options.digits))));
-    const AccuracyStudy study(job.scene, job.plane, options.points, options.digits, kernel);
+    const AccuracyStudy study(job.problem.scene, job.problem.grid, options.points, options.digits,
+                              kernel);
     print_head(study.sample());
     std::vector<AccuracyRow> rows;
-    for (const Numerics& numerics : accuracy_ladder(job.scene)) {
+    for (const Numerics& numerics : accuracy_ladder(job.problem.scene)) {
         rows.push_back(study.measure(numerics));
         rows.back().seconds_per_point =
-            seconds_of(study, numerics) / double(study.sample().plane.points());
+            seconds_of(study, numerics) / double(study.sample().grid.points());
         print_row(rows.back(), study.sample());
     }
     write_accuracy_file(options.output, job, study.sample(), rows);

@@ -1,16 +1,15 @@
 // Prints what a job would compute and store, and its estimated time. Writes nothing.
 #include "commands.hpp"
 #include "dimension_lines.hpp"
-#include "exit_code.hpp"
 #include "human_units.hpp"
 #include "output_lines.hpp"
-#include "printable.hpp"
+#include "overturn/text/quoting.hpp"
 #include "record_lines.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/boundary.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <ranges>
 
 namespace overturn {
 
@@ -39,11 +39,13 @@ std::int64_t spread_index(std::int64_t i, int axis, std::int64_t size)
     return std::min(std::int64_t(fraction * double(size)), size - 1);
 }
 
-Tile sample_tile(const Plane& plane, std::int64_t i)
+Tile sample_tile(const Grid& grid, std::int64_t i)
 {
-    const Shape shape = shape_of(plane);
+    const Shape shape = grid.shape();
     Tile tile{.begin = Shape(shape.size()), .count = Shape(shape.size(), 1)};
-    tile.count.back() = std::min(sample_length, shape.back());
+    if (!shape.empty()) {
+        tile.count.back() = std::min(sample_length, shape.back());
+    }
     for (std::size_t axis = 0; axis < shape.size(); ++axis) {
         tile.begin[axis] = spread_index(i, int(axis), shape[axis] - tile.count[axis] + 1);
     }
@@ -72,15 +74,14 @@ double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample
     return seconds * (double(items) / double(computed));
 }
 
-double direct_seconds(const Job& job, Kernel kernel)
+double direct_seconds(const Problem& problem, Kernel kernel)
 {
-    Numerics numerics = job.numerics;
-    numerics.fill = false;
-    std::vector<Field> fields = job.fields;
-    std::erase(fields, Field::evaluated);
-    return estimated_seconds(job.plane.points(), [&](std::int64_t i) {
-        const Tile tile = sample_tile(job.plane, i);
-        sweep_tile(job.scene, numerics, job.plane, tile, fields, kernel);
+    Problem direct = problem;
+    direct.numerics.fill = false;
+    std::erase(direct.fields, Field::evaluated);
+    return estimated_seconds(direct.grid.points(), [&](std::int64_t i) {
+        const Tile tile = sample_tile(direct.grid, i);
+        compute_tile(direct, tile, kernel);
         return tile.points();
     });
 }
@@ -91,15 +92,14 @@ struct FillEstimate {
     double share;
 };
 
-FillEstimate fill_estimate(const Job& job, Kernel kernel)
+FillEstimate fill_estimate(const Problem& problem, Kernel kernel)
 {
-    const Tiling tiling = filled_tiling(job.plane);
+    const Tiling tiling = tiling_of(problem);
     std::int64_t points = 0;
     std::int64_t integrated = 0;
     const double seconds = estimated_seconds(tiling.size(), [&](std::int64_t i) {
         const Tile tile = tiling[spread_index(i, 0, tiling.size())];
-        const TileFields fields =
-            sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields, kernel);
+        const TileFields fields = compute_tile(problem, tile, kernel);
         const auto& evaluated = std::get<std::vector<std::uint8_t>>(fields.values.back());
         points += tile.points();
         integrated += std::count(evaluated.begin(), evaluated.end(), point_origin::integrated);
@@ -108,16 +108,16 @@ FillEstimate fill_estimate(const Job& job, Kernel kernel)
     return {seconds, double(integrated) / double(points)};
 }
 
-void print_time(const Job& job, Kernel kernel)
+void print_time(const Problem& problem, Kernel kernel)
 {
-    const double direct = direct_seconds(job, kernel);
+    const double direct = direct_seconds(problem, kernel);
     const auto print = [&](double seconds) {
         print_row("time", fmt::format("about {} on one rank with kernel {}; n ranks on n cores "
                                       "need 1/n of it",
                                       human_duration(seconds), name_of(kernel)));
     };
-    if (job.numerics.fill) {
-        const FillEstimate fill = fill_estimate(job, kernel);
+    if (problem.numerics.fill) {
+        const FillEstimate fill = fill_estimate(problem, kernel);
         print(fill.seconds);
         print_row("fill", fmt::format("about {:.2g} % of the points are integrated; all of them "
                                       "would take {}",
@@ -125,8 +125,8 @@ void print_time(const Job& job, Kernel kernel)
         return;
     }
     print(direct);
-    if (reason_not_to_fill(job).empty()) {
-        Job filled = job;
+    if (reason_not_to_fill(problem).empty()) {
+        Problem filled = problem;
         filled.numerics.fill = true;
         filled.fields.push_back(Field::evaluated);
         print_row("fill", fmt::format("about {} with numerics.fill = true",
@@ -136,17 +136,15 @@ void print_time(const Job& job, Kernel kernel)
 
 std::string boundary_time(const Job& spectrum, Kernel kernel)
 {
-    const Job job = boundary_of(spectrum);
-    const Tiling tiling = tiling_of(job); // of one line each
-    const std::vector<double> scan = job.scan.values();
+    const Problem problem = boundary_of(spectrum).problem;
+    const Tiling tiling = tiling_of(problem); // of one line each
     const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(longest_sampling);
     const auto overdue = [&] { return std::chrono::steady_clock::now() > limit; };
     std::int64_t lines = 0;
     try {
         const auto compute_line = [&](std::int64_t i) {
             ++lines;
-            boundary_tile(job.scene, job.plane, scan, tiling[spread_index(i, 0, tiling.size())],
-                          kernel, overdue);
+            compute_tile(problem, tiling[spread_index(i, 0, tiling.size())], kernel, overdue);
             return std::int64_t(1);
         };
         constexpr std::int64_t fewest_lines = 24;
@@ -178,49 +176,42 @@ void print_scene(const Job& job)
     for (const std::string& line : record_lines(job)) {
         print_row("record", line);
     }
-    if (!job.scene.is_recorded()) {
-        print_pulse(job.scene);
+    const auto& [scene, grid, numerics, product, fields] = job.problem;
+    if (!scene.is_recorded()) {
+        print_pulse(scene);
     }
-    print_row("theory", name_of(job.scene.theory));
-    print_row("method", fmt::format("{}, tolerance {}{}", name_of(job.numerics.method),
-                                    job.numerics.tolerance,
-                                    job.numerics.resolve ? ", verdicts resolved" : ""));
+    print_row("theory", name_of(scene.theory));
+    print_row("method",
+              fmt::format("{}, tolerance {}{}", name_of(numerics.method), numerics.tolerance,
+                          numerics.resolve ? ", verdicts resolved" : ""));
 }
 
-void print_plane(const Plane& plane)
+/// The coordinates that are not columns of a table, the fastest first.
+void print_coordinates(const Grid& grid)
 {
-    const auto print = [](std::string_view name, const Axis& axis, std::string_view ending) {
-        print_axis(name, axis.size(), axis.first(), axis.last(), ending);
-    };
-    constexpr std::array units{"", " s", " Hz", " m", " 1/s"}; // in the order of the quantities
-    const bool has_amplitude = !(plane.list && plane.list->has_own_motions);
-    const bool has_frequency = has_amplitude && !(plane.list && plane.motions > 0);
-    if (has_frequency) {
-        print(name_of(plane.frequency_is), plane.frequency, units[std::size_t(plane.frequency_is)]);
+    for (const Quantity& quantity : all_quantities() | std::views::reverse) {
+        const Column* column = grid.find(quantity.name);
+        const auto dimension = grid.dimension_of(quantity.name);
+        const bool is_of_table = dimension && grid.dimensions[*dimension].name == table_dimension;
+        if (column != nullptr && !is_of_table && quantity.role != Role::motion) {
+            print_axis(quantity.name, column->values.size(), column->values.first(),
+                       column->values.last(), unit_text(quantity));
+        }
     }
-    if (has_amplitude) {
-        print(name_of(plane.amplitude_is), plane.amplitude,
-              plane.amplitude_is == AmplitudeQuantity::pga ? " g" : "");
-    }
-    if (plane.list) {
-        return;
-    }
-    print("restitution", plane.restitution,
-          plane.restitution_of == RestitutionOf::maximum ? ", of the maximum" : "");
-    print("slenderness", plane.slenderness, " rad");
 }
 
 void print_size(const Job& job)
 {
-    const Tiling tiling = tiling_of(job);
-    const auto points = double(job.plane.points());
+    const Problem& problem = job.problem;
+    const Tiling tiling = tiling_of(problem);
+    const auto points = double(problem.grid.points());
     print_row("points", fmt::format("{} in {} {}", human_count(points), tiling.size(),
                                     noun_of(double(tiling.size()), "tiles")));
-    for (const Field field : job.fields) {
+    for (const Field field : problem.fields) {
         print_row("field", fmt::format("{}, {}", name_of(field),
                                        human_bytes(points * double(bytes_per_point(field)))));
     }
-    print_row("file", human_bytes(double(spectrum_file_bytes(job, tiling))));
+    print_row("file", human_bytes(double(spectrum_file_bytes(job))));
 }
 
 } // namespace
@@ -234,16 +225,16 @@ int check(const JobSource& source)
         fmt::print("{}\n\n", printable(job.title));
     }
     print_scene(job);
-    print_plane(job.plane);
-    const std::vector<std::string> lines = dimension_lines(job);
-    print_row(job.plane.list ? "blocks" : "block", lines[0]);
-    print_row("ground", lines[1]);
+    print_coordinates(job.problem.grid);
+    print_row(job.blocks ? "blocks" : "block", block_line(job));
+    print_row("ground", ground_line(job));
     for (const std::string& line : free_fall_lines(job)) {
         print_row("note", line);
     }
     print_size(job);
-    print_time(job, kernel);
-    if (!job.blocks && !job.numerics.fill && job.plane.amplitude.size() > 1) {
+    print_time(job.problem, kernel);
+    if (!job.blocks && !job.problem.numerics.fill &&
+        job.problem.grid.axis_or_number(Role::strength)->values.size() > 1) {
         print_row("boundary",
                   fmt::format("{} if computed with overturn boundary", boundary_time(job, kernel)));
     }

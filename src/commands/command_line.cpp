@@ -1,7 +1,6 @@
 #include "command_line.hpp"
 
 #include "commands.hpp"
-#include "exit_code.hpp"
 #include "help_texts.hpp"
 #include "installed_texts.hpp"
 
@@ -9,6 +8,7 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/sweep/kernel.hpp"
+#include "overturn/text/error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ std::string kernel_text()
 {
     try {
         return fmt::format("{}, the widest that this processor supports", name_of(widest_kernel()));
-    } catch (const ProcessorError& error) {
+    } catch (const Error& error) {
         return fmt::format("none: {}", error.what());
     }
 }
@@ -104,7 +104,8 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     number("--width", options.width, "M", "Width of the block [m]")->required();
     number("--height", options.height, "M", "Height of the block [m]")->required();
     number("--period", options.period, "S", "Period of the pulse [s]");
-    number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges");
+    number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")
+        ->check(is_searchable);
     command
         .add_option_function<std::string>(
             "--pulse",
@@ -139,8 +140,10 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
         ->type_name("scene.KEY=VALUE")
         ->allow_extra_args(false);
     command.add_flag("--json", options.json, "Print JSON for programs");
-    command.add_option("--plot", options.plot, "Draw the history (needs --pga or --scale)")
-        ->type_name("PICTURE");
+    command
+        .add_option("-o,--history", options.history,
+                    "Write the motion at --pga or --scale, as overturn history does")
+        ->type_name("OUT.h5");
 }
 
 /// All parsed options; must live as long as the parser.
@@ -171,8 +174,8 @@ Command to_print(const std::string& text)
         names.push_back(command->get_name());
     }
     const std::string_view meant = nearest_name(word, names);
-    throw UsageError(fmt::format("unknown subcommand \"{}\".{} Run with --help for a list.", word,
-                                 meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant)));
+    throw Error(exit_code::usage, "unknown subcommand \"{}\".{} Run with --help for a list.", word,
+                meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant));
 }
 
 } // namespace
@@ -293,7 +296,7 @@ Command read_command_line(int argc, const char* const* argv)
         app.exit(asked, answer);
         return to_print(answer.str());
     } catch (const CLI::ParseError& error) {
-        throw UsageError(fmt::format("{}\nRun with --help for more information.", error.what()));
+        throw Error(exit_code::usage, "{}\nRun with --help for more information.", error.what());
     }
     chosen.on_every_rank = run_command->parsed() || boundary_command->parsed();
     return chosen;

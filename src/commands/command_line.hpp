@@ -10,7 +10,7 @@ struct Command {
     bool on_every_rank = false;   ///< false: only rank 0 executes the command
 };
 
-/// Throws UsageError.
+/// Throws Error.
 Command read_command_line(int argc, const char* const* argv);
 
 } // namespace overturn

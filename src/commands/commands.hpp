@@ -63,7 +63,7 @@ struct ToppleOptions {
     std::vector<std::string> overrides; ///< of keys of [scene]
     double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
     bool json = false;
-    std::string plot; ///< path of a picture of the history; empty: none
+    std::string history; ///< path of a file of the motion; empty: none
 };
 int topple(const ToppleOptions& options);
 

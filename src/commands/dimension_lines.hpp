@@ -1,9 +1,10 @@
-// What the axes of a job mean in degrees, metres, seconds and g.
+// What the coordinates of a job mean in degrees, metres, seconds and g.
 #pragma once
 
 #include "overturn/job/job.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/sweep/extents.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/given.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace overturn {
 
@@ -20,58 +20,71 @@ inline double in_degrees(double angle)
     return angle * 180 / std::numbers::pi;
 }
 
-/// p [1/s] of the only block of a job; nullopt if the job does not give its size.
-inline std::optional<double> parameter_of_only_block(const Job& job)
+/// The extents of coordinates over all points of a job.
+class JobExtents {
+public:
+    explicit JobExtents(const Job& job)
+        : corners_(corners_of(job.problem.grid)), coordinates_(job.problem.scene, corners_)
+    {}
+
+    /// nullopt if the coordinate is not known.
+    std::optional<Extent> of(std::string_view name) const
+    {
+        return coordinates_.has(name) ? std::optional(extent_of(coordinates_.of(name)))
+                                      : std::nullopt;
+    }
+
+    /// The only value, or the first.
+    double first(std::string_view name) const { return coordinates_.of(name).first(); }
+
+private:
+    Grid corners_;
+    Coordinates coordinates_;
+};
+
+/// A line about the blocks.
+inline std::string block_line(const Job& job)
 {
-    const auto sizes = sizes_of(job.scene, job.plane);
-    return sizes ? std::optional(frequency_parameter(sizes->first, job.scene.gravity))
-                 : std::nullopt;
+    const JobExtents extents(job);
+    const Extent alpha = *extents.of("slenderness");
+    std::string line;
+    if (job.blocks) {
+        line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
+    }
+    line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
+    if (job.blocks) {
+        line += ", r = " + extents.of("restitution")->text("");
+    } else if (alpha.last < std::asin(std::sqrt(2.0 / 3))) { // the limit of Eq. 17
+        line += ", r_max = " +
+                Extent{largest_restitution(alpha.last), largest_restitution(alpha.first)}.text("");
+    }
+    if (const auto size = extents.of("size")) {
+        line +=
+            fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
+                        extents.of("frequency_parameter")->text(" 1/s"), job.problem.scene.gravity);
+    }
+    return line;
 }
 
-/// A line about the blocks of a list, and one about the ground motions.
-inline std::vector<std::string> list_lines(const Job& job)
+/// A line about the ground motions.
+inline std::string ground_line(const Job& job)
 {
-    const auto same = [](double value) { return value; };
-    const BlockList& list = *job.plane.list;
-    std::string block = fmt::format("{} of {}: alpha = {}, r = {}", list.size, job.blocks->file,
-                                    extent_of(list.slenderness, in_degrees).text(" degrees"),
-                                    extent_of(list.restitution, same).text(""));
-    if (!list.frequency_parameter.empty()) {
-        block +=
-            fmt::format(", p = {} (g = {} m/s2)",
-                        extent_of(list.frequency_parameter, same).text(" 1/s"), job.scene.gravity);
+    const JobExtents extents(job);
+    std::string line = "peak " + extents.of("pga")->text(" g");
+    if (const auto period = extents.of("pulse_period")) {
+        line = fmt::format("period {}, {}", period->text(" s"), line);
     }
-    std::string ground = "peak " + accelerations_of(job.scene, job.plane).text(" g");
-    if (list.has_own_motions) {
-        ground += job.scene.is_recorded() ? ", each block under a record of its own"
-                                          : ", each block under a pulse of its own";
+    const Dimension* table = job.problem.grid.table();
+    const auto has = [&](Role role) {
+        return table != nullptr && std::ranges::any_of(table->columns, [&](const Column& column) {
+                   return column.quantity->role == role;
+               });
+    };
+    if (has(Role::motion) || has(Role::rate)) {
+        line += has(Role::motion) ? ", each block under a record of its own"
+                                  : ", each block under a pulse of its own";
     }
-    return {block, ground};
-}
-
-/// A line about the blocks, and one about the ground motions.
-inline std::vector<std::string> dimension_lines(const Job& job)
-{
-    if (job.plane.list) {
-        return list_lines(job);
-    }
-    const Axis& slenderness = job.plane.slenderness;
-    std::string block = "alpha = " + extent_of(slenderness, in_degrees).text(" degrees");
-    if (slenderness.last() < std::asin(std::sqrt(2.0 / 3))) { // the limit of Eq. 17
-        block += ", r_max = " + extent_of(slenderness, largest_restitution<double>).text("");
-    }
-    const auto sizes = sizes_of(job.scene, job.plane);
-    if (sizes) {
-        const Extent p{frequency_parameter(sizes->last, job.scene.gravity),
-                       frequency_parameter(sizes->first, job.scene.gravity)};
-        block += fmt::format(", R = {}, p = {} (g = {} m/s2)", sizes->text(" m"), p.text(" 1/s"),
-                             job.scene.gravity);
-    }
-    std::string ground = "peak " + accelerations_of(job.scene, job.plane).text(" g");
-    if (const auto periods = periods_of(job.scene, job.plane)) {
-        ground = fmt::format("period {}, {}", periods->text(" s"), ground);
-    }
-    return {block, ground};
+    return line;
 }
 
 } // namespace overturn

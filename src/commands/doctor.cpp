@@ -1,14 +1,14 @@
 // Prints what a bug report should contain: program, libraries, processor, Python, and the file
 // system of results.
 #include "commands.hpp"
-#include "exit_code.hpp"
 #include "human_units.hpp"
 #include "output_lines.hpp"
-#include "printable.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/sweep/kernel.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -157,8 +157,8 @@ int doctor(const std::string& folder)
     std::error_code failure;
     const fs::path path = fs::canonical(folder, failure);
     if (failure || !fs::is_directory(path)) {
-        throw UsageError(fmt::format("{} is not a folder. Give the folder of the result files.",
-                                     printable(folder)));
+        throw Error(exit_code::usage, "{} is not a folder. Give the folder of the result files.",
+                    printable(folder));
     }
     print_row("overturn", fmt::format("{} (commit {})", program_version(), program_commit()));
     print_row("compiler", compiler_version());

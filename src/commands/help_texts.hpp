@@ -43,7 +43,7 @@ overturns is stored as well.)";
 
 inline constexpr const char* topple = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
-  overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --plot tilt.png
+  overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --history tilt.h5
 
 Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
 it, and the ranges of the PGA in which it topples or the verdict is undecided: for the given
@@ -132,9 +132,7 @@ and so on. All tools have --help.
   overturn-plot-accuracy   draws error and wrong verdicts against time
   overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space
-  overturn-join-spectra    joins spectra that differ in slenderness
   overturn-to-csv          writes a spectrum as a table
-  overturn-to-xdmf         writes the file through which ParaView opens a result file
   overturn-synthetic-record
                            writes a synthetic recorded motion)";
 

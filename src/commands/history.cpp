@@ -1,8 +1,7 @@
 // The motion of one block: the forced stage, then the analytical free stage.
-#include "child_process.hpp"
 #include "commands.hpp"
 #include "dimension_lines.hpp"
-#include "exit_code.hpp"
+#include "guarded_reading.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
 
@@ -10,6 +9,7 @@
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/kernel.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -17,30 +17,26 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <string_view>
 
 namespace overturn {
 
 namespace {
 
-std::string trimmed(std::string text)
-{
-    text.erase(0, text.find_first_not_of(' '));
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-}
-
 /// The --set argument that gives an axis a single value.
 std::string override_of(const std::string& at)
 {
     const std::size_t equals = std::min(at.find('='), at.size());
-    const std::string name = trimmed(at.substr(0, equals));
-    const std::string value = trimmed(at.substr(std::min(equals + 1, at.size())));
-    const bool known = std::find(axis_names.begin(), axis_names.end(), name) != axis_names.end();
+    const std::string_view text = at;
+    const std::string_view name = trimmed(text.substr(0, equals));
+    const std::string_view value = trimmed(text.substr(std::min(equals + 1, at.size())));
+    const bool known = std::ranges::count(axis_names(), name) > 0;
     if (!known || value.empty()) {
-        throw UsageError(fmt::format("--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
-                                     "--at frequency=3,amplitude=1.5.",
-                                     at, fmt::join(axis_names, ", ")));
+        throw Error(exit_code::usage,
+                    "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
+                    "--at frequency=3,amplitude=1.5.",
+                    at, fmt::join(axis_names(), ", "));
     }
     return fmt::format("plane.{}.values=[{}]", name, value);
 }
@@ -48,12 +44,13 @@ std::string override_of(const std::string& at)
 /// Refuses two values of one axis, or of two axes that give the same quantity.
 void expect_one_value_per_axis(const std::vector<std::string>& given)
 {
-    const auto axis_of = [](const std::string& at) { return trimmed(at.substr(0, at.find('='))); };
+    const auto axis_of = [](std::string_view at) { return trimmed(at.substr(0, at.find('='))); };
     for (std::size_t i = 0; i < given.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             if (exclude_each_other(axis_of(given[i]), axis_of(given[j]))) {
-                throw UsageError(fmt::format("--at {}: {} gives the same quantity. Give one value.",
-                                             given[i], given[j]));
+                throw Error(exit_code::usage,
+                            "--at {}: {} gives the same quantity. Give one value.", given[i],
+                            given[j]);
             }
         }
     }
@@ -69,12 +66,12 @@ Job read_job_at(const HistoryOptions& options)
     }
     try {
         return read_job(options.job.path, overrides);
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
         const std::string_view message = error.what();
         for (const std::string& at : options.at) {
             const std::string place = "--set " + override_of(at);
             if (message.starts_with(place)) {
-                throw JobError(fmt::format("--at {}{}", at, message.substr(place.size())));
+                throw Error(exit_code::job, "--at {}{}", at, message.substr(place.size()));
             }
         }
         throw;
@@ -85,63 +82,30 @@ Job read_job_of_one_point(const HistoryOptions& options)
 {
     Job job = read_job_at(options);
     if (job.blocks) {
-        throw UsageError(fmt::format("{} lists its blocks in {}, but a history follows one block. "
-                                     "Give [block] and [plane] instead of [blocks].",
-                                     options.job.path, job.blocks->file));
+        throw Error(exit_code::usage,
+                    "{} lists its blocks in {}, but a history follows one block. "
+                    "Give [block] and [plane] instead of [blocks].",
+                    options.job.path, job.blocks->file);
     }
     if (job.motions.size() > 1) {
-        throw UsageError(fmt::format("{} has {} records, but a history needs exactly one. Choose "
-                                     "one, for example with --set scene.record={}.",
-                                     options.job.path, job.motions.size(),
-                                     job.motions.front().file));
+        throw Error(exit_code::usage,
+                    "{} has {} records, but a history needs exactly one. Choose "
+                    "one, for example with --set scene.record={}.",
+                    options.job.path, job.motions.size(), job.motions.front().file);
     }
-    const std::array axes{&job.plane.frequency, &job.plane.amplitude, &job.plane.restitution,
-                          &job.plane.slenderness};
-    const std::array names{name_of(job.plane.frequency_is), name_of(job.plane.amplitude_is),
-                           std::string_view("restitution"), std::string_view("slenderness")};
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i]->size() > 1) {
-            throw UsageError(fmt::format(
+    for (const Dimension& dimension : job.problem.grid.dimensions | std::views::reverse) {
+        const Axis& values = dimension.columns.front().values;
+        if (values.size() > 1) {
+            throw Error(
+                exit_code::usage,
+
                 "{} has {} values of plane.{}, from {} to {}, but a history needs exactly one. "
                 "Choose one, for example with --at {}={}.",
-                options.job.path, axes[i]->size(), names[i], axes[i]->first(), axes[i]->last(),
-                names[i], axes[i]->first()));
+                options.job.path, values.size(), dimension.name, values.first(), values.last(),
+                dimension.name, values.first());
         }
     }
     return job;
-}
-
-/// Throws JobError if the motion overflows; a spectrum flags such a point instead.
-void expect_finite(const History& history, const Plane& plane)
-{
-    const bool finite = std::all_of(
-        history.samples.begin(), history.samples.end(), [](const HistorySample& sample) {
-            return std::isfinite(sample.angle) && std::isfinite(sample.velocity) &&
-                   std::isfinite(sample.acceleration) && std::isfinite(sample.q);
-        });
-    if (!finite) {
-        throw JobError(fmt::format(
-            "plane.{} = {} with plane.{} = {} moves the block beyond the range of double "
-            "precision. Lower the {}. (In a spectrum such a point is undecided, with the flag "
-            "not_finite in status.)",
-            name_of(plane.amplitude_is), plane.amplitude.first(), name_of(plane.frequency_is),
-            plane.frequency.first(), name_of(plane.amplitude_is)));
-    }
-}
-
-void expect_gravity(const Job& job, double scale)
-{
-    if (job.motions.empty()) {
-        return;
-    }
-    const Motion& motion = job.motions.front();
-    if (!(scale < motion.largest_scale)) {
-        throw JobError(fmt::format("plane.{} = {}: the vertical motion of \"{}\" cancels gravity. "
-                                   "Use a scale below {:.6g}, which is a PGA of {:.6g} g.",
-                                   name_of(job.plane.amplitude_is), job.plane.amplitude.first(),
-                                   motion.name, motion.largest_scale,
-                                   motion.largest_scale * motion.measures.pga));
-    }
 }
 
 /// The units of printed values: seconds and degrees if p is known, otherwise 1/p and radians.
@@ -214,22 +178,18 @@ int history(const HistoryOptions& options)
     widest_kernel(); // throws if this processor supports none
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
-    const int refusal =
-        run_in_child(options.output, [&] { expect_room_for(options.output, FileKind::history); });
-    if (refusal != exit_code::complete) {
-        return refusal;
+    {
+        const GuardedReading guarded(options.output, sole_writer.lock());
+        expect_room_for(options.output, FileKind::history);
     }
     warn_of_implausible_values(job);
-    const double slenderness = job.plane.slenderness.first();
-    const PlanePoint point = only_point_of(job);
-    expect_gravity(job, point.amplitude);
+    const double slenderness = only_point_of(job).slenderness;
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {
         view.until = options.until;
     }
     const History history = history_of_only_point(job, view);
-    expect_finite(history, job.plane);
-    const std::optional<double> p = parameter_of_only_block(job);
+    const std::optional<double> p = parameter_of(job);
     print_outcome(history, slenderness, peak_of_only_point(job), p);
     print_events(history, Units(p));
     write_history_file(options.output, job, history);

@@ -1,16 +1,17 @@
 // Prints a summary of a result file, and how to resume it if it is unfinished.
-#include "audit_text.hpp"
-#include "child_process.hpp"
 #include "commands.hpp"
+#include "guarded_reading.hpp"
 #include "human_units.hpp"
 #include "output_lines.hpp"
-#include "printable.hpp"
+#include "overturn/text/quoting.hpp"
 
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 
 namespace overturn {
@@ -32,66 +33,60 @@ void print_origin(const std::string& path, const FileOrigin& origin)
                                                origin.program_commit)));
 }
 
-/// The shape of a tile, without leading dimensions of size 1; the last two are always shown.
+/// The extents of a tile, without those of the slowest dimensions along which it is 1.
 std::string tile_text(const Shape& shape)
 {
-    auto begin = shape.begin();
-    while (shape.end() - begin > 2 && *begin == 1) {
-        ++begin;
-    }
-    return fmt::format("{}", fmt::join(begin, shape.end(), " x "));
+    const auto first = std::ranges::find_if(shape, [](std::int64_t size) { return size > 1; });
+    return first == shape.end() ? "1" : fmt::format("{}", fmt::join(first, shape.end(), " x "));
 }
 
 /// Of a spectrum or a boundary.
-void print_plane_and_tiles(const std::string& path)
+void print_axes_and_tiles(const StoredResult& stored)
 {
-    const SpectrumSummary summary = summarize(path);
-    const std::vector<std::string> damaged = damaged_coordinates(path);
-    print_origin(path, summary);
-    for (const AxisSummary& axis : summary.axes) {
-        print_axis(axis.name, axis.size, axis.first, axis.last,
-                   axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units)));
+    const TilesSummary& tiles = stored.tiles();
+    for (const auto& axes : {tiles.axes, tiles.numbers}) {
+        for (const AxisSummary& axis : axes) {
+            print_axis(axis.name, axis.size, axis.first, axis.last,
+                       axis.units == "1" ? "" : fmt::format(" {}", printable(axis.units)));
+        }
     }
-    if (!damaged.empty()) {
-        print_row("damaged", fmt::format("{}: mismatch with the job", fmt::join(damaged, ", ")));
+    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
+        print_row("damaged",
+                  fmt::format("the values of {} have changed", fmt::join(damaged, ", ")));
     }
-    for (const FieldSummary& field : summary.fields) {
-        print_row("field", fmt::format("{}, {}", field.name, field.type));
+    for (const Field field : tiles.fields) {
+        print_row("field", fmt::format("{}, {}", name_of(field), name_of(traits_of(field).type)));
     }
-    const bool is_boundary = summary.product == Product::boundary;
-    print_row("tiles",
-              fmt::format("{} of {} done, {} {} each", summary.tiles_done, summary.tiles,
-                          tile_text(summary.tile_shape), is_boundary ? "flips" : "points"));
-    if (const std::string lines = is_boundary ? lines_text(count_lines(path)) : "";
-        !lines.empty()) {
-        print_row("lines", lines);
+    const bool is_boundary = stored.origin().kind == FileKind::boundary;
+    const std::string tile = tile_text(tiles.tile_shape);
+    print_row("tiles", fmt::format("{} of {} done, {} {} each", tiles.tiles_done, tiles.tiles, tile,
+                                   noun_of(tile == "1" ? 1 : 2, is_boundary ? "flips" : "points")));
+    for (const std::string& remark : remarks_on(stored)) {
+        print_row(is_boundary ? "lines" : "audit", remark);
     }
-    if (summary.audit) {
-        print_row("audit", audit_text(*summary.audit));
-    }
-    if (summary.tiles_done < summary.tiles) {
+    if (tiles.tiles_done < tiles.tiles) {
         print_row("unfinished", fmt::format("Resume with overturn {} JOB.toml -o {}, with the "
                                             "job file and the --set arguments of the first run",
-                                            is_boundary ? "boundary" : "run", path));
+                                            is_boundary ? "boundary" : "run", stored.path()));
     }
 }
 
-void print_summary(const std::string& path)
+void print_summary(const StoredResult& stored)
 {
-    const FileOrigin origin = origin_of(path);
-    if (origin.kind == FileKind::spectrum || origin.kind == FileKind::boundary) {
-        print_plane_and_tiles(path);
-    } else {
-        print_origin(path, origin);
+    print_origin(stored.path(), stored.origin());
+    if (stored.origin().has_tiles()) {
+        print_axes_and_tiles(stored);
     }
-    fmt::print("\nThe job with all defaults:\n\n{}", printable(origin.resolved_job));
+    fmt::print("\nThe job with all defaults:\n\n{}", printable(stored.origin().resolved_job));
 }
 
 } // namespace
 
 int info(const std::string& path)
 {
-    return run_in_child(path, [&] { print_summary(path); });
+    const GuardedReading guarded(path);
+    print_summary(StoredResult(path));
+    return exit_code::complete;
 }
 
 } // namespace overturn

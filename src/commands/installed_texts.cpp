@@ -180,7 +180,7 @@ complete -F _overturn overturn
 std::string choices_of(std::string value)
 {
     if (value == "AXIS=VALUE,...") {
-        return fmt::format("{}=", fmt::join(axis_names, "= "));
+        return fmt::format("{}=", fmt::join(axis_names(), "= "));
     }
     if (value.ends_with("KEY=VALUE")) {
         const std::string prefix = value.substr(0, value.size() - 9);

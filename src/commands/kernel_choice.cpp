@@ -1,6 +1,6 @@
 #include "kernel_choice.hpp"
 
-#include "exit_code.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -16,14 +16,16 @@ Kernel kernel_called(std::string_view name)
     const auto found = std::find(kernel_names.begin(), kernel_names.end(), name);
     const auto kernel = Kernel(found - kernel_names.begin());
     if (!processor_runs(kernel)) {
-        throw UsageError(fmt::format("--kernel {}: this processor does not support it. The widest "
-                                     "kernel that it supports is {}.",
-                                     name, name_of(widest_kernel())));
+        throw Error(exit_code::usage,
+                    "--kernel {}: this processor does not support it. The widest "
+                    "kernel that it supports is {}.",
+                    name, name_of(widest_kernel()));
     }
     if (!is_compiled(kernel)) {
-        throw UsageError(fmt::format("--kernel {}: this build has no kernel {}. Configure it with "
-                                     "-DOVERTURN_KERNELS=all.",
-                                     name, name));
+        throw Error(exit_code::usage,
+                    "--kernel {}: this build has no kernel {}. Configure it with "
+                    "-DOVERTURN_KERNELS=all.",
+                    name, name);
     }
     return kernel;
 }

@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// auto: the widest kernel that the processor supports. Throws UsageError if the processor does not
-/// support the kernel or if it was not compiled; ProcessorError if no kernel is supported.
+/// auto: the widest kernel that the processor supports. Throws Error if the processor does not
+/// support the kernel, or any of this build, or if it was not compiled.
 Kernel kernel_called(std::string_view name);
 
 } // namespace overturn

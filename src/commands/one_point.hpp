@@ -4,41 +4,70 @@
 #include "dimension_lines.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/history.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace overturn {
 
-inline PlanePoint only_point_of(const Job& job)
+inline Point only_point_of(const Job& job)
 {
-    const Plane& plane = job.plane;
-    const double slenderness = plane.slenderness.first();
-    return {.slenderness = slenderness,
-            .restitution = plane.restitution_ratio(0, 0),
-            .amplitude = plane.amplitude.first() / amplitude_unit(job.scene, plane, 0, slenderness),
-            .frequency = frequency_of_point(job.scene, plane, 0, plane.frequency.first())};
+    return Coordinates(job.problem.scene, job.problem.grid).points().front();
 }
 
-/// With at least as many samples as the record.
+/// p [1/s] of the only block of a job; nullopt if the job does not give its size.
+inline std::optional<double> parameter_of(const Job& job)
+{
+    const Coordinates coordinates(job.problem.scene, job.problem.grid);
+    return coordinates.has("frequency_parameter")
+               ? std::optional(coordinates.of("frequency_parameter").first())
+               : std::nullopt;
+}
+
+/// Throws Error if the motion overflows; a spectrum flags such a point instead.
+inline void expect_finite(const History& history, const Grid& grid)
+{
+    const bool finite = std::all_of(
+        history.samples.begin(), history.samples.end(), [](const HistorySample& sample) {
+            return std::isfinite(sample.angle) && std::isfinite(sample.velocity) &&
+                   std::isfinite(sample.acceleration) && std::isfinite(sample.q);
+        });
+    if (!finite) {
+        const Column& strength = *grid.axis_or_number(Role::strength);
+        throw Error(exit_code::job,
+                    "plane.{} = {} moves the block beyond the range of double precision. Lower "
+                    "it. (In a spectrum such a point is undecided, with the flag not_finite in "
+                    "status.)",
+                    strength.quantity->name, strength.values.first());
+    }
+}
+
+/// With at least as many samples as the record. Throws Error if the motion overflows.
 inline History history_of_only_point(const Job& job, HistoryView view = {})
 {
-    if (!job.motions.empty()) {
-        view.samples = int(std::max<std::int64_t>(view.samples, job.motions.front().samples));
+    const Scene& scene = job.problem.scene;
+    if (scene.is_recorded()) {
+        view.samples = int(std::max<std::int64_t>(view.samples, scene.records.front()->samples()));
     }
-    return history_of(job.scene, only_point_of(job), view);
+    History history = history_of(scene, only_point_of(job), view);
+    expect_finite(history, job.problem.grid);
+    return history;
 }
 
 /// The largest |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
 inline double peak_of_only_point(const Job& job)
 {
-    const TileFields fields = sweep_tile(job.scene, most_accurate, job.plane, Tiling(job.plane)[0],
-                                         {Field::peak}, widest_kernel());
+    Problem problem = job.problem;
+    problem.numerics = most_accurate;
+    problem.fields = {Field::peak};
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
     return std::get<std::vector<double>>(fields.values[0])[0];
 }
 

@@ -1,11 +1,12 @@
 // The lines that commands print: messages, warnings, and rows of a name and a text.
 #pragma once
 
-#include "printable.hpp"
+#include "audit_text.hpp"
+#include "overturn/text/quoting.hpp"
 
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/plausibility.hpp"
+#include "overturn/problem/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace overturn {
 
@@ -24,23 +26,24 @@ inline void say(const std::string& line)
     std::fflush(stdout);
 }
 
-/// See implausible_values().
-inline std::string implausible_values_of(const Job& job)
-{
-    Plane plane = job.plane;
-    if (job.product == Product::boundary) {
-        plane.amplitude = job.scan;
-    }
-    return implausible_values(job.scene, plane);
-}
-
 /// Prints what looks like a mistake in the units to stderr, in one line.
 inline void warn_of_implausible_values(const Job& job)
 {
-    if (const std::string values = implausible_values_of(job); !values.empty()) {
+    if (const std::string values = implausible_values(job.problem.scene, job.problem.grid);
+        !values.empty()) {
         std::fflush(stdout);
         fmt::print(stderr, "overturn: warning: {}.\n", printable(values));
     }
+}
+
+/// The unit of a quantity after a number: begins with a blank, or is empty.
+inline std::string unit_text(const Quantity& quantity)
+{
+    return quantity.name == "pga"               ? " g"
+           : quantity.name == "pulse_frequency" ? " Hz"
+           : quantity.units == "1"              ? ""
+           : quantity.units == "s-1"            ? " 1/s"
+                                                : fmt::format(" {}", quantity.units);
 }
 
 inline void print_row(std::string_view name, std::string_view text)
@@ -48,13 +51,16 @@ inline void print_row(std::string_view name, std::string_view text)
     fmt::print("{:<12} {}\n", name, text);
 }
 
-/// The row of an axis; `ending` is appended to the values.
+/// The row of a coordinate; `unit` is appended to the values.
 inline void print_axis(std::string_view name, std::int64_t size, double first, double last,
-                       std::string_view ending)
+                       std::string_view unit)
 {
-    print_row(name, size == 1
-                        ? fmt::format("{}{}", first, ending)
-                        : fmt::format("{} values from {} to {}{}", size, first, last, ending));
+    const bool is_share = name == "restitution_of_maximum"; // too long for the column of names
+    print_row(is_share ? "restitution" : name,
+              fmt::format("{}{}{}",
+                          size == 1 ? fmt::to_string(first)
+                                    : fmt::format("{} values from {} to {}", size, first, last),
+                          unit, is_share ? ", of the maximum" : ""));
 }
 
 /// What a reader of a boundary must know: the number of lines without a minimum overturning
@@ -78,6 +84,20 @@ inline std::string lines_text(const BoundaryLines& lines)
                             100 * lines.undecided_share);
     }
     return text;
+}
+
+/// What a reader of a complete spectrum or boundary must know.
+inline std::vector<std::string> remarks_on(const StoredResult& stored)
+{
+    std::vector<std::string> remarks;
+    if (stored.origin().kind == FileKind::boundary) {
+        remarks.push_back(lines_text(stored.count_lines()));
+    }
+    if (stored.tiles().audit) {
+        remarks.push_back(audit_text(*stored.tiles().audit));
+    }
+    std::erase(remarks, "");
+    return remarks;
 }
 
 } // namespace overturn

@@ -2,6 +2,7 @@
 // or creates a new file. Signals are checked between tiles and stop it.
 #pragma once
 
+#include "overturn/file/sole_writer.hpp"
 #include "overturn/job/job.hpp"
 
 #include <cstdint>
@@ -11,13 +12,9 @@
 
 namespace overturn {
 
-/// Examines the file at the path in a child process, because HDF5 may crash on it. Returns
-/// exit_code::complete if it is absent or belongs to the job, else another code after printing a
-/// message. Throws FileError and Stopped. To be called before MPI_Init.
-int examine_in_child(const Job& job, const std::string& path);
-
-/// Creates the file of the job unless it exists. Returns its damaged tiles, which are to be
-/// recomputed; nullopt if the file is complete. Throws FileError and Stopped.
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path);
+/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns its
+/// damaged tiles, which are to be recomputed; nullopt if the file is complete. Throws Error.
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+                                                        const SoleWriter& writer);
 
 } // namespace overturn

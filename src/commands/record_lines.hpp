@@ -2,9 +2,10 @@
 #pragma once
 
 #include "human_units.hpp"
-#include "printable.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/problem/given.hpp"
 
 #include <fmt/format.h>
 
@@ -33,9 +34,11 @@ inline std::vector<std::string> lines_of_equal_records(const Job& job)
 {
     std::vector<std::string> lines;
     std::map<std::pair<std::string, double>, std::string> names;
-    for (const Motion& motion : job.motions) {
+    for (std::size_t i = 0; i < job.motions.size(); ++i) {
+        const Motion& motion = job.motions[i];
+        const double time_step = job.problem.scene.records[i]->time_step();
         const auto [first, is_new] =
-            names.emplace(std::pair(motion.checksum, motion.time_step), motion.name);
+            names.emplace(std::pair(motion.checksum, time_step), motion.name);
         if (!is_new) {
             lines.push_back(printable(
                 fmt::format("{}: the same accelerations as {}; it counts as another motion",
@@ -51,13 +54,15 @@ inline std::vector<std::string> lines_of_equal_records(const Job& job)
 inline std::vector<std::string> record_lines(const Job& job)
 {
     std::vector<std::string> lines;
-    for (const Motion& motion : job.motions) {
+    for (std::size_t i = 0; i < job.motions.size(); ++i) {
+        const Motion& motion = job.motions[i];
+        const Accelerogram& record = *job.problem.scene.records[i];
         const std::string component =
             (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
             (motion.vertical.empty() ? "" : fmt::format(", vertical {}", motion.vertical));
         lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
-                                              motion.file, component, motion.samples,
-                                              double(motion.samples - 1) * motion.time_step,
+                                              motion.file, component, record.samples(),
+                                              double(record.samples() - 1) * record.time_step(),
                                               motion.measures.pga, motion.measures.pgv)));
     }
     shorten(lines);
@@ -70,16 +75,30 @@ inline std::vector<std::string> record_lines(const Job& job)
 inline std::vector<std::string> free_fall_lines(const Job& job)
 {
     std::vector<std::string> lines;
-    for (const Motion& motion : job.motions) {
-        if (std::isfinite(motion.largest_scale) &&
-            !(job.largest_scale(motion) < motion.largest_scale)) {
+    const Scene& scene = job.problem.scene;
+    if (!scene.is_recorded()) {
+        return lines;
+    }
+    const std::vector<ScaleRange> scales = scales_of(scene, job.problem.grid);
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+        const double largest = scene.records[i]->largest_scale();
+        if (std::isfinite(largest) && !(scales[i].largest < largest)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
                 "are undecided (status 16, free_fall)",
-                motion.name, motion.largest_scale)));
+                job.motions[i].name, largest)));
         }
     }
     shorten(lines);
+    return lines;
+}
+
+/// What a reader of the log of a run must know of its records.
+inline std::vector<std::string> notes_on_records(const Job& job)
+{
+    std::vector<std::string> lines = lines_of_equal_records(job);
+    const std::vector<std::string> free_fall = free_fall_lines(job);
+    lines.insert(lines.end(), free_fall.begin(), free_fall.end());
     return lines;
 }
 

@@ -1,10 +1,8 @@
 // The map of the code: open a session, read the job, open the file, hand out the missing tiles,
 // compute and write each of them.
-#include "audit_text.hpp"
 #include "commands.hpp"
-#include "exit_code.hpp"
+#include "complain.hpp"
 #include "human_units.hpp"
-#include "job_of_rank_0.hpp"
 #include "kernel_choice.hpp"
 #include "output_lines.hpp"
 #include "prepare_output.hpp"
@@ -17,10 +15,10 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/boundary.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/problem/problem_bytes.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <fmt/format.h>
 
@@ -41,26 +39,20 @@ constexpr int proceed = -1; ///< tiles are missing; not an exit code
 /// The data that each rank needs to take part in a run.
 struct Task {
     const MpiSession& session;
-    const Job& job;
+    const Problem problem;
     const Tiling tiling;
     const std::string path;
     const RunOptions& options;
     const Kernel kernel;
     const Clock::time_point start;           ///< of the program
     const std::vector<std::int64_t> damaged; ///< tiles of the existing file; on rank 0
+    const Items items = items_of(problem);
 
     bool leads() const { return session.rank() == 0; }
-    /// Points of a spectrum, or lines of a boundary.
-    std::int64_t items() const
+    std::int64_t items_in(std::int64_t tiles) const
     {
-        const bool lines = job.product == Product::boundary;
-        return job.plane.points() / (lines ? most_crossings(job.scene) : 1);
+        return std::int64_t(double(items.count) * (double(tiles) / double(tiling.size())));
     }
-    std::int64_t items(std::int64_t tiles) const
-    {
-        return std::int64_t(double(items()) * (double(tiles) / double(tiling.size())));
-    }
-    const char* item_name() const { return job.product == Product::boundary ? "lines" : "points"; }
 };
 
 std::string output_path(const RunOptions& options)
@@ -81,8 +73,8 @@ std::string start_line(const Task& task, std::int64_t tiles_before)
 {
     std::string what =
         tiles_before == 0
-            ? fmt::format("{} {} in {} {}", human_count(double(task.items())),
-                          noun_of(double(task.items()), task.item_name()), task.tiling.size(),
+            ? fmt::format("{} {} in {} {}", human_count(double(task.items.count)),
+                          noun_of(double(task.items.count), task.items.name), task.tiling.size(),
                           noun_of(double(task.tiling.size()), "tiles"))
             : fmt::format("resuming: {} of {} tiles done", tiles_before, task.tiling.size());
     if (!task.damaged.empty()) {
@@ -96,7 +88,7 @@ std::string start_line(const Task& task, std::int64_t tiles_before)
 /// The number of points computed, and how the ranks spent the time.
 std::string end_line(const Task& task, const FarmReport& report, double seconds)
 {
-    const auto items = double(task.items(report.tiles));
+    const auto items = double(task.items_in(report.tiles));
     double computing = 0;
     double writing = 0;
     for (const RankShare& rank : report.ranks) {
@@ -107,28 +99,22 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
     return fmt::format(
         "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % "
         "writing",
-        human_count(items), noun_of(items, task.item_name()), human_duration(seconds),
-        human_count(items / seconds), task.item_name(), percent * computing, percent * writing);
+        human_count(items), noun_of(items, task.items.name), human_duration(seconds),
+        human_count(items / seconds), task.items.name, percent * computing, percent * writing);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
                          SpectrumFile& file)
 {
-    const Job& job = task.job;
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
-    Progress progress(task.items(tiles_before), task.items(), task.item_name());
-    const std::vector<double> scan = job.scan.values();
+    Progress progress(task.items_in(tiles_before), task.items.count, task.items.name);
     TileFields fields;
     const TileWork tile_work{
         .compute =
             [&](std::int64_t number, const DropRequested& drop_requested) {
-                const Tile tile = task.tiling[number];
                 try {
-                    fields = job.product == Product::boundary
-                                 ? boundary_tile(job.scene, job.plane, scan, tile, task.kernel,
-                                                 drop_requested)
-                                 : sweep_tile(job.scene, job.numerics, job.plane, tile, job.fields,
-                                              task.kernel, drop_requested);
+                    fields = compute_tile(task.problem, task.tiling[number], task.kernel,
+                                          drop_requested);
                 } catch (const TileDropped&) {
                     return false;
                 }
@@ -137,7 +123,7 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
         .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
     return farm_out(
         task.session, missing, tile_work,
-        [&](std::int64_t done) { progress.update(task.items(tiles_before + done)); },
+        [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); },
         {StopSignals::requested, StopSignals::overdue},
         std::chrono::seconds(task.options.patience));
 }
@@ -178,18 +164,29 @@ FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<s
     }
 }
 
-/// The number of tiles in the file that are not marked as done; 0 if it is complete. On rank 0.
-std::int64_t count_missing_tiles(const Task& task, const FarmReport& report)
+/// Says how the run ended, and what a reader of the result must know. On rank 0.
+int report_end(const Task& task, const FarmReport& report, double seconds,
+               std::int64_t still_damaged)
 {
-    const SpectrumSummary stored = summarize(task.path);
-    const std::int64_t missing = stored.tiles - stored.tiles_done;
+    const StoredResult stored(task.path);
+    const TilesSummary& tiles = stored.tiles();
+    const std::int64_t missing = tiles.tiles - tiles.tiles_done;
     if (missing > 0 && !report.stopped) {
-        throw FileError(fmt::format("another program has written to \"{}\"; all tiles were "
-                                    "computed, but the file lacks {} of {}. Run the same command "
-                                    "again to resume.",
-                                    task.path, missing, stored.tiles));
+        throw Error(exit_code::output,
+                    "another program has written to \"{}\"; all tiles were "
+                    "computed, but the file lacks {} of {}. Run the same command "
+                    "again to resume.",
+                    task.path, missing, tiles.tiles);
     }
-    return missing;
+    say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
+    if (missing + still_damaged > 0) {
+        return complain(stopped_by_signal(
+            fmt::format("; tiles missing: {} of {}", missing + still_damaged, task.tiling.size())));
+    }
+    for (const std::string& line : remarks_on(stored)) {
+        say(fmt::format("{}: {}", task.path, line));
+    }
+    return exit_code::complete;
 }
 
 int compute_missing_tiles(const Task& task)
@@ -199,14 +196,14 @@ int compute_missing_tiles(const Task& task)
     const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {
-            complain(FileError(
-                fmt::format("\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
-                            "{}). Choose a folder with -o that all hosts share.",
-                            path, *other, hosts[std::size_t(*other)], hosts.front())));
+            complain(Error(exit_code::output,
+                           "\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
+                           "{}). Choose a folder with -o that all hosts share.",
+                           path, *other, hosts[std::size_t(*other)], hosts.front()));
         }
         return exit_code::output;
     }
-    SpectrumFile file(path, task.session.communicator(), task.job,
+    SpectrumFile file(path, task.session.communicator(), task.problem,
                       task.options.durable ? Durability::on_disk : Durability::written);
     std::vector<std::int64_t> missing;
     std::int64_t still_damaged = 0;
@@ -218,12 +215,6 @@ int compute_missing_tiles(const Task& task)
                 file.forget(task.tiling[number]);
             }
         }
-        for (const std::string& line : lines_of_equal_records(task.job)) {
-            say(line);
-        }
-        for (const std::string& line : free_fall_lines(task.job)) {
-            say(line);
-        }
         missing = file.missing_tiles();
         say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
     }
@@ -234,18 +225,7 @@ int compute_missing_tiles(const Task& task)
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
         write_run_info(task, hosts, report, seconds);
-        const std::int64_t still_missing = count_missing_tiles(task, report) + still_damaged;
-        say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
-        if (still_missing > 0) {
-            code = complain(Stopped(
-                fmt::format("; tiles missing: {} of {}", still_missing, task.tiling.size())));
-        } else if (task.job.product == Product::boundary) {
-            if (const std::string lines = lines_text(count_lines(task.path)); !lines.empty()) {
-                say(fmt::format("{}: {}", task.path, lines));
-            }
-        } else if (const auto audit = summarize(task.path).audit) {
-            say(fmt::format("{}: {}", task.path, audit_text(*audit)));
-        }
+        code = report_end(task, report, seconds, still_damaged);
     }
     return task.session.from_rank_0(code);
 }
@@ -264,44 +244,36 @@ int run(const RunOptions& options)
     std::optional<std::vector<std::int64_t>> damaged;
     int code = exit_code::complete;
 
+    start_hdf5();
+    const MpiSession session;
     // An error that rank 0 finds before the computation is printed once, and all ranks return its
     // exit code. A later error on any rank aborts the others.
-    const auto complain_if_it_fails = [&](const auto& action) {
+    if (session.rank() == 0) {
         try {
-            action();
-        } catch (const std::exception& error) {
-            code = complain(error);
-        }
-    };
-    if (launched_rank() == 0) {
-        complain_if_it_fails([&] {
             kernel_called(options.kernel); // throws if this machine does not support it
             job = read_job_of(options);
             demand_path_for_mpi(fs::absolute(path).string());
-            code = examine_in_child(*job, path);
-        });
-    }
-    start_hdf5();
-    const MpiSession session;
-    if (session.rank() == 0 && code == exit_code::complete) {
-        complain_if_it_fails([&] {
-            if (!job) { // launched_rank() is wrong under this launcher
-                job = read_job_of(options);
-            }
             sole_writer.emplace(path);
-            damaged = prepare_output(*job, path);
+            damaged = prepare_output(*job, path, *sole_writer);
             if (damaged) {
                 warn_of_implausible_values(*job);
+                for (const std::string& line : notes_on_records(*job)) {
+                    say(line);
+                }
             }
-        });
+        } catch (const std::exception& error) {
+            code = complain(error);
+        }
     }
     code = session.from_rank_0(damaged ? proceed : code);
     if (code != proceed) {
         return code;
     }
     try {
-        job = job_of_rank_0(session, std::move(job), options.boundary);
-        return compute_missing_tiles({session, *job, tiling_of(*job), path, options,
+        const std::string bytes = session.from_rank_0(job ? bytes_of(job->problem) : "");
+        Problem problem = problem_of(bytes);
+        Tiling tiling = tiling_of(problem);
+        return compute_missing_tiles({session, std::move(problem), std::move(tiling), path, options,
                                       kernel_called(options.kernel), start,
                                       damaged.value_or(std::vector<std::int64_t>())});
     } catch (const std::exception& error) {

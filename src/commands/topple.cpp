@@ -1,50 +1,36 @@
 // Whether one block topples under one motion, and at which peak accelerations. The job is made from
 // the command line; everything is computed as by `run`, `boundary` and `history`.
 #include "commands.hpp"
-#include "exit_code.hpp"
+#include "guarded_reading.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
 #include "progress.hpp"
 #include "record_lines.hpp"
 #include "verdict_ranges.hpp"
 
+#include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/sweep/kernel.hpp"
+#include "overturn/text/error.hpp"
+#include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <fcntl.h>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <spawn.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <system_error>
-#include <unistd.h>
 
 namespace overturn {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string quoted(const std::string& text)
 {
     if (!is_utf8(text)) {
-        throw UsageError(fmt::format("{} is not UTF-8. Rename the file.", as_utf8(text)));
+        throw Error(exit_code::usage, "{} is not UTF-8. Rename the file.", as_utf8(text));
     }
-    std::string result;
-    for (const char letter : text) { // as in TOML
-        const bool is_control = static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
-        result += is_control                        ? fmt::format("\\u{:04X}", int(letter))
-                  : letter == '"' || letter == '\\' ? std::string("\\") + letter
-                                                    : std::string(1, letter);
-    }
-    return '"' + result + '"';
+    return in_quotes(text);
 }
 
 /// The text of a job with a single point. If the command line gives no strength, its motion is 0.
@@ -66,10 +52,9 @@ std::string job_text(const ToppleOptions& options)
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
-    const bool is_share = !options.restitution;
-    text += fmt::format("restitution = {{ values = [{}], of = \"{}\" }}\n",
-                        is_share ? options.restitution_of_maximum : *options.restitution,
-                        is_share ? "maximum" : "absolute");
+    text += options.restitution
+                ? fmt::format("restitution = {}\n", *options.restitution)
+                : fmt::format("restitution_of_maximum = {}\n", options.restitution_of_maximum);
     return text + fmt::format("[block]\nwidth = {}\nheight = {}\n", options.width, options.height);
 }
 
@@ -77,7 +62,7 @@ void expect_consistent(const ToppleOptions& options)
 {
     const auto refuse_if = [](bool wrong, const char* message) {
         if (wrong) {
-            throw UsageError(message);
+            throw Error(exit_code::usage, message);
         }
     };
     const bool is_recorded = !options.record.empty();
@@ -99,8 +84,8 @@ void expect_consistent(const ToppleOptions& options)
                   "--set takes keys of [scene] here, such as scene.gravity. The other options give "
                   "the block and the motion.");
     }
-    refuse_if(!options.plot.empty() && !options.pga && !options.scale,
-              "--plot draws the history at one acceleration. Give --pga or --scale.");
+    refuse_if(!options.history.empty() && !options.pga && !options.scale,
+              "--history is that of one acceleration. Give --pga or --scale.");
     refuse_if(options.restitution && options.has_share,
               "--restitution and --restitution-of-maximum exclude each other. Remove one.");
 }
@@ -124,9 +109,8 @@ struct Answer {
 };
 
 /// r_max of the block (Eq. 17), which does not exist for wide blocks.
-std::optional<double> r_max_of(const Job& job)
+std::optional<double> r_max_of(double alpha)
 {
-    const double alpha = job.plane.slenderness.first();
     return alpha < std::asin(std::sqrt(2.0 / 3)) ? std::optional(largest_restitution(alpha))
                                                  : std::nullopt;
 }
@@ -134,18 +118,21 @@ std::optional<double> r_max_of(const Job& job)
 Answer answer_of(const Job& job, const ToppleOptions& options)
 {
     Answer answer;
-    const double alpha = job.plane.slenderness.first();
-    const double unit = pga_of_unit_amplitude(job.scene, 0, alpha);
-    answer.pga = job.plane.amplitude.first() * (options.scale ? unit : 1);
+    const Scene& scene = job.problem.scene;
+    const Point point = only_point_of(job);
+    const double alpha = point.slenderness;
+    const double unit =
+        scene.is_recorded() ? scene.records.front()->peak() : uplift_threshold(scene.theory, alpha);
+    answer.pga = options.pga ? *options.pga : point.amplitude * unit;
     if (options.pga || options.scale) {
         answer.peak = peak_of_only_point(job);
         answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
     }
-    answer.lifting_pga = lifting_pga(job.scene, 0, alpha);
-    const double requested = job.plane.restitution_ratio(0, 0);
-    const auto r_max = r_max_of(job);
+    answer.lifting_pga = lifting_pga(scene, 0, alpha);
+    const double requested = point.restitution;
+    const auto r_max = r_max_of(alpha);
     std::vector<double> ratios{requested};
     if (r_max) {
         for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
@@ -164,13 +151,10 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
             continue;
         }
         const BoundaryLine line{
-            .slenderness = alpha,
-            .restitution = ratio,
-            .frequency = frequency_of_point(job.scene, job.plane, 0, job.plane.frequency.first()),
-            .unit = unit};
+            .slenderness = alpha, .restitution = ratio, .frequency = point.frequency, .unit = unit};
         answer.by_restitution.push_back(
             {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
-             verdict_ranges(job.scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
+             verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
     }
     return answer;
 }
@@ -186,15 +170,16 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
 
 void print_answer(const Job& job, const ToppleOptions& options, const Answer& answer)
 {
-    const double alpha = job.plane.slenderness.first();
+    const double alpha = only_point_of(job).slenderness;
     const RestitutionAnswer& requested = answer.by_restitution.front();
-    const bool is_recorded = job.scene.is_recorded();
+    const Scene& scene = job.problem.scene;
+    const bool is_recorded = scene.is_recorded();
     const int decimals = requested.ranges.decimals(answer.pga);
-    print_row("block", fmt::format("{} m x {} m, {}", options.width, options.height,
-                                   dimension_lines(job)[0]));
-    print_row("motion", is_recorded ? record_lines(job).front()
-                                    : fmt::format("{}, period {} s", name_of(job.scene.pulse),
-                                                  *options.period));
+    print_row("block",
+              fmt::format("{} m x {} m, {}", options.width, options.height, block_line(job)));
+    print_row("motion",
+              is_recorded ? record_lines(job).front()
+                          : fmt::format("{}, period {} s", name_of(scene.pulse), *options.period));
     print_row(
         "restitution",
         std::isnan(requested.share)
@@ -266,8 +251,8 @@ std::string json_of(const RestitutionAnswer& answer)
 std::string json_of_motion(const Job& job, const ToppleOptions& options)
 {
     if (job.motions.empty()) {
-        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}}}", name_of(job.scene.pulse),
-                           *options.period);
+        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}}}",
+                           name_of(job.problem.scene.pulse), *options.period);
     }
     const Motion& motion = job.motions.front();
     return fmt::format("{{\"record\": {}, \"component\": {}, \"vertical\": {}}}",
@@ -280,14 +265,14 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
     const auto number = [](double value) {
         return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
     };
-    const double alpha = job.plane.slenderness.first();
+    const double alpha = only_point_of(job).slenderness;
     std::string others;
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         others +=
             fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
     }
     const bool is_requested = answer.verdict.has_value();
-    const std::string warning = implausible_values_of(job);
+    const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
     fmt::print(
         "{{\n"
         "  \"block\": {{\"width\": {}, \"height\": {}}},\n"
@@ -311,85 +296,20 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
         : answer.verdict == Verdict::safe  ? "false"
                                            : "null",
         is_requested ? number(answer.pga) : "null", is_requested ? number(answer.peak) : "null",
-        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha,
-        *parameter_of_only_block(job), job.scene.gravity, number(answer.lifting_pga),
-        options.pga_max, job.scene.is_recorded() ? "true" : "null",
-        warning.empty() ? "" : quoted(warning), json_of(answer.by_restitution.front()), others);
+        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha, *parameter_of(job),
+        job.problem.scene.gravity, number(answer.lifting_pga), options.pga_max,
+        job.problem.scene.is_recorded() ? "true" : "null", warning.empty() ? "" : quoted(warning),
+        json_of(answer.by_restitution.front()), others);
 }
 
-/// plot_history of the folder in which this program is installed, or of its source folder.
-fs::path plotting_tool()
+void write_history(const Job& job, const std::string& path)
 {
-    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-    for (const fs::path& path :
-         {folder / "overturn-plot-history", folder / "../tools/plot_history"}) {
-        if (fs::exists(path)) {
-            return path;
-        }
-    }
-    throw UsageError("--plot: the tool overturn-plot-history is not installed beside overturn. "
-                     "Install it, or leave out --plot.");
-}
-
-/// Removed with its contents when it goes out of scope.
-struct TemporaryFolder {
-    std::string path = (fs::temp_directory_path() / "overturn-XXXXXX").string();
-
-    TemporaryFolder()
+    const SoleWriter sole_writer(path);
     {
-        if (mkdtemp(path.data()) == nullptr) {
-            throw FileError(fmt::format("cannot create a temporary folder in {}. Set TMPDIR to a "
-                                        "writable folder.",
-                                        fs::temp_directory_path().string()));
-        }
+        const GuardedReading guarded(path, sole_writer.lock());
+        expect_room_for(path, FileKind::history);
     }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-};
-
-/// The last line of a file, such as the message of a program that failed.
-std::string last_line_of(const std::string& path)
-{
-    std::ifstream file(path);
-    std::string last = "no reason was given.";
-    for (std::string line; std::getline(file, line);) {
-        last = line.empty() ? last : line;
-    }
-    return last;
-}
-
-void plot(const Job& job, const std::string& picture)
-{
-    const std::string tool = plotting_tool().string();
-    const TemporaryFolder folder;
-    std::string file = folder.path + "/history.h5";
-    write_history_file(file, job, history_of_only_point(job));
-    std::string units = "--units=physical";
-    std::string output = "-o";
-    std::string target = picture;
-    std::string program = tool;
-    std::array<char*, 6> arguments{program.data(), file.data(),   units.data(),
-                                   output.data(),  target.data(), nullptr};
-    pid_t child = 0;
-    int status = 0;
-    posix_spawn_file_actions_t silent; // only the answer is printed
-    posix_spawn_file_actions_init(&silent);
-    posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const std::string errors = folder.path + "/errors";
-    posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT,
-                                     S_IRUSR | S_IWUSR);
-    const bool ran =
-        posix_spawn(&child, tool.c_str(), &silent, nullptr, arguments.data(), environ) == 0 &&
-        waitpid(child, &status, 0) == child;
-    posix_spawn_file_actions_destroy(&silent);
-    if (!ran || status != 0) {
-        throw FileError(fmt::format("--plot: the picture was not drawn: {}", last_line_of(errors)));
-    }
+    write_history_file(path, job, history_of_only_point(job));
 }
 
 } // namespace
@@ -400,18 +320,22 @@ int topple(const ToppleOptions& options)
     expect_consistent(options);
     const Job job = read_job_text(job_text(options), command_line, options.overrides);
     if (job.motions.size() > 1) {
-        throw UsageError(
-            fmt::format("--record matches {} files, but topple answers for one motion. "
-                        "Give one file; for a suite, write a job for overturn run.",
-                        job.motions.size()));
+        throw Error(exit_code::usage,
+                    "--record matches {} files, but topple answers for one motion. "
+                    "Give one file; for a suite, write a job for overturn run.",
+                    job.motions.size());
     }
     if (!options.json) {
         warn_of_implausible_values(job);
     }
+    if (!options.history.empty()) {
+        write_history(job, options.history);
+    }
     const Answer answer = answer_of(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
-    if (!options.plot.empty()) {
-        plot(job, options.plot);
+    if (!options.history.empty() && !options.json) {
+        fmt::print("\n{0}: written; draw it with tools/plot_history {0} --units physical\n",
+                   options.history);
     }
     return exit_code::complete;
 }

@@ -1,5 +1,7 @@
 #include "verdict_ranges.hpp"
 
+#include "overturn/problem/axis.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

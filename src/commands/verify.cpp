@@ -1,8 +1,9 @@
 // Checks the coordinates of a result file against its job, and its tiles against their checksums.
-#include "child_process.hpp"
 #include "commands.hpp"
+#include "guarded_reading.hpp"
 
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,32 +24,41 @@ std::string list_text(const std::vector<std::int64_t>& numbers)
                        numbers.size() > most ? ", ..." : "");
 }
 
-void check_file(const std::string& path)
+void check_file(const StoredResult& stored)
 {
-    const SpectrumSummary summary = summarize(path);
-    if (const auto damaged = damaged_coordinates(path); !damaged.empty()) {
-        throw FileError(fmt::format("\"{}\" is damaged: its coordinates do not match its job: {}. "
-                                    "Remove the file and recompute it.",
-                                    path, fmt::join(damaged, ", ")));
+    const std::string& path = stored.path();
+    const TilesSummary& tiles = stored.tiles();
+    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
+        throw Error(exit_code::output,
+                    "\"{}\" is damaged: the values of its coordinates have changed: {}. "
+                    "Remove the file and recompute it.",
+                    path, fmt::join(damaged, ", "));
     }
-    if (const auto damaged = damaged_tiles(path); !damaged.empty()) {
-        throw FileError(fmt::format(
+    if (const auto damaged = stored.damaged_tiles(); !damaged.empty()) {
+        throw Error(
+            exit_code::output,
+
             "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match (tile "
-            "numbers: {}). Recompute them with overturn {} JOB.toml -o {}, with the job file and "
-            "the --set "
-            "arguments of the first run.",
-            path, damaged.size(), summary.tiles_done, list_text(damaged),
-            summary.product == Product::boundary ? "boundary" : "run", path));
+            "numbers: {}). Recompute them with overturn {} JOB.toml -o {}, with the job file "
+            "and "
+            "the --set arguments of the first run.",
+            path, damaged.size(), tiles.tiles_done, list_text(damaged),
+            stored.origin().kind == FileKind::boundary ? "boundary" : "run", path);
     }
-    fmt::print("{}: {} of {} {} done; coordinates and checksums match\n", path, summary.tiles_done,
-               summary.tiles, summary.tiles == 1 ? "tile is" : "tiles are");
+    fmt::print("{}: {} of {} {} done; {} match\n", path, tiles.tiles_done, tiles.tiles,
+               tiles.tiles == 1 ? "tile is" : "tiles are",
+               stored.has_coordinate_checksums()
+                   ? "coordinates and checksums"
+                   : "checksums of tiles (this format has none of coordinates)");
 }
 
 } // namespace
 
 int verify(const std::string& path)
 {
-    return run_in_child(path, [&] { check_file(path); });
+    const GuardedReading guarded(path);
+    check_file(StoredResult(path));
+    return exit_code::complete;
 }
 
 } // namespace overturn

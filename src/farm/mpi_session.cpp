@@ -1,5 +1,7 @@
 #include "overturn/farm/mpi_session.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include "wait_for.hpp"
 
 #include <algorithm>
@@ -127,7 +129,7 @@ MpiSession::MpiSession()
     MPI_Comm_size(communicator_, &size_);
     if (const std::string fault = launch_fault(size_); !fault.empty()) {
         leave();
-        throw LaunchError(fault);
+        throw Error(exit_code::usage, fault);
     }
 }
 
@@ -189,14 +191,29 @@ void MpiSession::abort(int exit_code, const std::string& message) const
 {
     std::fprintf(stderr, "rank %d: %s\n", rank_, message.c_str());
     std::fflush(nullptr);
+    end_all_ranks(exit_code);
+}
+
+void end_all_ranks(int exit_code)
+{
     // MPI_Abort of MPICH 4.0 waits forever for a rank that is suspended; the launcher ends all
-    // ranks once one has exited.
+    // ranks once one has exited. With MPICH, a mere exit would give the code of a killed rank.
     constexpr unsigned grace = 5; // [s]
     exit_code_of_abort = exit_code;
-    std::signal(SIGALRM, exit_now);
+    for (const int signal : {SIGALRM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) {
+        std::signal(signal, exit_now);
+    }
     alarm(grace);
-    MPI_Abort(communicator_, exit_code);
-    std::abort(); // MPI_Abort does not return, but is not declared so
+    int initialized = 0;
+    int size = 1;
+    MPI_Initialized(&initialized);
+    if (initialized != 0) {
+        MPI_Comm_size(MPI_COMM_WORLD, &size);
+    }
+    if (size > 1) {
+        MPI_Abort(MPI_COMM_WORLD, exit_code);
+    }
+    _exit(exit_code);
 }
 
 std::string mpi_library()

@@ -102,7 +102,7 @@ void add_columns(const Table& table)
 
 void write(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
 {
-    write_attribute(file, "points", sample.plane.points());
+    write_attribute(file, "points", sample.grid.points());
     write_attribute(file, "points_settled", sample.settled);
     write_attribute(file, "points_in_50_digits", sample.in_digits);
     add_coordinates(file, rows);

@@ -2,346 +2,221 @@
 
 #include "layout.hpp"
 
-#include "overturn/sweep/quantity.hpp"
+#include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
+#include <memory>
+#include <numeric>
 
 namespace overturn {
 
 namespace {
 
-constexpr double exact = 0;
-constexpr double of_one_function = 4; // the error of each library is at most two
-constexpr double of_several = 100;    // largest_restitution amplifies those of its sine
-
-constexpr const char* long_name_of_frequency = "frequency of the pulse, omega_p / p";
-constexpr const char* long_name_of_period = "period of the pulse";
-constexpr const char* long_name_of_size = "half diagonal of the block, R";
-constexpr const char* long_name_of_parameter = "frequency parameter, p = sqrt(3g / 4R)";
-constexpr const char* long_name_of_pga = "peak ground acceleration, over g";
-
-/// Under a pulse.
-const char* long_name_of_amplitude(const Job& job)
-{
-    return job.scene.theory == Theory::linear ? "peak acceleration, over g alpha"
-                                              : "peak acceleration, over g tan(alpha)";
-}
-
-Coordinate coordinate_of(const Dimension& dimension)
-{
-    const auto& [name, axis, long_name, units] = dimension;
-    const auto* range = std::get_if<AxisRange>(&axis.definition());
-    const bool is_log = range != nullptr && range->spacing == Spacing::log;
-    const double roundings = is_log ? of_one_function : exact;
-    return {{name, {name}, {hsize_t(axis.size())}, axis.values(), long_name, units}, roundings};
-}
-
-Coordinate restitution_ratio(const Plane& plane)
-{
-    std::vector<double> values;
-    for (std::int64_t i = 0; i < plane.slenderness.size(); ++i) {
-        for (std::int64_t j = 0; j < plane.restitution.size(); ++j) {
-            values.push_back(plane.restitution_ratio(i, j));
-        }
-    }
-    return {{"restitution_ratio",
-             {"slenderness", "restitution"},
-             {hsize_t(plane.slenderness.size()), hsize_t(plane.restitution.size())},
-             std::move(values),
-             "energy ratio at an impact, r",
-             "1"},
-            plane.restitution_of == RestitutionOf::absolute ? exact : of_several};
-}
-
-std::string with_gravity(double gravity)
-{
-    return fmt::format("with g = {} m/s2", gravity);
-}
-
-/// A coordinate of the values of an axis and of g, each computed by of_value(value).
-template <class OfValue>
-Coordinate along(const char* dimension, const Axis& axis, const char* name, const char* long_name,
-                 const char* units, double gravity, const OfValue& of_value)
-{
-    std::vector<double> values = axis.values();
-    std::transform(values.begin(), values.end(), values.begin(), of_value);
-    return {{name, {dimension}, {values.size()}, values, long_name, units, with_gravity(gravity)},
-            of_several};
-}
-
-/// Under a pulse, for blocks of known size: the period of every Omega, or the other way round.
-Coordinate other_frequency(const Job& job)
-{
-    const Plane& plane = job.plane;
-    const double gravity = job.scene.gravity;
-    if (plane.frequency_is == FrequencyQuantity::frequency) {
-        const double p = frequency_parameter(*plane.size, gravity);
-        return along("frequency", plane.frequency, "pulse_period", long_name_of_period, "s",
-                     gravity,
-                     [&](double frequency) { return 2 * std::numbers::pi / (frequency * p); });
-    }
-    return along(name_of(plane.frequency_is).data(), plane.frequency, "frequency",
-                 long_name_of_frequency, "1", gravity,
-                 [&](double value) { return frequency_of_point(job.scene, plane, 0, value); });
-}
-
-/// Under a pulse, for blocks of known size: the peak ground acceleration of every amplitude, or the
-/// amplitude of every peak ground acceleration; for each slenderness if there are several.
-Coordinate other_amplitude(const Job& job)
-{
-    const Plane& plane = job.plane;
-    const bool is_pga = plane.amplitude_is == AmplitudeQuantity::pga;
-    std::vector<double> values;
-    for (const double slenderness : plane.slenderness.values()) {
-        const double threshold = uplift_threshold(job.scene.theory, slenderness);
-        for (const double value : plane.amplitude.values()) {
-            values.push_back(is_pga ? value / threshold : value * threshold);
-        }
-    }
-    std::vector<std::string> dimensions{std::string(name_of(plane.amplitude_is))};
-    netcdf::DatasetShape shape{hsize_t(plane.amplitude.size())};
-    if (plane.slenderness.size() > 1) {
-        dimensions.insert(dimensions.begin(), "slenderness");
-        shape.insert(shape.begin(), hsize_t(plane.slenderness.size()));
-    }
-    return {{is_pga ? "amplitude" : "pga", dimensions, shape, std::move(values),
-             is_pga ? long_name_of_amplitude(job) : long_name_of_pga, "1"},
-            of_several};
-}
-
-/// Under a record: R of every p, or p of every R.
-Coordinate other_size(const Job& job)
-{
-    const Plane& plane = job.plane;
-    const double gravity = job.scene.gravity;
-    if (plane.frequency_is == FrequencyQuantity::size) {
-        return along("size", plane.frequency, "frequency_parameter", long_name_of_parameter, "s-1",
-                     gravity, [&](double size) { return frequency_parameter(size, gravity); });
-    }
-    return along("frequency_parameter", plane.frequency, "size", long_name_of_size, "m", gravity,
-                 [&](double p) { return 3 * gravity / (4 * p * p); });
-}
-
-/// Under a record: the peak ground acceleration of every motion and scale, or the scale of every
-/// motion and peak ground acceleration.
-Coordinate other_strength(const Job& job)
-{
-    const bool is_scale = job.plane.amplitude_is == AmplitudeQuantity::scale;
-    std::vector<double> values;
-    for (const Motion& motion : job.motions) {
-        for (const double value : job.plane.amplitude.values()) {
-            const double peak = motion.measures.pga;
-            values.push_back(is_scale ? value * peak : value / peak);
-        }
-    }
-    return {{is_scale ? "scaled_pga" : "scale",
-             {"motion", std::string(name_of(job.plane.amplitude_is))},
-             {hsize_t(job.motions.size()), hsize_t(job.plane.amplitude.size())},
-             std::move(values),
-             is_scale ? long_name_of_pga : "factor on the record",
-             "1"},
-            exact};
-}
-
-/// The intensity measures of the records, not scaled.
-void add_measures(const Job& job, std::vector<Coordinate>& all)
-{
-    const auto add = [&](const char* name, const char* long_name, const char* units,
-                         double IntensityMeasures::*measure, const char* comment = "") {
-        std::vector<double> values;
-        for (const Motion& motion : job.motions) {
-            values.push_back(motion.measures.*measure);
-        }
-        all.push_back(
-            {{name, {"motion"}, {values.size()}, values, long_name, units, comment}, exact});
-    };
-    const bool is_pga = job.plane.amplitude_is == AmplitudeQuantity::pga ||
-                        (job.blocks && std::ranges::count(job.blocks->columns, "pga") > 0);
-    add(is_pga ? "record_pga" : "pga", "peak acceleration of the record, over g", "1",
-        &IntensityMeasures::pga);
-    add("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
-    add("arias_intensity", "Arias intensity of the record", "m s-1",
-        &IntensityMeasures::arias_intensity);
-    add("significant_duration", "significant duration of the record", "s",
-        &IntensityMeasures::significant_duration, "from 5 to 95 % of the Arias intensity");
-}
-
 /// 1 to count.
-Axis numbers_to(std::int64_t count)
+std::vector<double> numbers_to(std::int64_t count)
 {
-    return Axis(AxisRange{1, double(count), count});
+    std::vector<double> numbers(static_cast<std::size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), 1.0);
+    return numbers;
 }
 
-Dimension motion_dimension(const Plane& plane)
-{
-    return {"motion", numbers_to(plane.motions), "number of the ground motion in the job", "1"};
-}
+class CoordinateList {
+public:
+    explicit CoordinateList(const Job& job)
+        : job_(job), problem_(job.problem),
+          derived_(std::make_shared<Coordinates>(problem_.scene, problem_.grid)),
+          strength_(problem_.product == Product::boundary
+                        ? problem_.grid.dimension_of(Role::strength)
+                        : std::nullopt)
+    {}
 
-Dimension amplitude_dimension(const Job& job)
-{
-    const AmplitudeQuantity quantity = job.plane.amplitude_is;
-    return {std::string(name_of(quantity)), job.plane.amplitude,
-            quantity == AmplitudeQuantity::scale ? "factor on the record"
-            : quantity == AmplitudeQuantity::pga ? long_name_of_pga
-                                                 : long_name_of_amplitude(job),
-            "1"};
-}
-
-Dimension frequency_dimension(const Plane& plane)
-{
-    const auto dimension = [&](const char* long_name, const char* units) {
-        return Dimension{std::string(name_of(plane.frequency_is)), plane.frequency, long_name,
-                         units};
-    };
-    switch (plane.frequency_is) {
-    case FrequencyQuantity::pulse_period: return dimension(long_name_of_period, "s");
-    case FrequencyQuantity::pulse_frequency: return dimension("frequency of the pulse", "s-1");
-    case FrequencyQuantity::size: return dimension(long_name_of_size, "m");
-    case FrequencyQuantity::frequency_parameter: return dimension(long_name_of_parameter, "s-1");
-    case FrequencyQuantity::frequency: break;
+    std::vector<Coordinate> all()
+    {
+        for (std::size_t i = 0; i < problem_.grid.dimensions.size(); ++i) {
+            add_dimension(i);
+        }
+        for (const Column& column : problem_.grid.numbers) {
+            add_given(column, {});
+        }
+        if (strength_) {
+            const Column& column = problem_.grid.dimensions[*strength_].columns.front();
+            const std::string name =
+                layout::in_run_group(layout::scan_prefix + std::string(column.quantity->name));
+            add({name,
+                 {name},
+                 {},
+                 {},
+                 fmt::format("values of {} computed first", column.quantity->name),
+                 "1"},
+                column.values.size(), [&column] { return column.values.values(); });
+        }
+        if (job_.blocks) {
+            add_table(job_.blocks->table);
+        }
+        for (const std::string_view name : derived_coordinates(problem_.scene.is_recorded())) {
+            add_derived(name);
+        }
+        if (problem_.scene.is_recorded()) {
+            add_measures();
+        }
+        return std::move(all_);
     }
-    return dimension(long_name_of_frequency, "1");
-}
 
-std::vector<Dimension> dimensions_of_list(const Job& job)
-{
-    const Plane& plane = job.plane;
-    const bool has_own_motions = plane.list->has_own_motions;
-    std::vector<Dimension> dimensions;
-    if (plane.motions > 0 && !has_own_motions) {
-        dimensions.push_back(motion_dimension(plane));
+private:
+    using Values = std::function<std::vector<double>()>;
+
+    /// length: of its only dimension, if the shape is empty.
+    void add(netcdf::Variable variable, std::int64_t length, Values values)
+    {
+        if (!variable.dimensions.empty() && variable.shape.empty()) {
+            variable.shape = {hsize_t(length)};
+        }
+        all_.push_back({std::move(variable), std::move(values)});
     }
-    dimensions.push_back(
-        {"block", numbers_to(plane.list->size), "number of the block in the table", "1"});
-    if (!has_own_motions) {
-        dimensions.push_back(amplitude_dimension(job));
-        if (plane.motions == 0) {
-            dimensions.push_back(frequency_dimension(plane));
+
+    void add_given(const Column& column, const std::vector<std::string>& dimensions)
+    {
+        const Quantity& quantity = *column.quantity;
+        add({std::string(quantity.name),
+             dimensions,
+             {},
+             {},
+             std::string(quantity.long_name),
+             std::string(quantity.units)},
+            column.values.size(), [&column] { return column.values.values(); });
+    }
+
+    void add_dimension(std::size_t i)
+    {
+        const Dimension& dimension = problem_.grid.dimensions[i];
+        if (i == strength_) {
+            const std::string name(crossing_dimension);
+            const std::int64_t count = most_crossings(problem_.scene);
+            add({name, {name}, {}, {}, "number of the flip, counted from 0", "1"}, count, [count] {
+                std::vector<double> numbers = numbers_to(count);
+                std::ranges::for_each(numbers, [](double& number) { --number; });
+                return numbers;
+            });
+        } else if (dimension.name == table_dimension) {
+            add({dimension.name, {dimension.name}, {}, {}, "number of the block in the table", "1"},
+                dimension.size(), [&dimension] { return numbers_to(dimension.size()); });
+        } else {
+            add_given(dimension.columns.front(), {dimension.name});
         }
     }
-    return dimensions;
-}
 
-/// What the table and its rows say of every block; nothing for a job in a result file.
-void add_blocks(const Job& job, std::vector<Coordinate>& all)
-{
-    const auto add = [&](const std::string& name, const std::vector<double>& values,
-                         const char* long_name, std::string_view units, double roundings,
-                         const std::string& comment = "") {
-        all.push_back(
-            {{name, {"block"}, {values.size()}, values, long_name, std::string(units), comment},
-             roundings});
-    };
-    if (!job.blocks->table) {
-        return;
-    }
-    const bool is_recorded = job.scene.is_recorded();
-    for (const TableColumn& column : job.blocks->table->columns) {
-        if (!column.numbers.empty()) {
-            const Quantity* quantity = find_quantity(column.name);
-            add(column.name, column.numbers, "column of the table",
-                quantity == nullptr ? "1" : quantity->units, exact);
+    void add_table(const Table& table)
+    {
+        for (const TableColumn& column : table.columns) {
+            if (column.texts.empty()) {
+                const Quantity* quantity = find_quantity(column.name);
+                add({column.name,
+                     {std::string(table_dimension)},
+                     {},
+                     {},
+                     "column of the table",
+                     quantity == nullptr ? "1" : std::string(quantity->units)},
+                    table.rows(), [&column] { return column.numbers; });
+            }
         }
     }
-    const auto add_derived = [&](const char* name, const std::vector<double>& values,
-                                 const char* long_name, const std::string& comment = "") {
-        if (!values.empty() && job.blocks->table->find(name) == nullptr) {
-            const Quantity* quantity = find_quantity(name);
-            add(name, values, long_name, quantity == nullptr ? "1" : quantity->units, of_several,
-                comment);
+
+    bool has(std::string_view name) const
+    {
+        return std::ranges::any_of(
+            all_, [&](const Coordinate& each) { return each.variable.name == name; });
+    }
+
+    /// A boundary has flips instead of strengths, and nothing that follows from these.
+    void add_derived(std::string_view name)
+    {
+        if (problem_.grid.find(name) != nullptr || has(name) || !derived_->has(name)) {
+            return;
         }
-    };
-    const BlockList& list = *job.plane.list;
-    add_derived("slenderness", list.slenderness, "slenderness of the block, arctan(b/h)");
-    add_derived("restitution_ratio", list.restitution, "energy ratio at an impact, r");
-    add_derived("frequency_parameter", list.frequency_parameter, long_name_of_parameter,
-                with_gravity(job.scene.gravity));
-    if (is_recorded && job.motions.front().record) { // not in a job of a result file
-        add_derived("scale", list.amplitude, "factor on the record");
+        const std::vector<std::size_t> along = derived_->dimensions_of(name);
+        if (strength_ && std::ranges::count(along, *strength_) > 0) {
+            return;
+        }
+        const Quantity& quantity = overturn::quantity(name);
+        netcdf::Variable variable{
+            std::string(name),          {}, {}, {}, std::string(quantity.long_name),
+            std::string(quantity.units)};
+        for (const std::size_t i : along) {
+            variable.dimensions.push_back(problem_.grid.dimensions[i].name);
+            variable.shape.push_back(hsize_t(problem_.grid.dimensions[i].size()));
+        }
+        add(std::move(variable), 0,
+            [derived = derived_, name] { return derived->of(name).values; });
     }
-    if (!is_recorded) {
-        add_derived("amplitude", list.amplitude, long_name_of_amplitude(job));
-        add_derived("frequency", list.frequency, long_name_of_frequency);
+
+    /// Along the motions of the grid, or of the table.
+    void add_measures()
+    {
+        const auto count = std::int64_t(job_.motions.size());
+        const bool is_single =
+            problem_.grid.find("motion") != nullptr && !problem_.grid.dimension_of("motion");
+        const std::vector<std::string> along =
+            is_single ? std::vector<std::string>{} : std::vector<std::string>{"motion"};
+        if (!has("motion")) {
+            const Quantity& motion = quantity("motion");
+            add({"motion", along, {}, {}, std::string(motion.long_name), "1"}, count,
+                [count] { return numbers_to(count); });
+        }
+        const auto add_measure = [&](const char* name, const char* long_name, const char* units,
+                                     double IntensityMeasures::*measure, const char* comment = "") {
+            add({name, along, {}, {}, long_name, units, comment}, count,
+                [this_job = &job_, measure] {
+                    std::vector<double> values;
+                    for (const Motion& motion : this_job->motions) {
+                        values.push_back(motion.measures.*measure);
+                    }
+                    return values;
+                });
+        };
+        add_measure("record_pga", "peak acceleration of the record, over g", "1",
+                    &IntensityMeasures::pga);
+        add_measure("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
+        add_measure("arias_intensity", "Arias intensity of the record", "m s-1",
+                    &IntensityMeasures::arias_intensity);
+        add_measure("significant_duration", "significant duration of the record", "s",
+                    &IntensityMeasures::significant_duration,
+                    "from 5 to 95 % of the Arias intensity");
     }
-}
+
+    const Job& job_;
+    const Problem& problem_;
+    std::shared_ptr<Coordinates> derived_;
+    std::optional<std::size_t> strength_; ///< the dimension replaced by the flips of a boundary
+    std::vector<Coordinate> all_;
+};
 
 } // namespace
 
-std::vector<Dimension> dimensions_of(const Job& job)
-{
-    const Plane& plane = job.plane;
-    if (plane.list) {
-        return dimensions_of_list(job);
-    }
-    std::vector<Dimension> dimensions{
-        {"slenderness", plane.slenderness, "slenderness of the block, arctan(b/h)", "rad"},
-        {"restitution", plane.restitution,
-         plane.restitution_of == RestitutionOf::maximum ? "energy ratio at an impact, r / r_max"
-                                                        : "energy ratio at an impact, r",
-         "1"}};
-    if (plane.motions > 0) {
-        dimensions.insert(dimensions.begin(), motion_dimension(plane));
-    }
-    if (job.product == Product::boundary) {
-        dimensions.push_back(
-            {"crossing", plane.amplitude, "number of the flip, counted from 0", "1"});
-    } else {
-        dimensions.push_back(amplitude_dimension(job));
-    }
-    dimensions.push_back(frequency_dimension(plane));
-    return dimensions;
-}
-
-std::string name_of_scan(const Job& job)
-{
-    return layout::in_run_group(layout::scan_prefix + std::string(name_of(job.plane.amplitude_is)));
-}
-
 std::vector<Coordinate> coordinates_of(const Job& job)
 {
-    const Plane& plane = job.plane;
-    const bool is_boundary = job.product == Product::boundary;
-    std::vector<Coordinate> all;
-    for (const Dimension& dimension : dimensions_of(job)) {
-        all.push_back(coordinate_of(dimension));
-    }
-    if (plane.block) { // the slenderness is an arctangent, and the size a square root
-        all[all.size() - 4].roundings = of_one_function;
-        if (plane.motions > 0) {
-            all.back().roundings = of_one_function;
+    return CoordinateList(job).all();
+}
+
+std::vector<TextCoordinate> text_coordinates_of(const Job& job)
+{
+    std::vector<TextCoordinate> all;
+    if (!job.motions.empty()) {
+        const bool is_single =
+            job.problem.grid.find("motion") != nullptr && !job.problem.grid.dimension_of("motion");
+        all.push_back(
+            {"motion_name", is_single ? "" : "motion", {}, "file of the recorded ground motion"});
+        for (const Motion& motion : job.motions) {
+            all.back().values.push_back(motion.name);
         }
     }
-    if (is_boundary) {
-        all.push_back(coordinate_of(
-            {name_of_scan(job), job.scan,
-             fmt::format("values of {} computed first", name_of(plane.amplitude_is)), "1"}));
-    }
-    if (plane.list) {
-        add_blocks(job, all);
-        if (plane.motions > 0) {
-            if (plane.list->has_own_motions) {
-                all.push_back(coordinate_of(motion_dimension(plane)));
-            } else {
-                all.push_back(other_strength(job));
+    if (job.blocks) {
+        for (const TableColumn& column : job.blocks->table.columns) {
+            if (!column.texts.empty()) {
+                all.push_back({column.name, std::string(table_dimension), column.texts,
+                               "column of the table"});
             }
-            add_measures(job, all);
-        }
-        return all;
-    }
-    all.push_back(restitution_ratio(plane));
-    if (plane.motions > 0) {
-        all.push_back(other_size(job));
-        if (!is_boundary) {
-            all.push_back(other_strength(job));
-        }
-        add_measures(job, all);
-    } else if (plane.size) {
-        all.push_back(other_frequency(job));
-        if (!is_boundary) { // a boundary has flips instead of amplitudes
-            all.push_back(other_amplitude(job));
         }
     }
     return all;

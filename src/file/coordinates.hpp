@@ -1,35 +1,36 @@
-// The coordinate variables of a result file, used to create a file and to check an existing one.
+// The coordinate variables of a result file.
 #pragma once
 
 #include "netcdf.hpp"
 
 #include "overturn/job/job.hpp"
 
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace overturn {
 
-struct Coordinate : netcdf::Variable {
-    /// How much the values from two C libraries may differ, in units of the last place; 0 if no
-    /// library function is involved.
-    double roundings = 0;
+/// A variable of numbers whose values are computed when they are needed.
+struct Coordinate {
+    netcdf::Variable variable; ///< without values
+    std::function<std::vector<double>()> values;
 };
 
-/// A dimension of every field, with a coordinate variable of the same name.
-struct Dimension {
+/// A variable of texts along a dimension; without one, a single text.
+struct TextCoordinate {
     std::string name;
-    Axis axis;
-    std::string long_name;
-    std::string units;
+    std::string dimension;
+    std::vector<std::string> values;
+    const char* long_name;
 };
 
-/// Slowest first.
-std::vector<Dimension> dimensions_of(const Job& job);
-
-/// The coordinate of a boundary that contains the values computed first.
-std::string name_of_scan(const Job& job);
-
-/// In the order of the file: those of the dimensions first.
+/// In the order of the file: those of the dimensions first, then single values, columns of the
+/// table and what follows from them, and the measures of the records; the strengths that a boundary
+/// computes first.
 std::vector<Coordinate> coordinates_of(const Job& job);
+
+/// The names of the motions, and the texts of the table.
+std::vector<TextCoordinate> text_coordinates_of(const Job& job);
 
 } // namespace overturn

@@ -3,13 +3,14 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/job/job.hpp"
+#include "overturn/problem/fields.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <string>
 
 namespace overturn {
 
-void write_field_attributes(hid_t dataset, Field field, const Job& job,
+void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
                             const std::string& coordinates);
 
 } // namespace overturn

@@ -1,6 +1,6 @@
 // Wrappers of raw HDF5: handles that close themselves, and check(), which checks every call. A
 // failed call throws an Hdf5Error with the innermost cause; the public functions of this module
-// convert it to a FileError with the file and what to do.
+// convert it to an Error with the file and what to do.
 #pragma once
 
 #include <hdf5.h>

@@ -1,6 +1,9 @@
 #include "whole_file.hpp"
 
+#include "overturn/problem/coordinates.hpp"
+
 #include <string>
+#include <string_view>
 
 namespace overturn {
 
@@ -10,7 +13,7 @@ using hdf5::write_attribute;
 using namespace netcdf;
 
 /// A quantity that is stored for each sample.
-struct Quantity {
+struct SampleQuantity {
     const char* name;
     const char* long_name;
     const char* units;
@@ -18,9 +21,9 @@ struct Quantity {
     const char* comment = "";
 };
 
-constexpr Quantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
-                                  "from the beginning of the ground motion"};
-constexpr Quantity quantities[] = {
+constexpr SampleQuantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
+                                        "from the beginning of the ground motion"};
+constexpr SampleQuantity quantities[] = {
     {"angle", "angle theta", "rad", &HistorySample::angle},
     {"velocity", "d theta / d(p t)", "rad", &HistorySample::velocity},
     {"acceleration", "d^2 theta / d(p t)^2", "rad", &HistorySample::acceleration},
@@ -33,7 +36,7 @@ constexpr Quantity quantities[] = {
 
 /// `when` is appended to the long name of the quantity.
 void add_quantity(hid_t file, const char* dimension, const std::string& name,
-                  const Quantity& quantity, const std::vector<HistorySample>& samples,
+                  const SampleQuantity& quantity, const std::vector<HistorySample>& samples,
                   const std::string& when = "")
 {
     std::vector<double> values;
@@ -52,7 +55,7 @@ void add_quantity(hid_t file, const char* dimension, const std::string& name,
 void add_samples(hid_t file, const std::vector<HistorySample>& samples)
 {
     add_quantity(file, "time", time_of_sample.name, time_of_sample, samples);
-    for (const Quantity& quantity : quantities) {
+    for (const SampleQuantity& quantity : quantities) {
         add_quantity(file, "time", quantity.name, quantity, samples);
     }
 }
@@ -72,45 +75,32 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
     add_bare_dimension(file, dimension, std::int64_t(events.size()));
     add_quantity(file, dimension, "events/time", time_of_sample, after);
     add_codes(file, "events/kind", dimension, kinds, "kind of the event", event_names);
-    for (const Quantity& quantity : quantities) {
+    for (const SampleQuantity& quantity : quantities) {
         const std::string name = std::string("events/") + quantity.name;
         add_quantity(file, dimension, name + "_before", quantity, before, ", before the event");
         add_quantity(file, dimension, name + "_after", quantity, after, ", after the event");
     }
 }
 
-/// Under a pulse, a and Omega if the job gives others in their place, and p [1/s] if it is known.
-void add_equivalents(hid_t file, const Job& job)
-{
-    const Plane& plane = job.plane;
-    if (job.scene.is_recorded()) {
-        return;
-    }
-    if (plane.amplitude_is != AmplitudeQuantity::amplitude) {
-        write_attribute(file, "amplitude",
-                        plane.amplitude.first() /
-                            amplitude_unit(job.scene, plane, 0, plane.slenderness.first()));
-    }
-    if (plane.frequency_is != FrequencyQuantity::frequency) {
-        write_attribute(file, "frequency",
-                        frequency_of_point(job.scene, plane, 0, plane.frequency.first()));
-    }
-    if (plane.size) {
-        write_attribute(file, "frequency_parameter",
-                        frequency_parameter(*plane.size, job.scene.gravity));
-    }
-}
-
 /// The point and its outcome.
 void add_outcome(hid_t file, const Job& job, const History& history)
 {
-    write_attribute(file, "slenderness", job.plane.slenderness.first());
-    write_attribute(file, "restitution", job.plane.restitution_ratio(0, 0));
-    write_attribute(file, std::string(name_of(job.plane.amplitude_is)).c_str(),
-                    job.plane.amplitude.first());
-    write_attribute(file, std::string(name_of(job.plane.frequency_is)).c_str(),
-                    job.plane.frequency.first());
-    add_equivalents(file, job);
+    const Scene& scene = job.problem.scene;
+    const Grid& grid = job.problem.grid;
+    const Coordinates coordinates(scene, grid);
+    const auto add = [&](std::string_view name) {
+        write_attribute(file, std::string(name).c_str(), coordinates.of(name).first());
+    };
+    for (const Quantity& quantity : all_quantities()) {
+        if (grid.find(quantity.name) != nullptr && quantity.role != Role::motion) {
+            add(quantity.name);
+        }
+    }
+    for (const std::string_view name : derived_coordinates(scene.is_recorded())) {
+        if (grid.find(name) == nullptr && coordinates.has(name)) {
+            add(name);
+        }
+    }
     write_attribute(file, "region", std::int64_t(history.region));
     write_attribute(file, "margin", history.margin);
     write_attribute(file, "margin_error", history.error);

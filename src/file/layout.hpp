@@ -3,8 +3,8 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/file/spectrum_summary.hpp"
-#include "overturn/sweep/fields.hpp"
+#include "overturn/file/stored_result.hpp"
+#include "overturn/problem/fields.hpp"
 
 #include <array>
 #include <cstdint>
@@ -23,19 +23,20 @@ inline constexpr const char* name_of(FileKind kind)
     return kinds[std::size_t(kind)];
 }
 
-/// Global attribute: the version of the layout. Files without it are of version 1: they have four
-/// dimensions and the attributes amplitude_extent and frequency_extent.
+/// Global attribute: the version of the layout. Files of format 3, in which every quantity is a
+/// dimension and coordinates have no checksums, can be read but not resumed.
 inline constexpr char format_version[] = "format_version";
-inline constexpr std::int64_t newest_format = 3;
+inline constexpr std::int64_t newest_format = 4;
+inline constexpr std::int64_t oldest_format = 3;
 
 /// The group of what is neither a coordinate nor a field: how the file was computed. Readers that
 /// open the root group, such as xarray.open_dataset(), do not see it.
 inline constexpr char run_group[] = "run";
 
-/// The place of an object of the group `run`, which earlier formats had in the root group.
-inline std::string in_run_group(const std::string& name, std::int64_t format = newest_format)
+/// The place of an object of the group `run`.
+inline std::string in_run_group(const std::string& name)
 {
-    return format < 3 ? name : std::string(run_group) + "/" + name;
+    return std::string(run_group) + "/" + name;
 }
 
 // In the group `run`.
@@ -46,6 +47,7 @@ inline constexpr char tile[] = "tile";
 inline constexpr char audit_checked[] = "audit_checked"; ///< of a filled spectrum, as the next
 inline constexpr char audit_wrong[] = "audit_wrong";
 inline constexpr char job_resolved[] = "job_resolved";
+inline constexpr char coordinate_checksums[] = "coordinate_checksums"; ///< lines "NAME CHECKSUM"
 
 // Attributes of the checksums.
 inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
@@ -55,18 +57,17 @@ inline constexpr char tile_shape[] = "tile_shape";
 struct StoredAs {
     hid_t file;
     hid_t memory;
-    const char* name;
     std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill;
 };
 
 inline StoredAs stored_as(Field field)
 {
     const StoredAs by_type[std::variant_size_v<FieldValues>] = {
-        {H5T_STD_U8LE, H5T_NATIVE_UINT8, "uint8", status::not_computed},
-        {H5T_STD_U16LE, H5T_NATIVE_UINT16, "uint16", impact_count::not_computed},
-        {H5T_STD_U32LE, H5T_NATIVE_UINT32, "uint32", step_count::not_computed},
-        {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, "float64", std::numeric_limits<double>::quiet_NaN()}};
-    return by_type[make_field_values(field, 0).index()];
+        {H5T_STD_U8LE, H5T_NATIVE_UINT8, status::not_computed},
+        {H5T_STD_U16LE, H5T_NATIVE_UINT16, impact_count::not_computed},
+        {H5T_STD_U32LE, H5T_NATIVE_UINT32, step_count::not_computed},
+        {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, std::numeric_limits<double>::quiet_NaN()}};
+    return by_type[std::size_t(traits_of(field).type)];
 }
 
 } // namespace overturn::layout

@@ -3,6 +3,7 @@
 #include "layout.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
@@ -30,23 +31,6 @@ Handle ordered_creation(hid_t of_what)
     return creation;
 }
 
-/// Stores a text as a variable, because a compact attribute is limited to 64 KiB, and as an array
-/// of characters, because HDF5 1.10 crashes when it reads a damaged heap of variable-length
-/// strings. An empty text is left out.
-void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
-{
-    if (text.empty()) {
-        return;
-    }
-    const std::string dimension = name + "_length";
-    add_bare_dimension(file, dimension, std::int64_t(text.size()));
-    const Handle dataset = create_dataset(file, name, H5T_C_S1, {text.size()}, dataset_creation());
-    check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
-    attach_dimensions(file, dataset, {dimension});
-    write_attribute(dataset, "long_name", long_name);
-    write_attribute(dataset, "_Encoding", "utf-8");
-}
-
 void write_origin(hid_t file, const Job& job, FileKind kind)
 {
     write_attribute(file, "Conventions", "CF-1.8");
@@ -59,29 +43,22 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
     write_attribute(file, "references",
                     "A. E. Charalampakis, G. C. Tsiatas, P. Tsopelas: Rocking of rigid blocks: "
                     "Analytical solution and exact energy-based overturning criteria");
-    if (job.scene.is_recorded()) {
+    const Scene& scene = job.problem.scene;
+    if (scene.is_recorded()) {
         const std::size_t count = job.motions.size();
         write_attribute(file, "record",
                         count == 1 ? job.motions.front().file : fmt::format("{} records", count));
     } else {
-        write_attribute(file, "pulse", name_of(job.scene.pulse));
+        write_attribute(file, "pulse", name_of(scene.pulse));
         for (const auto& [name, number] : shape_numbers) {
-            if (has_number(job.scene.pulse, number)) {
-                write_attribute(file, name.data(), job.scene.shape.*number);
+            if (has_number(scene.pulse, number)) {
+                write_attribute(file, name.data(), scene.shape.*number);
             }
         }
     }
-    write_attribute(file, "theory", name_of(job.scene.theory));
-    if (job.scene.is_recorded() || job.blocks || job.plane.size) {
-        write_attribute(file, "gravity", job.scene.gravity);
-    }
-    if (job.plane.size) {
-        write_attribute(file, "half_diagonal", *job.plane.size);
-    }
-    if (job.plane.block) {
-        write_attribute(file, "half_width", job.plane.block->half_width);
-        write_attribute(file, "half_height", job.plane.block->half_height);
-        write_attribute(file, "comment", "half_width and half_height of the block are in metres");
+    write_attribute(file, "theory", name_of(scene.theory));
+    if (Coordinates(scene, job.problem.grid).has("frequency_parameter")) {
+        write_attribute(file, "gravity", scene.gravity);
     }
 }
 
@@ -110,7 +87,7 @@ std::string in_its_group(const std::string& name)
 void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name,
                               const std::vector<std::string>& dimensions)
 {
-    if (dimensions.front() == name) {
+    if (!dimensions.empty() && dimensions.front() == name) {
         check(H5DSset_scale(dataset, in_its_group(name).c_str()));
     } else {
         attach_dimensions(file, dataset, dimensions);
@@ -118,6 +95,22 @@ void attach_or_make_dimension(hid_t file, hid_t dataset, const std::string& name
 }
 
 } // namespace
+
+// As an array of characters, because HDF5 1.10 crashes when it reads a damaged heap of
+// variable-length strings.
+void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
+{
+    if (text.empty()) {
+        return;
+    }
+    const std::string dimension = name + "_length";
+    add_bare_dimension(file, dimension, std::int64_t(text.size()));
+    const Handle dataset = create_dataset(file, name, H5T_C_S1, {text.size()}, dataset_creation());
+    check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
+    attach_dimensions(file, dataset, {dimension});
+    write_attribute(dataset, "long_name", long_name);
+    write_attribute(dataset, "_Encoding", "utf-8");
+}
 
 std::string record_text(const Motion& motion)
 {
@@ -193,10 +186,15 @@ void add_names(hid_t file, const std::string& name, const std::string& dimension
         letters += text + std::string(longest - text.size(), '\0');
     }
     add_bare_dimension(file, name + "_length", std::int64_t(longest));
-    const Handle dataset =
-        create_dataset(file, name, H5T_C_S1, {names.size(), longest}, dataset_creation());
+    DatasetShape shape{longest};
+    std::vector<std::string> dimensions{name + "_length"};
+    if (!dimension.empty()) {
+        shape.insert(shape.begin(), names.size());
+        dimensions.insert(dimensions.begin(), dimension);
+    }
+    const Handle dataset = create_dataset(file, name, H5T_C_S1, shape, dataset_creation());
     check(H5Dwrite(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, letters.data()));
-    attach_dimensions(file, dataset, {dimension, name + "_length"});
+    attach_dimensions(file, dataset, dimensions);
     write_attribute(dataset, "long_name", long_name);
     write_attribute(dataset, "_Encoding", "utf-8");
 }

@@ -5,7 +5,7 @@
 #include "attributes.hpp"
 #include "hdf5_handles.hpp"
 
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
 
 #include <functional>
@@ -21,14 +21,15 @@ using DatasetShape = std::vector<hsize_t>;
 /// Numbers over named dimensions.
 struct Variable {
     std::string name;
-    std::vector<std::string> dimensions; ///< slowest first; its own name if it is a dimension
+    /// Slowest first; its own name if it is a dimension; empty for a single value.
+    std::vector<std::string> dimensions;
     DatasetShape shape;
     std::vector<double> values; ///< in `units`
     std::string long_name;      ///< at most 40 characters: plots take it as the label of an axis
     std::string units;
     std::string comment = {};
 
-    bool is_dimension() const { return dimensions.front() == name; }
+    bool is_dimension() const { return !dimensions.empty() && dimensions.front() == name; }
 };
 
 /// Adds a variable. Its dimensions must exist in the file, unless the variable is itself a
@@ -40,7 +41,8 @@ void add_codes(hid_t file, const char* name, const char* dimension,
                const std::vector<std::uint8_t>& codes, const char* long_name,
                std::span<const std::string_view> names);
 
-/// Adds a variable of names along one dimension, as an array of characters filled up with NUL.
+/// Adds a variable of names along one dimension, or a single one if `dimension` is empty, as an
+/// array of characters filled up with NUL.
 void add_names(hid_t file, const std::string& name, const std::string& dimension,
                const std::vector<std::string>& names, const char* long_name);
 
@@ -57,6 +59,10 @@ hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
 
 /// Names the dimensions of a dataset, slowest first.
 void attach_dimensions(hid_t file, hid_t dataset, const std::vector<std::string>& names);
+
+/// Stores a text as a variable, because a compact attribute is limited to 64 KiB. An empty text is
+/// left out.
+void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name);
 
 /// The file, components and header lines of a record, as stored.
 std::string record_text(const Motion& motion);

@@ -3,7 +3,7 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/file/file_error.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -29,17 +29,17 @@ bool has_type(hid_t dataset, hid_t expected);
 hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
                        const char* what_is_wrong);
 
-/// Returns the result of `read`; converts its errors to a FileError that names the file.
+/// Returns the result of `read`; converts its errors to an Error that names the file.
 template <class Read>
 auto or_refused(const std::string& path, const Read& read)
 {
     try {
         return read();
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("\"{}\" cannot be read or is damaged: {}.", path, error.what()));
+        throw Error(exit_code::output, "\"{}\" cannot be read or is damaged: {}.", path,
+                    error.what());
     } catch (const std::bad_alloc&) {
-        throw FileError(fmt::format("\"{}\" is damaged: it contains an impossible size.", path));
+        throw Error(exit_code::output, "\"{}\" is damaged: it contains an impossible size.", path);
     }
 }
 

@@ -1,5 +1,8 @@
 #include "overturn/file/provenance.hpp"
 
+#include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
+
 #include "operating_system.hpp"
 #include "program_identity.hpp"
 #include "working_file.hpp"
@@ -16,21 +19,6 @@
 namespace overturn {
 
 namespace {
-
-/// A JSON string (RFC 8259). UTF-8 is kept unchanged.
-std::string quoted(std::string_view text)
-{
-    std::string result = "\"";
-    for (const char character : text) {
-        if (static_cast<unsigned char>(character) < 0x20) {
-            result += fmt::format("\\u{:04x}", int(character));
-        } else {
-            result += character == '"' || character == '\\' ? "\\" : "";
-            result += character;
-        }
-    }
-    return result + '"';
-}
 
 std::string mpi_version()
 {
@@ -52,14 +40,14 @@ std::string as_json(const RunInfo& run)
 {
     const auto start = std::chrono::time_point_cast<std::chrono::seconds>(run.start);
     std::string text(sidecar_beginning);
-    text += fmt::format("{},\n", quoted(program_version()));
-    text += fmt::format("  \"program_commit\": {},\n", quoted(program_commit()));
+    text += fmt::format("{},\n", in_quotes(program_version()));
+    text += fmt::format("  \"program_commit\": {},\n", in_quotes(program_commit()));
     text += fmt::format("  \"start\": \"{:%Y-%m-%dT%H:%M:%SZ}\",\n", fmt::gmtime(start));
     text += fmt::format("  \"wall_seconds\": {},\n", run.wall_seconds);
-    text += fmt::format("  \"kernel\": {},\n", quoted(run.kernel));
-    text += fmt::format("  \"compiler\": {},\n", quoted(compiler_version()));
-    text += fmt::format("  \"hdf5\": {},\n", quoted(hdf5_version()));
-    text += fmt::format("  \"mpi\": {},\n", quoted(mpi_version()));
+    text += fmt::format("  \"kernel\": {},\n", in_quotes(run.kernel));
+    text += fmt::format("  \"compiler\": {},\n", in_quotes(compiler_version()));
+    text += fmt::format("  \"hdf5\": {},\n", in_quotes(hdf5_version()));
+    text += fmt::format("  \"mpi\": {},\n", in_quotes(mpi_version()));
     text += fmt::format("  \"requests\": {},\n", run.requests);
     text += fmt::format("  \"dealing_seconds\": {},\n", run.dealing_seconds);
     text += "  \"ranks\": [";
@@ -67,7 +55,7 @@ std::string as_json(const RunInfo& run)
     for (const RankInfo& rank : run.ranks) {
         text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"compute_seconds\": {}, "
                             "\"write_seconds\": {}}}",
-                            separator, quoted(rank.host), rank.tiles, rank.compute_seconds,
+                            separator, in_quotes(rank.host), rank.tiles, rank.compute_seconds,
                             rank.write_seconds);
         separator = ",\n";
     }
@@ -119,10 +107,10 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
         std::ifstream(path, std::ios::binary).read(beginning.data(), int(beginning.size()));
     }
     if (beginning != sidecar_beginning) {
-        throw FileError(
-            fmt::format("\"{}\" exists but is not the sidecar file of an overturn run. Move it "
-                        "away, or choose another name with -o.",
-                        path));
+        throw Error(exit_code::output,
+                    "\"{}\" exists but is not the sidecar file of an overturn run. Move it "
+                    "away, or choose another name with -o.",
+                    path);
     }
 }
 
@@ -135,10 +123,10 @@ void write_sidecar(const std::string& spectrum_path, const RunInfo& run)
     stream << as_json(run);
     stream.close();
     if (!stream) {
-        throw FileError(
-            fmt::format("cannot write \"{0}.json\", the sidecar file of this run: {1}. The "
-                        "computed tiles are in \"{0}\" nevertheless.",
-                        spectrum_path, system_reason(errno)));
+        throw Error(exit_code::output,
+                    "cannot write \"{0}.json\", the sidecar file of this run: {1}. The "
+                    "computed tiles are in \"{0}\" nevertheless.",
+                    spectrum_path, system_reason(errno));
     }
     part.move_into_place();
 }

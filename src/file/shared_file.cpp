@@ -4,6 +4,7 @@
 #include "operating_system.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -42,8 +43,8 @@ void write(const std::string& path, const Token& token)
     stream.write(reinterpret_cast<const char*>(&token.number), sizeof token.number);
     stream.close(); // makes the number visible to other hosts over NFS
     if (!stream) {
-        throw FileError(
-            fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
+        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path,
+                    system_reason(errno));
     }
 }
 
@@ -62,10 +63,11 @@ void demand_path_for_mpi([[maybe_unused]] const std::string& path)
 {
 #ifndef OMPI_MAJOR_VERSION // MPICH and its derivatives use ROMIO
     if (path.find(':') != std::string::npos) {
-        throw FileError(fmt::format(
-            "\"{}\" has a colon, but this MPI library interprets the text before a colon "
-            "as a type of file system. Choose another path with -o.",
-            path));
+        throw Error(exit_code::output,
+
+                    "\"{}\" has a colon, but this MPI library interprets the text before a colon "
+                    "as a type of file system. Choose another path with -o.",
+                    path);
     }
 #endif
 }
@@ -82,7 +84,7 @@ std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm comm
             std::random_device random;
             token = {random() + (std::uint64_t(random()) << 32), place_of_token(path)};
         } catch (const hdf5::Hdf5Error& error) {
-            throw FileError(fmt::format("cannot open \"{}\": {}.", path, error.what()));
+            throw Error(exit_code::output, "cannot open \"{}\": {}.", path, error.what());
         }
         write(path, token);
     }

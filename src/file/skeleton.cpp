@@ -2,6 +2,7 @@
 
 #include "attributes.hpp"
 #include "coordinates.hpp"
+#include "dataset_checksum.hpp"
 #include "field_attributes.hpp"
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
@@ -11,12 +12,14 @@
 #include "working_file.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 
 namespace overturn {
 
@@ -27,97 +30,68 @@ using hdf5::Handle;
 using hdf5::write_attribute;
 using namespace netcdf;
 
-std::vector<std::string> names_of(const std::vector<Dimension>& dimensions)
+/// The dimensions of the points.
+std::vector<std::string> names_of_dimensions(const Problem& problem)
 {
     std::vector<std::string> names;
-    for (const Dimension& dimension : dimensions) {
+    for (const StoredDimension& dimension : stored_dimensions(problem)) {
         names.push_back(dimension.name);
     }
     return names;
 }
 
-/// Variables of names along one dimension.
-struct Names {
-    std::string name;
-    std::string dimension;
-    std::vector<std::string> values;
-    const char* long_name;
-};
-
-/// The files of the motions, and the texts of the table.
-std::vector<Names> names_of(const Job& job)
+std::size_t place_of_crossing(const Problem& problem)
 {
-    std::vector<Names> all;
-    if (job.scene.is_recorded()) {
-        all.push_back({"motion_name", "motion", {}, "file of the recorded ground motion"});
-        for (const Motion& motion : job.motions) {
-            all.back().values.push_back(motion.name);
-        }
-    }
-    if (job.blocks) {
-        for (const TableColumn& column : job.blocks->table->columns) {
-            if (!column.texts.empty()) {
-                all.push_back({column.name, "block", column.texts, "column of the table"});
-            }
-        }
-    }
-    return all;
-}
-
-/// The coordinates that are not dimensions ("auxiliary" in the CF conventions).
-std::string names_of_auxiliary(const std::vector<Coordinate>& coordinates,
-                               const std::vector<Names>& texts)
-{
-    std::vector<std::string> names;
-    for (const Coordinate& coordinate : coordinates) {
-        if (!coordinate.is_dimension()) {
-            names.push_back(coordinate.name);
-        }
-    }
-    for (const Names& text : texts) {
-        names.push_back(text.name);
-    }
-    return fmt::format("{}", fmt::join(names, " "));
+    return problem.grid.dimension_of(Role::strength).value_or(0);
 }
 
 /// Writes fill values to every chunk, so that a run only overwrites existing values.
-void fill(hid_t dataset, Field field, const Tiling& tiling, const std::string& path,
+void fill(hid_t dataset, Field field, const Problem& problem, const std::string& path,
           const BetweenTiles& between_tiles)
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
+    const Tiling tiling = tiling_of(problem);
+    const std::size_t crossing = place_of_crossing(problem);
     const std::int64_t count =
-        is_of_line(field) ? tiling.tile_shape().back() : tiling.points_of_tile();
+        count_points(stored_dimensions_of(field, tiling.tile_shape(), crossing));
     const std::int64_t bytes = count * std::int64_t(bytes_per_point(field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
-    const FieldValues values = not_computed(field, count);
+    const FieldValues values = not_computed(field, count); // of a whole chunk
     for (std::int64_t number = 0; number < tiling.size(); ++number) {
         between_tiles();
-        write_chunk(dataset, tiling[number], field, values);
+        write_chunk(dataset, stored_tile_of(field, tiling[number], crossing), field, values);
         if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     }
 }
 
-Handle add_field(hid_t file, Field field, const Job& job, const Tiling& tiling,
-                 const std::string& coordinates)
+Handle add_field(hid_t file, Field field, const Problem& problem, const std::string& coordinates)
 {
     const layout::StoredAs stored = layout::stored_as(field);
+    const Tiling tiling = tiling_of(problem);
+    const std::size_t crossing = place_of_crossing(problem);
     const auto of_field = [&](const Shape& of_points) {
-        return dimensions_of(field, DatasetShape(of_points.begin(), of_points.end()));
+        return stored_dimensions_of(field, DatasetShape(of_points.begin(), of_points.end()),
+                                    crossing);
     };
     const DatasetShape shape = of_field(tiling.shape());
     const DatasetShape chunk = of_field(tiling.tile_shape());
 
     const Handle creation = dataset_creation();
-    check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
+    if (chunk.empty()) { // a single value
+        check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
+    } else {
+        check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
+    }
     std::visit([&](auto fill) { check(H5Pset_fill_value(creation, stored.memory, &fill)); },
                stored.fill);
     Handle dataset =
         create_dataset(file, std::string(name_of(field)), stored.file, shape, creation);
-    attach_dimensions(file, dataset, dimensions_of(field, names_of(dimensions_of(job))));
-    write_field_attributes(dataset, field, job, coordinates);
+    attach_dimensions(file, dataset,
+                      stored_dimensions_of(field, names_of_dimensions(problem), crossing));
+    write_field_attributes(dataset, field, problem.scene, coordinates);
     return dataset;
 }
 
@@ -149,23 +123,26 @@ Handle add_numbers(hid_t file, const char* name, const Tiling& tiling, const cha
     return dataset;
 }
 
-void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
+void add_checksums(hid_t file, const Problem& problem)
 {
     using layout::in_run_group;
+    const Tiling tiling = tiling_of(problem);
     add_bare_dimension(file, in_run_group(layout::tile), tiling.size());
     const Handle dataset =
         add_numbers(file, layout::checksum, tiling, "checksum of the tile, 0 if not computed");
     write_attribute(dataset, "algorithm",
                     fmt::format("xxHash64, seed 0, over the stored values of the tile, field by "
                                 "field in the order of the variables{}; a hash of 0 is stored as 1",
-                                job.numerics.fill ? ", audit_checked and audit_wrong" : ""));
+                                problem.numerics.fill ? ", audit_checked and audit_wrong" : ""));
     write_attribute(dataset, "numbering",
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the last varies fastest");
-    write_attribute(dataset, layout::dimensions,
-                    fmt::format("{}", fmt::join(names_of(dimensions_of(job)), " ")));
-    write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
-    if (job.numerics.fill) {
+    if (!tiling.shape().empty()) {
+        write_attribute(dataset, layout::dimensions,
+                        fmt::format("{}", fmt::join(names_of_dimensions(problem), " ")));
+        write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
+    }
+    if (problem.numerics.fill) {
         add_numbers(file, layout::audit_checked, tiling,
                     "number of filled points of the tile that were integrated as well");
         add_numbers(file, layout::audit_wrong, tiling,
@@ -174,104 +151,101 @@ void add_checksums(hid_t file, const Job& job, const Tiling& tiling)
     }
 }
 
-void write_skeleton(hid_t file, const std::string& path, const Job& job, const Tiling& tiling,
+/// Adds the coordinates and their checksums. Returns the names of those that are not dimensions
+/// ("auxiliary" in the CF conventions).
+std::string add_coordinates(hid_t file, const Job& job)
+{
+    std::vector<std::string> auxiliary;
+    std::vector<std::string> all;
+    for (Coordinate& coordinate : coordinates_of(job)) {
+        netcdf::Variable& variable = coordinate.variable;
+        variable.values = coordinate.values();
+        add_variable(file, variable);
+        all.push_back(variable.name);
+        if (!variable.is_dimension()) {
+            auxiliary.push_back(variable.name);
+        }
+    }
+    for (const TextCoordinate& text : text_coordinates_of(job)) {
+        add_names(file, text.name, text.dimension, text.values, text.long_name);
+        all.push_back(text.name);
+        auxiliary.push_back(text.name);
+    }
+    std::string checksums;
+    constexpr std::uint64_t any_size = std::numeric_limits<std::uint64_t>::max();
+    for (const std::string& name : all) {
+        checksums += fmt::format("{} {}\n", name,
+                                 dataset_checksum(hdf5::open_dataset(file, name), any_size));
+    }
+    add_text(file, layout::in_run_group(layout::coordinate_checksums), checksums,
+             "checksums of the coordinates, XXH64 of shape and values");
+    return fmt::format("{}", fmt::join(auxiliary, " "));
+}
+
+void write_skeleton(hid_t file, const std::string& path, const Job& job,
                     const BetweenTiles& between_tiles)
 {
-    if (job.product == Product::spectrum) { // a boundary settles every verdict
-        write_attribute(file, "method", name_of(job.numerics.method));
-        write_attribute(file, "tolerance", job.numerics.tolerance);
-        write_attribute(file, "resolve", job.numerics.resolve ? "true" : "false");
-        if (job.numerics.fill) {
+    const Problem& problem = job.problem;
+    const Numerics& numerics = problem.numerics;
+    if (problem.product == Product::spectrum) { // a boundary settles every verdict
+        write_attribute(file, "method", name_of(numerics.method));
+        write_attribute(file, "tolerance", numerics.tolerance);
+        write_attribute(file, "resolve", numerics.resolve ? "true" : "false");
+        if (numerics.fill) {
             write_attribute(file, "fill", "true");
-            write_attribute(file, "audit", job.numerics.audit);
+            write_attribute(file, "audit", numerics.audit);
         }
     }
     add_run_token(file); // first, so that it is within any limit of file sizes
-    const std::vector<Coordinate> coordinates = coordinates_of(job);
-    for (const Coordinate& coordinate : coordinates) {
-        add_variable(file, coordinate);
+    const std::string auxiliary = add_coordinates(file, job);
+    for (const Field field : problem.fields) {
+        fill(add_field(file, field, problem, auxiliary), field, problem, path, between_tiles);
     }
-    const std::vector<Names> texts = names_of(job);
-    for (const Names& text : texts) {
-        add_names(file, text.name, text.dimension, text.values, text.long_name);
-    }
-    if (!job.blocks) {
-        write_attribute(hdf5::open_dataset(file, "restitution"), "of",
-                        name_of(job.plane.restitution_of));
-    }
-    for (const Field field : job.fields) {
-        fill(add_field(file, field, job, tiling, names_of_auxiliary(coordinates, texts)), field,
-             tiling, path, between_tiles);
-    }
-    add_checksums(file, job, tiling);
-}
-
-/// The columns of the table, and at most six derived from them. A variable without its values takes
-/// 600 bytes, with one more for each dimension.
-long double bytes_of_blocks(const BlockTable& blocks, const BlockList& list)
-{
-    using Count = long double;
-    const auto rows = Count(list.size);
-    Count bytes = 6 * (1200 + rows * sizeof(double));
-    for (const TableColumn& column : blocks.table->columns) {
-        std::size_t longest = sizeof(double);
-        for (const std::string& text : column.texts) {
-            longest = std::max(longest, text.size());
-        }
-        bytes += 1800 + rows * Count(longest);
-    }
-    return bytes;
+    add_checksums(file, problem);
 }
 
 } // namespace
 
 // Values, coordinates, checksums and texts are counted exactly. The overhead of HDF5 was measured
-// on files of 1 to 390625 tiles: 18 KB per file, 1 KB per field, and in the chunk index of a field
-// one node of 3656 bytes per 56 tiles (rounded up here).
-long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
+// on files of 1 to 390625 tiles: 18 KB per file, 1 KB per field, 0.6 KB per coordinate and each of
+// its dimensions, and in the chunk index of a field one node per 56 tiles (rounded up here). A node
+// is a B-tree of 64 children: a header of 24 bytes, 64 addresses, and 65 keys with a size, a mask
+// and a number per dimension and one more, which are 3656 bytes for four dimensions.
+long double spectrum_file_bytes(const Job& job)
 {
-    const Plane& plane = job.plane;
+    const Problem& problem = job.problem;
+    const Tiling tiling = tiling_of(problem);
     using Count = long double;
     const auto tiles = Count(tiling.size());
     // Tiles at the far edges occupy whole chunks.
     const Count points = tiles * Count(tiling.points_of_tile());
-    Count numbers = job.numerics.fill ? 3 * tiles : tiles;
-    if (!plane.list) {
-        numbers += Count(plane.slenderness.size() * plane.restitution.size());
-    }
-    for (const std::int64_t size : tiling.shape()) {
-        numbers += Count(size);
-    }
 
-    Count bytes = 20480 + numbers * sizeof(double);
-    if (job.numerics.fill) {
+    Count bytes = 20480 + (problem.numerics.fill ? 3 * tiles : tiles) * sizeof(double);
+    if (problem.numerics.fill) {
         bytes += 1200;
     }
-    if (plane.motions > 0) {
-        const Count motions(plane.motions);
-        bytes +=
-            9600 + (motions * (6 + Count(plane.amplitude.size())) + Count(plane.frequency.size())) *
-                       sizeof(double);
-        std::size_t longest = 1;
-        for (const Motion& motion : job.motions) {
-            bytes += Count(record_text(motion).size());
-            longest = std::max(longest, motion.name.size());
+    for (const Coordinate& coordinate : coordinates_of(job)) {
+        Count values = 1;
+        for (const hsize_t length : coordinate.variable.shape) {
+            values *= Count(length);
         }
-        bytes += motions * Count(longest);
-    } else if (plane.size) {
-        bytes += 2400 + (Count(plane.frequency.size()) +
-                         Count(plane.slenderness.size() * plane.amplitude.size())) *
-                            sizeof(double);
+        bytes += 600 + 600 * Count(coordinate.variable.shape.size()) + values * sizeof(double);
     }
-    if (job.blocks) {
-        bytes += bytes_of_blocks(*job.blocks, *plane.list);
+    for (const TextCoordinate& text : text_coordinates_of(job)) {
+        std::size_t longest = 1;
+        for (const std::string& value : text.values) {
+            longest = std::max(longest, value.size());
+        }
+        bytes += 1800 + Count(text.values.size()) * Count(longest);
     }
-    if (job.product == Product::boundary) {
-        bytes += 1200 + Count(job.scan.size()) * sizeof(double);
+    for (const Motion& motion : job.motions) {
+        bytes += Count(record_text(motion).size());
     }
-    for (const Field field : job.fields) {
+    const auto rank = Count(tiling.shape().size());
+    const Count node = 24 + 64 * 8 + 65 * (8 + 8 * (rank + 1));
+    for (const Field field : problem.fields) {
         bytes +=
-            1200 + 3656 * Count(tiling.size() / 55 + 2) + points * Count(bytes_per_point(field));
+            1200 + node * Count(tiling.size() / 55 + 2) + points * Count(bytes_per_point(field));
     }
     for (const std::string& setting : job.overrides) {
         bytes += Count(setting.size() + 1);
@@ -279,28 +253,27 @@ long double spectrum_file_bytes(const Job& job, const Tiling& tiling)
     return bytes + Count(2 * job.title.size() + job.given.size() + job.resolved.size());
 }
 
-void create_spectrum_file(const std::string& path, const Job& job, const Tiling& tiling,
+void create_spectrum_file(const std::string& path, const Job& job,
                           const BetweenTiles& between_tiles)
 {
     PartFile part(path);
-    const long double needed = spectrum_file_bytes(job, tiling);
+    const long double needed = spectrum_file_bytes(job);
     const std::uint64_t available = part.available_bytes();
     if (needed > static_cast<long double>(available)) {
-        throw FileError(
-            fmt::format("cannot create \"{}\": it takes {:.0f} bytes, but {} are available. "
-                        "Free some space, choose another disk with -o, or reduce the number of "
-                        "points or fields.",
-                        path, needed, available));
+        throw Error(exit_code::output,
+                    "cannot create \"{}\": it takes {:.0f} bytes, but {} are available. "
+                    "Free some space, choose another disk with -o, or reduce the number of "
+                    "points or fields.",
+                    path, needed, available);
     }
     try {
-        make_file(part.path(), job, FileKind(job.product), [&](hid_t file) {
-            write_skeleton(file, part.path(), job, tiling, between_tiles);
-        });
+        make_file(part.path(), job, FileKind(job.problem.product),
+                  [&](hid_t file) { write_skeleton(file, part.path(), job, between_tiles); });
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("cannot create \"{}\" of {:.0f} bytes: {}. Choose another name with "
-                        "-o.",
-                        path, needed, error.what()));
+        throw Error(exit_code::output,
+                    "cannot create \"{}\" of {:.0f} bytes: {}. Choose another name with "
+                    "-o.",
+                    path, needed, error.what());
     }
     part.move_into_place();
 }

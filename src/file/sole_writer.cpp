@@ -1,5 +1,7 @@
 #include "overturn/file/sole_writer.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include "operating_system.hpp"
 #include "working_file.hpp"
 
@@ -50,10 +52,10 @@ int open_lock(const std::string& lock)
             return descriptor;
         }
         if (errno != ENOENT) {
-            throw FileError(
-                fmt::format("cannot open the lock \"{}\": {}. Remove it if no other user's run "
-                            "is using it, or choose another name with -o.",
-                            lock, system_reason(errno)));
+            throw Error(exit_code::output,
+                        "cannot open the lock \"{}\": {}. Remove it if no other user's run "
+                        "is using it, or choose another name with -o.",
+                        lock, system_reason(errno));
         }
     }
 }
@@ -72,11 +74,12 @@ SoleWriter::SoleWriter(const std::string& path) : lock_(lock_of(path))
         }
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             ::close(descriptor_);
-            throw FileError(fmt::format("\"{}\" is being written by another run. Wait until it has "
-                                        "ended, or choose another name with -o. After a kill, the "
-                                        "last ranks end within a few seconds; then repeat the "
-                                        "command.",
-                                        path));
+            throw Error(exit_code::output,
+                        "\"{}\" is being written by another run. Wait until it has "
+                        "ended, or choose another name with -o. After a kill, the "
+                        "last ranks end within a few seconds; then repeat the "
+                        "command.",
+                        path);
         }
     } while (!is_in_place(descriptor_, lock_));
 }

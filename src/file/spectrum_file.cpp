@@ -1,5 +1,7 @@
 #include "overturn/file/spectrum_file.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "operating_system.hpp"
@@ -27,6 +29,7 @@ void start_hdf5()
 struct SpectrumFile::Open {
     std::string path;
     std::vector<Field> fields;
+    std::size_t crossing = 0; ///< the place of this dimension, if there is one
     Handle file;
     std::vector<Handle> datasets; ///< in the order of `fields`
     Handle checksums;
@@ -41,16 +44,16 @@ struct SpectrumFile::Open {
     void sync_if_durable() const;
     /// Stores the counts of a filled tile.
     void write_audit(const Tile& tile, const AuditCount& audit);
-    /// Throws FileError if the path no longer names the opened file, or the file was truncated:
+    /// Throws Error if the path no longer names the opened file, or the file was truncated:
     /// writing to a removed or truncated file reports no error.
     void expect_in_place();
     void expect_in_place_now_and_then();
-    FileError cannot_write(const Tile& tile, std::string_view dataset,
-                           const hdf5::Hdf5Error& error) const;
+    Error cannot_write(const Tile& tile, std::string_view dataset,
+                       const hdf5::Hdf5Error& error) const;
 };
 
-FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view dataset,
-                                           const hdf5::Hdf5Error& error) const
+Error SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view dataset,
+                                       const hdf5::Hdf5Error& error) const
 {
     // MPI-IO does not report the reason of a failed write: the last system error is the best guess,
     // and a full disk can be detected.
@@ -59,10 +62,10 @@ FileError SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view da
     if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
         reason = ENOSPC;
     }
-    return FileError(
-        fmt::format("cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
-                    tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
-                    reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run"));
+    return Error(exit_code::output,
+                 "cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
+                 tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
+                 reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run");
 }
 
 void SpectrumFile::Open::expect_in_place()
@@ -73,15 +76,16 @@ void SpectrumFile::Open::expect_in_place()
         return; // inconclusive: a write will report the error
     }
     if (!is_found || found.st_dev != as_opened.st_dev || found.st_ino != as_opened.st_ino) {
-        throw FileError(
-            fmt::format("\"{}\" was removed, moved or replaced during the run. If it was moved, "
-                        "move it back and run the same command again to resume.",
-                        path));
+        throw Error(exit_code::output,
+                    "\"{}\" was removed, moved or replaced during the run. If it was moved, "
+                    "move it back and run the same command again to resume.",
+                    path);
     }
     if (found.st_size < as_opened.st_size) {
-        throw FileError(fmt::format("\"{}\" was truncated from {} to {} bytes during the run. "
-                                    "Remove the file and recompute it.",
-                                    path, as_opened.st_size, found.st_size));
+        throw Error(exit_code::output,
+                    "\"{}\" was truncated from {} to {} bytes during the run. "
+                    "Remove the file and recompute it.",
+                    path, as_opened.st_size, found.st_size);
     }
 }
 
@@ -132,24 +136,25 @@ Handle unbuffered_access(MPI_Comm communicator)
 
 } // namespace
 
-SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job,
+SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
                            Durability durability)
     : open_(std::make_unique<Open>())
 {
     open_->path = path;
     open_->durability = durability;
-    open_->fields = job.fields;
-    open_->is_filled = job.numerics.fill;
+    open_->fields = problem.fields;
+    open_->crossing = problem.grid.dimension_of(Role::strength).value_or(0);
+    open_->is_filled = problem.numerics.fill;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
-        throw FileError(
-            fmt::format("cannot open \"{}\" for writing: {}.", path, system_reason(errno)));
+        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path,
+                    system_reason(errno));
     }
     try {
         hdf5::start();
         open_->file =
             Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, unbuffered_access(communicator)), H5Fclose);
-        for (const Field field : job.fields) {
+        for (const Field field : problem.fields) {
             open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
         }
         open_->checksums = hdf5::open_dataset(open_->file, layout::in_run_group(layout::checksum));
@@ -165,7 +170,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
         }
     } catch (const hdf5::Hdf5Error& error) {
         open_->file.release();
-        throw FileError(fmt::format("cannot open \"{}\" for writing: {}.", path, error.what()));
+        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path, error.what());
     }
 }
 
@@ -186,8 +191,8 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
         }
         return missing;
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(fmt::format("cannot read which tiles of \"{}\" are missing: {}.",
-                                    open_->path, error.what()));
+        throw Error(exit_code::output, "cannot read which tiles of \"{}\" are missing: {}.",
+                    open_->path, error.what());
     }
 }
 
@@ -196,14 +201,14 @@ void SpectrumFile::forget(const Tile& tile)
     try {
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
             const Field field = open_->fields[i];
-            write_tile(open_->datasets[i], tile, field,
-                       not_computed(field, count_values(field, tile)));
+            const Tile stored = stored_tile_of(field, tile, open_->crossing);
+            write_tile(open_->datasets[i], stored, field, not_computed(field, stored.points()));
         }
         open_->write_audit(tile, {});
         write_number(open_->checksums, tile.number, not_computed_checksum);
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(fmt::format("cannot clear the damaged tile {} of \"{}\": {}.", tile.number,
-                                    open_->path, error.what()));
+        throw Error(exit_code::output, "cannot clear the damaged tile {} of \"{}\": {}.",
+                    tile.number, open_->path, error.what());
     }
 }
 
@@ -215,8 +220,10 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
     try {
         errno = 0;
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
-            dataset = name_of(open_->fields[i]);
-            write_tile(open_->datasets[i], tile, open_->fields[i], fields.values[i]);
+            const Field field = open_->fields[i];
+            dataset = name_of(field);
+            write_tile(open_->datasets[i], stored_tile_of(field, tile, open_->crossing), field,
+                       fields.values[i]);
         }
         dataset = layout::audit_checked;
         open_->write_audit(tile, fields.audit);
@@ -225,7 +232,7 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
         const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
         write_number(open_->checksums, tile.number, tile_checksum(fields.values, audit));
     } catch (const hdf5::Hdf5Error& error) {
-        const FileError failure = open_->cannot_write(tile, dataset, error);
+        const Error failure = open_->cannot_write(tile, dataset, error);
         open_->expect_in_place(); // throws if this is the reason
         throw failure;
     }
@@ -243,10 +250,10 @@ void SpectrumFile::close()
         open_->file.close();
         open_->sync_if_durable();
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(
-            fmt::format("cannot write all of \"{}\" to the disk: {}. Its content may be damaged: "
-                        "remove the file and recompute it.",
-                        open_->path, error.what()));
+        throw Error(exit_code::output,
+                    "cannot write all of \"{}\" to the disk: {}. Its content may be damaged: "
+                    "remove the file and recompute it.",
+                    open_->path, error.what());
     }
 }
 

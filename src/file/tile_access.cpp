@@ -17,32 +17,28 @@ using hdf5::Handle;
 
 using Extents = std::vector<hsize_t>;
 
-Extents extents_of(const Tile& tile, Field field)
+Extents extents(const Shape& shape)
 {
-    return dimensions_of(field, Extents(tile.count.begin(), tile.count.end()));
-}
-
-Extents begin_of(const Tile& tile, Field field)
-{
-    return dimensions_of(field, Extents(tile.begin.begin(), tile.begin.end()));
+    return {shape.begin(), shape.end()};
 }
 
 /// The part of a dataset that a tile occupies.
-Handle selection(hid_t dataset, const Tile& tile, Field field)
+Handle selection(hid_t dataset, const Tile& tile)
 {
-    const Extents begin = begin_of(tile, field);
-    const Extents count = extents_of(tile, field);
     Handle space(H5Dget_space(dataset), H5Sclose);
-    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr));
+    if (!tile.count.empty()) { // a single value is the whole dataset
+        check(H5Sselect_hyperslab(space, H5S_SELECT_SET, extents(tile.begin).data(), nullptr,
+                                  extents(tile.count).data(), nullptr));
+    }
     return space;
 }
 
 /// The tile's values in memory, in the shape of the selection: if the shapes differ, HDF5 copies
 /// point by point, which took half as long as computing the points.
-Handle in_memory(const Tile& tile, Field field)
+Handle in_memory(const Tile& tile)
 {
-    const Extents count = extents_of(tile, field);
-    return Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose);
+    return Handle(H5Screate_simple(int(tile.count.size()), extents(tile.count).data(), nullptr),
+                  H5Sclose);
 }
 
 } // namespace
@@ -57,8 +53,12 @@ FieldValues not_computed(Field field, std::int64_t count)
 
 void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {
+    if (tile.count.empty()) {
+        write_tile(dataset, tile, field, values);
+        return;
+    }
     constexpr std::uint32_t no_filter_skipped = 0;
-    const Extents begin = begin_of(tile, field);
+    const Extents begin = extents(tile.begin);
     std::visit(
         [&](const auto& list) {
             check(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter_skipped, begin.data(),
@@ -69,11 +69,11 @@ void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues
 
 void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
 {
-    const Handle place = selection(dataset, tile, field);
-    const Handle memory = in_memory(tile, field);
+    const Handle place = selection(dataset, tile);
+    const Handle memory = in_memory(tile);
     std::visit(
         [&](const auto& list) {
-            assert(std::int64_t(list.size()) == count_values(field, tile));
+            assert(std::int64_t(list.size()) == tile.points());
             check(H5Dwrite(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,
                            list.data()));
         },
@@ -82,9 +82,9 @@ void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues&
 
 FieldValues read_tile(hid_t dataset, const Tile& tile, Field field)
 {
-    const Handle place = selection(dataset, tile, field);
-    const Handle memory = in_memory(tile, field);
-    FieldValues values = make_field_values(field, std::size_t(count_values(field, tile)));
+    const Handle place = selection(dataset, tile);
+    const Handle memory = in_memory(tile);
+    FieldValues values = make_field_values(field, std::size_t(tile.points()));
     std::visit(
         [&](auto& list) {
             check(H5Dread(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,

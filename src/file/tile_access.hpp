@@ -4,9 +4,9 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/sweep/fields.hpp"
-#include "overturn/sweep/fill.hpp"
-#include "overturn/sweep/tile.hpp"
+#include "overturn/problem/fields.hpp"
+#include "overturn/problem/tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -14,25 +14,28 @@
 
 namespace overturn {
 
-/// Converts a list with one entry per dimension of the points to one per dimension of the field: a
-/// field of a line lacks the second-to-last dimension.
+/// The entries of a list, one per dimension of the points, for the dimensions of a field: a field
+/// of a line lacks `crossing`, whose place is given.
 template <class List>
-List dimensions_of(Field field, List of_points)
+List stored_dimensions_of(Field field, List of_points, std::size_t crossing)
 {
-    if (is_of_line(field)) {
-        of_points.erase(of_points.end() - 2);
+    if (traits_of(field).is_of_line) {
+        of_points.erase(of_points.begin() + std::ptrdiff_t(crossing));
     }
     return of_points;
 }
 
-/// The number of values of the field in a tile.
-inline std::int64_t count_values(Field field, const Tile& tile)
+/// The part of a field that belongs to a tile.
+inline Tile stored_tile_of(Field field, const Tile& tile, std::size_t crossing)
 {
-    return is_of_line(field) ? tile.columns() : tile.points();
+    return {tile.number, stored_dimensions_of(field, tile.begin, crossing),
+            stored_dimensions_of(field, tile.count, crossing)};
 }
 
 /// The fill values of a field that is not computed yet.
 FieldValues not_computed(Field field, std::int64_t count);
+
+// The tiles of the following functions are those of the field, see stored_tile_of().
 
 /// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
 void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);

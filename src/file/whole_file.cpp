@@ -3,6 +3,8 @@
 #include "layout.hpp"
 #include "working_file.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -23,9 +25,10 @@ void expect_room_for(const std::string& path, FileKind kind)
         found = "";
     }
     if (found != layout::name_of(kind)) {
-        throw FileError(fmt::format("\"{}\" exists but its kind is not \"{}\". Remove it, or "
-                                    "choose another name with -o.",
-                                    path, layout::name_of(kind)));
+        throw Error(exit_code::output,
+                    "\"{}\" exists but its kind is not \"{}\". Remove it, or "
+                    "choose another name with -o.",
+                    path, layout::name_of(kind));
     }
 }
 
@@ -37,8 +40,8 @@ void write_whole_file(const std::string& path, FileKind kind, const Job& job,
     try {
         netcdf::make_file(part.path(), job, kind, write);
     } catch (const hdf5::Hdf5Error& error) {
-        throw FileError(fmt::format("cannot create \"{}\": {}. Choose another name with -o.", path,
-                                    error.what()));
+        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
+                    path, error.what());
     }
     part.move_into_place();
 }

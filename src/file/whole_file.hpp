@@ -8,7 +8,7 @@
 namespace overturn {
 
 /// Creates a file of this kind with the content that `write` adds; replaces an existing file of the
-/// same kind. Throws FileError.
+/// same kind. Throws Error.
 void write_whole_file(const std::string& path, FileKind kind, const Job& job,
                       const std::function<void(hid_t file)>& write);
 

@@ -2,7 +2,7 @@
 
 #include "operating_system.hpp"
 
-#include "overturn/file/file_error.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -51,10 +51,10 @@ bool is_left_over(const std::string& path)
         return false;
     }
     if (!S_ISREG(file.st_mode) || (file.st_mode & mark) == 0) {
-        throw FileError(
-            fmt::format("\"{}\" exists but is not an overturn {} file. Move it away, or "
-                        "choose another name with -o.",
-                        path, path.ends_with(".lock") ? "lock" : "part"));
+        throw Error(exit_code::output,
+                    "\"{}\" exists but is not an overturn {} file. Move it away, or "
+                    "choose another name with -o.",
+                    path, path.ends_with(".lock") ? "lock" : "part");
     }
     return true;
 }
@@ -63,21 +63,23 @@ PartFile::PartFile(const std::string& path)
     : target_(behind_links(path)), folder_(folder_of(target_)), part_(target_ + ".part")
 {
     if (!std::filesystem::is_directory(folder_)) {
-        throw FileError(
-            fmt::format("cannot create \"{}\": there is no folder \"{}\". Create it, or "
-                        "choose another name with -o.",
-                        target_, folder_));
+        throw Error(exit_code::output,
+                    "cannot create \"{}\": there is no folder \"{}\". Create it, or "
+                    "choose another name with -o.",
+                    target_, folder_);
     }
     if (access(folder_.c_str(), W_OK | X_OK) != 0) {
-        throw FileError(fmt::format("cannot create \"{}\": the folder \"{}\" is not writable: {}. "
-                                    "Choose another name with -o.",
-                                    target_, folder_, system_reason(errno)));
+        throw Error(exit_code::output,
+                    "cannot create \"{}\": the folder \"{}\" is not writable: {}. "
+                    "Choose another name with -o.",
+                    target_, folder_, system_reason(errno));
     }
     std::error_code none;
     if (std::filesystem::is_symlink(target_, none) && !std::filesystem::exists(target_, none)) {
-        throw FileError(fmt::format("cannot create \"{}\": it is a link to a file that does not "
-                                    "exist. Remove the link, or choose another name with -o.",
-                                    target_));
+        throw Error(exit_code::output,
+                    "cannot create \"{}\": it is a link to a file that does not "
+                    "exist. Remove the link, or choose another name with -o.",
+                    target_);
     }
     int created = create_working_file(part_);
     if (created < 0 && errno == EEXIST && is_left_over(part_)) {
@@ -85,8 +87,8 @@ PartFile::PartFile(const std::string& path)
         created = create_working_file(part_);
     }
     if (created < 0) {
-        throw FileError(fmt::format("cannot create \"{}\": {}. Choose another name with -o.", part_,
-                                    system_reason(errno)));
+        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
+                    part_, system_reason(errno));
     }
     close(created);
 }
@@ -102,8 +104,8 @@ std::uint64_t PartFile::available_bytes() const
 {
     struct statvfs disk = {};
     if (statvfs(folder_.c_str(), &disk) != 0) {
-        throw FileError(fmt::format("cannot determine the free space in \"{}\": {}.", folder_,
-                                    system_reason(errno)));
+        throw Error(exit_code::output, "cannot determine the free space in \"{}\": {}.", folder_,
+                    system_reason(errno));
     }
     return std::uint64_t(disk.f_bavail) * disk.f_frsize;
 }
@@ -111,7 +113,7 @@ std::uint64_t PartFile::available_bytes() const
 void PartFile::move_into_place()
 {
     if (!sync(part_) || std::rename(part_.c_str(), target_.c_str()) != 0 || !sync(folder_)) {
-        throw FileError(fmt::format("cannot create \"{}\": {}.", target_, system_reason(errno)));
+        throw Error(exit_code::output, "cannot create \"{}\": {}.", target_, system_reason(errno));
     }
     in_place_ = true;
     namespace fs = std::filesystem;

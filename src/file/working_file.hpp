@@ -10,7 +10,7 @@ namespace overturn {
 /// Creates a working file and returns its descriptor; -1, with errno, on failure.
 int create_working_file(const std::string& path);
 
-/// Whether a working file of a killed or active run exists. Throws FileError if a file of another
+/// Whether a working file of a killed or active run exists. Throws Error if a file of another
 /// program has the name.
 bool is_left_over(const std::string& path);
 
@@ -18,7 +18,7 @@ bool is_left_over(const std::string& path);
 /// and synced to the disk. If it is not completed, the destructor removes it.
 class PartFile {
 public:
-    /// Throws FileError if the folder of `path` is missing or not writable, if `path` is a dangling
+    /// Throws Error if the folder of `path` is missing or not writable, if `path` is a dangling
     /// link, or if another program's file is called OUT.part. The part file of a killed run is
     /// replaced. If `path` is a link to a file, the link is kept and its target is replaced.
     explicit PartFile(const std::string& path);
@@ -32,7 +32,7 @@ public:
     /// Free space on the disk for an unprivileged user [byte].
     std::uint64_t available_bytes() const;
 
-    /// Syncs the file, which must be closed, and renames it. Throws FileError.
+    /// Syncs the file, which must be closed, and renames it. Throws Error.
     void move_into_place();
 
 private:

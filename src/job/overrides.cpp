@@ -3,6 +3,8 @@
 #include "deep_key.hpp"
 #include "toml_text.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,14 +30,7 @@ std::string place_of_argument(const std::string& argument)
 
 [[noreturn]] void refuse_argument(const std::string& argument, std::string_view text)
 {
-    throw JobError(fmt::format("{}: {}", place_of_argument(argument), text));
-}
-
-std::string_view trimmed(std::string_view text)
-{
-    const std::size_t first = text.find_first_not_of(" \t");
-    const std::size_t last = text.find_last_not_of(" \t");
-    return first == text.npos ? "" : text.substr(first, last - first + 1);
+    throw Error(exit_code::job, "{}: {}", place_of_argument(argument), text);
 }
 
 bool is_bare_key(std::string_view key)
@@ -160,83 +155,82 @@ void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys
     }
 }
 
-/// Keys of a table of which a job gives at most one.
-struct Alternatives {
-    std::string_view table;
-    std::vector<std::string_view> keys;
-};
-
-const std::array<Alternatives, 5> alternatives{{
-    {"plane", {"amplitude", "scale", "pga"}},
-    {"plane", {"frequency", "pulse_period", "pulse_frequency"}},
-    {"plane", {"size", "frequency_parameter"}},
-    {"block", {"width", "half_width"}},
-    {"block", {"height", "half_height"}},
-}};
-
-/// Removes these numbers of a pulse from [scene].
-void erase_numbers(toml::table* scene, const auto& is_erased)
+/// Removes the coordinates of points, except that at this path, for which is_erased(name) is true.
+void erase_coordinates(toml::table& job, const Path& path, const auto& is_erased)
 {
-    for (const auto& [name, number] : shape_numbers) {
-        if (is_erased(number)) {
-            erase_keys(scene, {name});
+    for (const std::string_view table : coordinate_tables) {
+        for (const std::string_view name : keys_of(table)) {
+            if (!(table == path[0] && path.size() > 1 && name == path[1]) && is_erased(name)) {
+                erase_keys(job[table].as_table(), {name});
+            }
         }
     }
+}
+
+bool is_coordinate(const Path& path)
+{
+    return path.size() > 1 && std::ranges::count(coordinate_tables, path[0]) > 0 &&
+           find_quantity(path[1]) != nullptr;
+}
+
+/// Whether the job gives the coordinate at this path, or one that excludes it, outside a table of
+/// blocks.
+bool has_alternative(const toml::table& job, const Path& path)
+{
+    return std::ranges::any_of(coordinate_tables, [&](std::string_view table) {
+        const std::vector<std::string_view> names = keys_of(table);
+        return std::ranges::any_of(names, [&](std::string_view name) {
+            return exclude_each_other(name, path[1]) && job[table][name];
+        });
+    });
 }
 
 /// Removes the keys of the job that a new value at this path contradicts.
 void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
 {
     if (path[0] == "blocks") {
-        erase_keys(&job, {"block"});
-        erase_keys(job["plane"].as_table(),
-                   {"slenderness", "restitution", "size", "frequency_parameter"});
+        erase_coordinates(job, path, [](std::string_view name) {
+            return quantity(name).role == Role::block || quantity(name).role == Role::loss;
+        });
     }
-    if (path[0] == "block") {
-        erase_keys(&job, {"blocks"});
-        erase_keys(job["plane"].as_table(), {"slenderness", "size", "frequency_parameter"});
-    }
-    if (path[0] == "plane" && path.size() >= 2 && path[1] == "slenderness") {
-        erase_keys(&job, {"block", "blocks"});
-    }
-    if (path[0] == "plane" && path.size() == 3) {
-        toml::table* axis = job["plane"][path[1]].as_table();
-        if (path[2] == "values") {
+    if (is_coordinate(path)) {
+        // A new shape replaces the table that describes the blocks; a size alone is none.
+        const bool is_shape =
+            quantity(path[1]).role == Role::block && !are_equivalent(path[1], "size");
+        if (is_shape && !has_alternative(job, path)) {
+            erase_keys(&job, {"blocks"});
+        }
+        erase_coordinates(job, path,
+                          [&](std::string_view name) { return exclude_each_other(name, path[1]); });
+        toml::table* axis = job[path[0]][path[1]].as_table();
+        if (path.size() == 3 && path[2] == "values") {
             erase_keys(axis, {"first", "last", "count", "spacing"});
-        } else if (path[2] == "first" || path[2] == "last" || path[2] == "count") {
+        } else if (path.size() == 3 &&
+                   (path[2] == "first" || path[2] == "last" || path[2] == "count")) {
             erase_keys(axis, {"values"});
         }
     }
-    if (path.size() >= 2) {
-        for (const Alternatives& group : alternatives) {
-            if (path[0] == group.table &&
-                std::find(group.keys.begin(), group.keys.end(), path[1]) != group.keys.end()) {
-                for (const std::string_view key : group.keys) {
-                    if (key != path[1]) {
-                        erase_keys(job[group.table].as_table(), {key});
-                    }
-                }
-            }
+    toml::table* scene = job["scene"].as_table();
+    const bool is_record = path == Path{"scene", "record"};
+    const bool replaces_record = path == Path{"scene", "pulse"} && job["scene"]["record"];
+    if (is_record || replaces_record) {
+        for (const std::string_view key : scene_keys_of(is_record ? KeyOf::pulse : KeyOf::record)) {
+            erase_keys(scene, {key});
         }
-    }
-    if (path == Path{"scene", "record"}) {
-        erase_keys(job["scene"].as_table(), {"pulse"});
-        erase_numbers(job["scene"].as_table(), [](ShapeNumber) { return true; });
-        erase_keys(job["plane"].as_table(),
-                   {"amplitude", "frequency", "pulse_period", "pulse_frequency"});
+        erase_coordinates(job, path, [&](std::string_view name) {
+            return !applies_to(quantity(name), is_record);
+        });
     }
     if (path == Path{"scene", "pulse"}) {
-        if (job["scene"]["record"]) {
-            erase_keys(job["scene"].as_table(),
-                       {"record", "component", "vertical", "time_step", "units"});
-            erase_keys(job["plane"].as_table(), {"scale", "pga", "size", "frequency_parameter"});
-        }
         const auto name =
             std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
         if (name != pulse_names.end()) {
             const auto pulse = PulseKind(name - pulse_names.begin());
-            erase_numbers(job["scene"].as_table(),
-                          [&](ShapeNumber number) { return !has_number(pulse, number); });
+            for (const auto& [number, member] : shape_numbers) {
+                if (!has_number(pulse, member)) {
+                    erase_keys(scene, {number});
+                }
+            }
         }
     }
 }
@@ -245,8 +239,8 @@ void drop_contradictions(toml::table& job, const Path& path, const toml::node& v
 /// `spacing`, the number is kept as the list of values.
 void replace_number(toml::table& job, toml::table& given, const Path& path)
 {
-    toml::table* plane = job["plane"].as_table();
-    toml::node* axis = plane == nullptr ? nullptr : plane->get(path[1]);
+    toml::table* table = job[path[0]].as_table();
+    toml::node* axis = table == nullptr ? nullptr : table->get(path[1]);
     if (axis == nullptr || !axis->is_number()) {
         return;
     }
@@ -257,44 +251,12 @@ void replace_number(toml::table& job, toml::table& given, const Path& path)
                 values.push_back(std::move(number));
             }
         });
-        given["plane"][path[1]].as_table()->insert("values", std::move(values));
+        given[path[0]][path[1]].as_table()->insert("values", std::move(values));
     }
-    plane->erase(path[1]);
+    table->erase(path[1]);
 }
 
 } // namespace
-
-bool exclude_each_other(std::string_view axis, std::string_view other)
-{
-    return axis == other ||
-           std::any_of(alternatives.begin(), alternatives.end(), [&](const Alternatives& group) {
-               const auto has = [&](std::string_view key) {
-                   return std::find(group.keys.begin(), group.keys.end(), key) != group.keys.end();
-               };
-               return group.table == "plane" && has(axis) && has(other);
-           });
-}
-
-std::vector<std::string> override_keys()
-{
-    std::vector<std::string> keys{"title"};
-    const auto add = [&](std::string_view table, Names names) {
-        for (const std::string_view name : names) {
-            keys.push_back(fmt::format("{}.{}", table, name));
-        }
-    };
-    add("scene", scene_keys);
-    for (const std::string_view axis : axis_names) {
-        const std::string table = fmt::format("plane.{}", axis);
-        keys.push_back(table);
-        add(table, axis == "restitution" ? Names(restitution_keys) : Names(axis_keys));
-    }
-    add("block", block_keys);
-    add("blocks", blocks_keys);
-    add("numerics", numerics_keys);
-    add("output", output_keys);
-    return keys;
-}
 
 void apply_override(toml::table& job, const std::string& argument)
 {
@@ -311,7 +273,7 @@ void apply_override(toml::table& job, const std::string& argument)
     }
     toml::table given = job_of(argument, path, value);
     drop_contradictions(job, path, value_at(given, path, argument));
-    if (path[0] == "plane" && path.size() == 3) {
+    if (path.size() == 3 && is_coordinate(path)) {
         replace_number(job, given, path);
     }
     move_value(job, given, path, argument);

@@ -2,7 +2,8 @@
 
 #include "motion_names.hpp"
 #include "overturn/record/read_record.hpp"
-#include "overturn/record/utf8.hpp"
+#include "overturn/text/error.hpp"
+#include "overturn/text/utf8.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>
@@ -21,20 +22,6 @@ namespace fs = std::filesystem;
 
 // Larger suites are split into several jobs; a pattern cannot fill the memory.
 constexpr std::size_t most_records = 10'000;
-
-/// The keys of scene.record in a resolved job, which describes records without reading their files.
-constexpr std::array<std::string_view, 12> described_keys{"file",
-                                                          "component",
-                                                          "vertical",
-                                                          "samples",
-                                                          "time_step",
-                                                          "pga",
-                                                          "pgv",
-                                                          "arias_intensity",
-                                                          "significant_duration",
-                                                          "largest_scale",
-                                                          "name",
-                                                          "checksum"};
 
 /// Which component of a file: its name, or its number counted from 1.
 struct ComponentChoice {
@@ -158,10 +145,14 @@ public:
         : folder_(folder), options_(options), gravity_(gravity)
     {}
 
-    /// The motion, without a name, and the label of its component in the file.
-    std::pair<Motion, std::string> read(const Entry& entry, const std::string& file,
-                                        const std::optional<ComponentChoice>& component,
-                                        const std::optional<ComponentChoice>& vertical) const
+    struct Result {
+        Motion motion; ///< without a name
+        std::shared_ptr<const Accelerogram> record;
+        std::string label; ///< of the component in the file
+    };
+    Result read(const Entry& entry, const std::string& file,
+                const std::optional<ComponentChoice>& component,
+                const std::optional<ComponentChoice>& vertical) const
     {
         const RecordFile content = content_of(entry, file);
         const RecordComponent* horizontal =
@@ -185,18 +176,14 @@ public:
             refuse(entry, fmt::format(" = {} has one sample. A record needs two or more.",
                                       in_quotes(file)));
         }
-        motion.record = std::make_shared<const Accelerogram>(
+        auto record = std::make_shared<const Accelerogram>(
             over_gravity(*horizontal, gravity_), std::move(upwards), horizontal->time_step);
-        motion.samples = motion.record->samples();
-        motion.time_step = motion.record->time_step();
-        motion.measures =
-            intensity_measures(motion.record->horizontal(), motion.time_step, gravity_);
-        motion.largest_scale = motion.record->largest_scale();
-        motion.checksum = fmt::format("{:016x}", checksum_of(*motion.record));
+        motion.measures = intensity_measures(record->horizontal(), record->time_step(), gravity_);
+        motion.checksum = fmt::format("{:016x}", checksum_of(*record));
         if (!(motion.measures.pga > 0)) {
             refuse(entry, fmt::format(" = {} is zero at all times. Remove it.", in_quotes(file)));
         }
-        return {std::move(motion), label_of(content, *horizontal)};
+        return {std::move(motion), std::move(record), label_of(content, *horizontal)};
     }
 
 private:
@@ -204,9 +191,9 @@ private:
     {
         try {
             return read_record((folder_ / file).string(), options_);
-        } catch (const RecordError& error) {
-            throw JobError(
-                fmt::format("{}: {}: {}", place_of(entry.node->source()), entry.key, error.what()));
+        } catch (const Error& error) {
+            throw Error(exit_code::job, "{}: {}: {}", place_of(entry.node->source()), entry.key,
+                        error.what());
         }
     }
 
@@ -260,39 +247,9 @@ RecordOptions read_options(const Entry& scene)
     return options;
 }
 
-/// A record of a resolved job.
-Motion described_motion(const Entry& entry)
-{
-    expect_table(entry, described_keys);
-    const auto number = [&](std::string_view name) {
-        return number_of(require(entry, name, "It is part of every resolved job."));
-    };
-    const auto text = [&](std::string_view name) {
-        const auto found = find(entry, name);
-        return found ? string_of(*found) : std::string();
-    };
-    Motion motion;
-    motion.file = text("file");
-    motion.name = find(entry, "name") ? text("name") : motion.file;
-    motion.component = text("component");
-    motion.vertical = text("vertical");
-    motion.checksum = text("checksum");
-    motion.samples = integer_of(require(entry, "samples", "It is part of every resolved job."));
-    motion.time_step = number("time_step");
-    motion.measures = {.pga = number("pga"),
-                       .pgv = number("pgv"),
-                       .arias_intensity = number("arias_intensity"),
-                       .significant_duration = number("significant_duration")};
-    if (find(entry, "largest_scale")) {
-        motion.largest_scale = number("largest_scale");
-    }
-    return motion;
-}
-
 } // namespace
 
-std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity,
-                                 JobText kind)
+RecordedMotions read_motions(const Entry& scene, const std::string& folder, double gravity)
 {
     const Entry entry = require(scene, "record", "Give the path of a record.");
     std::vector<Entry> entries;
@@ -304,12 +261,6 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
         }
     } else {
         entries.push_back(entry);
-    }
-    std::vector<Motion> motions;
-    if (kind == JobText::resolved) {
-        std::transform(entries.begin(), entries.end(), std::back_inserter(motions),
-                       described_motion);
-        return motions;
     }
     std::vector<std::pair<Entry, std::string>> files;
     for (const Entry& one : entries) {
@@ -329,6 +280,8 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
         verticals = choices_of(*vertical, files.size());
     }
     const RecordReader reader(folder, read_options(scene), gravity);
+    RecordedMotions recorded;
+    recorded.is_suite = entry.node->is_array() || files.front().second != string_of(entry);
     std::vector<std::string> labels;
     std::set<std::string> known; // file, component and accelerations
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -336,18 +289,20 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
             return from.empty() ? std::nullopt : std::optional(from[i]);
         };
         const auto& [place, file] = files[i];
-        auto [motion, label] = reader.read(place, file, choice(components), choice(verticals));
+        auto [motion, record, label] =
+            reader.read(place, file, choice(components), choice(verticals));
         const std::string path = fs::weakly_canonical(fs::path(folder) / file).string();
         if (!known.insert(fmt::format("{}:{}:{}", path, label, motion.checksum)).second) {
             refuse(place, fmt::format(" = {} is listed more than once with the same component, and "
                                       "would count as several motions. List each motion once.",
                                       in_quotes(file)));
         }
-        motions.push_back(std::move(motion));
+        recorded.motions.push_back(std::move(motion));
+        recorded.records.push_back(std::move(record));
         labels.push_back(std::move(label));
     }
-    name_motions(motions, labels);
-    return motions;
+    name_motions(recorded.motions, labels);
+    return recorded;
 }
 
 } // namespace overturn

@@ -33,7 +33,7 @@ PulseShape read_shape(const Entry& scene, PulseKind pulse)
 Scene read_scene(const Entry& job)
 {
     const Entry entry = require(job, "scene", "Add [scene] with a pulse or a record.");
-    expect_table(entry, scene_keys);
+    expect_table(entry, keys_of("scene"));
     Scene scene;
     if (const auto theory = find(entry, "theory")) {
         scene.theory = choice_of<Theory>(*theory, theory_names);
@@ -43,7 +43,7 @@ Scene read_scene(const Entry& job)
         expect_allowed(*gravity, quantity("gravity"), scene.gravity);
     }
     const bool is_recorded = find(entry, "record").has_value();
-    for (const std::string_view key : is_recorded ? Names(pulse_keys) : Names(record_keys)) {
+    for (const std::string_view key : scene_keys_of(is_recorded ? KeyOf::pulse : KeyOf::record)) {
         if (const auto other = find(entry, key)) {
             refuse(*other, is_recorded
                                ? " cannot be combined with scene.record. Remove one of them."
@@ -78,7 +78,7 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
     if (!entry) {
         return numerics;
     }
-    expect_table(*entry, numerics_keys);
+    expect_table(*entry, keys_of("numerics"));
     if (const auto method = find(*entry, "method")) {
         numerics.method = choice_of<Method>(*method, method_names);
         if (is_recorded && numerics.method != Method::taylor) {
@@ -110,36 +110,9 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
     return numerics;
 }
 
-std::string reason_not_to_fill(const Job& job)
+void expect_fillable(const Entry& entry, const Problem& problem)
 {
-    if (job.scene.is_recorded()) {
-        return "under a record regions have no simple boundaries";
-    }
-    if (job.blocks) {
-        return "the blocks of a list have no neighbours";
-    }
-    for (const auto& [name, axis] :
-         {std::pair{name_of(job.plane.amplitude_is), &job.plane.amplitude},
-          {name_of(job.plane.frequency_is), &job.plane.frequency}}) {
-        if (axis->size() > 1 && std::holds_alternative<AxisList>(axis->definition())) {
-            return fmt::format("plane.{} lists its values, whose spacing is arbitrary; the axes of "
-                               "a filled spectrum need first, last and count",
-                               name);
-        }
-    }
-    for (const Field field : job.fields) {
-        if (field != Field::region && field != Field::impacts) {
-            return fmt::format("the field \"{}\" is different at every point; only \"region\" and "
-                               "\"impacts\" can be filled",
-                               name_of(field));
-        }
-    }
-    return "";
-}
-
-void expect_fillable(const Entry& entry, const Job& job)
-{
-    const std::string reason = job.numerics.fill ? reason_not_to_fill(job) : "";
+    const std::string reason = problem.numerics.fill ? reason_not_to_fill(problem) : "";
     if (!reason.empty()) {
         refuse(*find(*find(entry, "numerics"), "fill"),
                fmt::format(" = true is not possible: {}. Remove it to integrate every point.",
@@ -147,9 +120,9 @@ void expect_fillable(const Entry& entry, const Job& job)
     }
 }
 
-void expect_known_errors(const Entry& job, const Numerics& numerics,
-                         const std::vector<Field>& fields)
+void expect_known_errors(const Entry& job, const Problem& problem)
 {
+    const auto& [scene, grid, numerics, product, fields] = problem;
     const bool asked =
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && !knows_errors(numerics)) {
@@ -166,18 +139,18 @@ std::vector<Field> read_fields(const Entry& job)
 {
     const auto output = find(job, "output");
     if (output) {
-        expect_table(*output, output_keys);
+        expect_table(*output, keys_of("output"));
     }
     const auto entry = output ? find(*output, "fields") : std::nullopt;
     if (!entry) {
         return {Field::region};
     }
-    const std::size_t size =
-        array_size(*entry, "an array of strings, such as [\"region\"]",
-                   fmt::format("Give at least one of {}.", fmt::join(spectrum_field_names, ", ")));
+    const std::size_t size = array_size(
+        *entry, "an array of strings, such as [\"region\"]",
+        fmt::format("Give at least one of {}.", fmt::join(spectrum_field_names(), ", ")));
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
-        const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names);
+        const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names());
         if (std::find(fields.begin(), fields.end(), field) != fields.end()) {
             refuse(element(*entry, i),
                    fmt::format(" = \"{}\" is listed twice. List each field once.", name_of(field)));

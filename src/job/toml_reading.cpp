@@ -2,6 +2,7 @@
 
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
+#include "overturn/text/error.hpp"
 #include "toml_text.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +80,7 @@ std::string place_of(const toml::source_region& source)
 
 void refuse(const Entry& entry, std::string_view text)
 {
-    throw JobError(fmt::format("{}: {}{}", place_of(entry.node->source()), entry.key, text));
+    throw Error(exit_code::job, "{}: {}{}", place_of(entry.node->source()), entry.key, text);
 }
 
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
@@ -91,9 +92,9 @@ void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
     for (const auto& [key, value] : *table) {
         if (std::find(allowed.begin(), allowed.end(), key.str()) == allowed.end()) {
             const std::string unknown = shortened(dotted(entry.key, key.str()), longest_quotation);
-            throw JobError(fmt::format("{}: unknown key {}.{} Allowed here: {}.",
-                                       place_of(key.source()), in_quotes(unknown),
-                                       suggestion(entry.key, key.str(), allowed), joined(allowed)));
+            throw Error(exit_code::job, "{}: unknown key {}.{} Allowed here: {}.",
+                        place_of(key.source()), in_quotes(unknown),
+                        suggestion(entry.key, key.str(), allowed), joined(allowed));
         }
     }
 }

@@ -1,4 +1,4 @@
-// Strict reading of a TOML tree: each function returns the requested value, or throws a JobError
+// Strict reading of a TOML tree: each function returns the requested value, or throws an Error
 // that names the place, what was found, what is allowed and what to do.
 #pragma once
 
@@ -28,10 +28,10 @@ inline constexpr std::string_view override_prefix = "--set ";
 /// "file:line:column", or the --set argument.
 std::string place_of(const toml::source_region& source);
 
-/// Throws a JobError with the place, the key, and the text that follows the key.
+/// Throws an Error with the place, the key, and the text that follows the key.
 [[noreturn]] void refuse(const Entry& entry, std::string_view text);
 
-/// Throws JobError unless the entry is a table with these keys only. `or_else` precedes "a table"
+/// Throws Error unless the entry is a table with these keys only. `or_else` precedes "a table"
 /// in the message, and names other allowed types.
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else = "");
 

@@ -1,14 +1,19 @@
 // What becomes of single blocks: the fields of a list of blocks with motions of their own.
 #pragma once
 
-#include "overturn/sweep/block_list.hpp"
-#include "overturn/sweep/scene.hpp"
-#include "overturn/sweep/tile.hpp"
+#include "overturn/problem/given.hpp"
+#include "overturn/problem/scene.hpp"
+#include "overturn/problem/tile.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace overturn {
+
+/// Named columns of equal length: quantities of the blocks and their motions.
+using Columns = std::map<std::string, std::vector<double>>;
 
 /// Where the fields are written, one value per block.
 struct FieldArrays {
@@ -19,8 +24,8 @@ struct FieldArrays {
 };
 
 /// Computes the fields of every block, with the widest kernel and in the tiles of `overturn run`,
-/// so that the bits are those of a list job. Returns implausible_values(). Throws ListError,
-/// ProcessorError or TileDropped.
+/// so that the bits are those of a list job. Returns implausible_values(). Throws GivenError,
+/// Error or TileDropped.
 std::string evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
                      const FieldArrays& to, const DropRequested& drop_requested);
 

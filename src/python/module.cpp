@@ -3,8 +3,9 @@
 #include "evaluate.hpp"
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/problem/quantity.hpp"
 #include "overturn/record/read_record.hpp"
-#include "overturn/sweep/quantity.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -132,7 +133,7 @@ private:
 };
 
 /// The fields of every block by name, and what looks like a mistake in the units as "warning";
-/// columns: arrays of equal length, see block_list(). Columns
+/// columns: arrays of equal length, see evaluate(). Columns
 /// without rows are not checked.
 py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
                           const std::map<std::string, Values>& columns)
@@ -212,16 +213,19 @@ PYBIND11_MODULE(_core, module)
     module.attr("safe_regions") = regions(&is_safe);
     module.attr("unsafe_regions") = regions(&is_unsafe);
 
-    // ListError(row, column, message)
-    static py::exception<ListError> list_error(module, "ListError", PyExc_ValueError);
-    py::register_exception<RecordError>(module, "RecordError", PyExc_ValueError);
+    // GivenError(row, quantity, message)
+    static py::exception<GivenError> given_error(module, "GivenError", PyExc_ValueError);
+    static py::exception<Error> record_error(module, "RecordError", PyExc_ValueError);
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             std::rethrow_exception(thrown);
-        } catch (const ListError& error) {
+        } catch (const GivenError& error) {
             const py::tuple arguments =
-                py::make_tuple(error.row(), error.column(), std::string(error.what()));
-            PyErr_SetObject(list_error.ptr(), arguments.ptr());
+                py::make_tuple(error.row(), error.quantity(), std::string(error.what()));
+            PyErr_SetObject(given_error.ptr(), arguments.ptr());
+        } catch (const Error& error) {
+            const bool is_of_record = error.code() == exit_code::job; // otherwise of the processor
+            PyErr_SetString(is_of_record ? record_error.ptr() : PyExc_RuntimeError, error.what());
         }
     });
 }

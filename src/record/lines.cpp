@@ -1,6 +1,7 @@
 #include "lines.hpp"
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -19,25 +20,7 @@ constexpr char lower(char letter)
 
 void refuse_record(const std::string& name, std::string_view reason)
 {
-    throw RecordError(fmt::format("{}: {}", name, reason));
-}
-
-std::string quoted(std::string_view text)
-{
-    constexpr std::size_t longest = 40;
-    std::string result = "\"";
-    for (const char letter : text.substr(0, longest)) {
-        const auto code = static_cast<unsigned char>(letter);
-        if (letter == '"' || letter == '\\') {
-            result += '\\';
-            result += letter;
-        } else if (code < 0x20 || code >= 0x7f) {
-            result += fmt::format("\\x{:02x}", code);
-        } else {
-            result += letter;
-        }
-    }
-    return result + (text.size() > longest ? "...\"" : "\"");
+    throw Error(exit_code::job, "{}: {}", name, reason);
 }
 
 bool Lines::next()
@@ -57,7 +40,7 @@ bool Lines::next()
 
 void Lines::refuse(std::string_view reason) const
 {
-    throw RecordError(fmt::format("{}:{}: {}", *name_, number_, reason));
+    throw Error(exit_code::job, "{}:{}: {}", *name_, number_, reason);
 }
 
 Lines ahead_by(Lines lines, std::size_t count)
@@ -90,14 +73,6 @@ void Header::take(Lines& lines, std::size_t count)
         }
         add(lines);
     }
-}
-
-std::string_view trimmed(std::string_view text)
-{
-    constexpr std::string_view blanks = " \t";
-    const std::size_t first = text.find_first_not_of(blanks);
-    return first == text.npos ? std::string_view()
-                              : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 std::size_t place_after(std::string_view text, std::string_view words)

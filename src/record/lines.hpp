@@ -1,6 +1,8 @@
 // The lines of a file, one after another, and the refusal of a line.
 #pragma once
 
+#include "overturn/text/quoting.hpp"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -9,11 +11,8 @@
 
 namespace overturn {
 
-/// Throws a RecordError about a file as a whole.
+/// Throws an Error about a file as a whole.
 [[noreturn]] void refuse_record(const std::string& name, std::string_view reason);
-
-/// The text in double quotes, shortened if it is long, with all but printable ASCII escaped.
-std::string quoted(std::string_view text);
 
 /// A cursor over the lines of a text. A copy looks ahead. The text and the name must outlive it.
 class Lines {
@@ -29,7 +28,7 @@ public:
     /// Counted from 1; 0 before the first line.
     std::size_t number() const { return number_; }
 
-    /// Throws a RecordError with the file and the current line.
+    /// Throws an Error with the file and the current line.
     [[noreturn]] void refuse(std::string_view reason) const;
 
 private:
@@ -57,9 +56,6 @@ private:
     std::vector<std::string> kept_;
     std::size_t size_ = 0;
 };
-
-/// The text without blanks and tabs at both ends.
-std::string_view trimmed(std::string_view text);
 
 /// Whether the text contains the words, ignoring the case of ASCII letters.
 bool contains(std::string_view text, std::string_view words);

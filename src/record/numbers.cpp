@@ -92,14 +92,15 @@ double number_of(const Lines& lines, std::string_view word)
     if (error == std::errc::invalid_argument) {
         lines.refuse(fmt::format("{} is not a number. Write numbers as in 0.5, -.5E-01 or "
                                  "-.5D-01.",
-                                 quoted(word)));
+                                 quoted_bytes(word)));
     }
     if (error == std::errc::result_out_of_range) {
-        lines.refuse(
-            fmt::format("{} is outside the range of double precision. Correct it.", quoted(word)));
+        lines.refuse(fmt::format("{} is outside the range of double precision. Correct it.",
+                                 quoted_bytes(word)));
     }
     if (!std::isfinite(value)) {
-        lines.refuse(fmt::format("{} is not finite. Give a record without gaps.", quoted(word)));
+        lines.refuse(
+            fmt::format("{} is not finite. Give a record without gaps.", quoted_bytes(word)));
     }
     return value;
 }
@@ -113,7 +114,7 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
         count > most_samples) {
         lines.refuse(fmt::format("{} is {}, but must be an integer from {} to {}. Correct it, or "
                                  "give another record.",
-                                 what, quoted(word), least, most_samples));
+                                 what, quoted_bytes(word), least, most_samples));
     }
     return count;
 }
@@ -135,8 +136,9 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
             if (values.size() == announced.count) {
                 lines.refuse(fmt::format("{} follows the last of the {} sample{} that {} announces "
                                          "in line {}. Correct {} or remove the rest.",
-                                         quoted(word), announced.count, plural(announced.count),
-                                         announced.name, announced.line, announced.name));
+                                         quoted_bytes(word), announced.count,
+                                         plural(announced.count), announced.name, announced.line,
+                                         announced.name));
             }
             values.push_back(number_of(lines, word));
         });

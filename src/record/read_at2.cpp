@@ -60,14 +60,14 @@ Sampling read_sampling(const Lines& lines)
     if (!count || !step || count->empty() || step->empty()) {
         lines.refuse(fmt::format("{} lacks the number of points or the time step. Write it as in "
                                  "NPTS= 4000, DT= .01 SEC.",
-                                 quoted(line)));
+                                 quoted_bytes(line)));
     }
     const char* after = step->data() + step->size();
     if (line.data() + line.size() - after > 1 && after[0] == ',' && '0' <= after[1] &&
         after[1] <= '9') {
         lines.refuse(fmt::format("the time step {} has a decimal comma. Write it with a point, as "
                                  "in DT= .01 SEC.",
-                                 quoted(std::string_view(step->data(), step->size() + 2))));
+                                 quoted_bytes(std::string_view(step->data(), step->size() + 2))));
     }
     const std::string_view unit =
         first_word(trimmed(line.substr(std::size_t(step->data() - line.data()) + step->size())));
@@ -76,7 +76,7 @@ Sampling read_sampling(const Lines& lines)
     if (is_word && of_step[0] != 's' && of_step != "npts") {
         lines.refuse(fmt::format("the unit {} of the time step is not understood. Write it in "
                                  "seconds, as in DT= .01 SEC.",
-                                 quoted(unit)));
+                                 quoted_bytes(unit)));
     }
     return {.count = count_of(lines, *count, "NPTS"),
             .time_step = time_step_of(lines, without_unit(*step))};
@@ -90,7 +90,7 @@ void expect_acceleration(const Lines& lines)
          (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT")))) {
         lines.refuse(
             fmt::format("{} does not contain accelerations. Give the AT2 file of this record.",
-                        quoted(trimmed(line))));
+                        quoted_bytes(trimmed(line))));
     }
 }
 
@@ -116,12 +116,12 @@ Unit unit_of_header(const Lines& before, const std::optional<AccelerationUnit>& 
             if (given) {
                 return {*given, true};
             }
-            const std::string reason = stated.unit
-                                           ? fmt::format("contradicts {}", quoted(found->text))
-                                           : "is not understood";
+            const std::string reason =
+                stated.unit ? fmt::format("contradicts {}", quoted_bytes(found->text))
+                            : "is not understood";
             lines.refuse(fmt::format("the unit {} {}. Understood are {} and their usual spellings, "
                                      "such as CM/SEC/SEC. State the unit of the samples: {}.",
-                                     quoted(stated.text), reason,
+                                     quoted_bytes(stated.text), reason,
                                      fmt::join(acceleration_unit_names, ", "),
                                      how_to_state("units")));
         }

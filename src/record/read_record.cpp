@@ -1,7 +1,7 @@
 #include "overturn/record/read_record.hpp"
 
 #include "overturn/record/text_file.hpp"
-#include "overturn/record/utf8.hpp"
+#include "overturn/text/utf8.hpp"
 
 #include "formats.hpp"
 #include "numbers.hpp"
@@ -95,7 +95,7 @@ void expect_no_other_unit(const RecordFile& file, const std::string& name)
                 if (is_text && is_time(simplified(stated.text))) {
                     refuse_record(name, fmt::format("the line {} states times in {}. Give times in "
                                                     "seconds.",
-                                                    quoted(trimmed(std::string_view(line))),
+                                                    quoted_bytes(trimmed(std::string_view(line))),
                                                     stated.text));
                 }
                 const bool is_same = stated.unit && units_per_m_per_s2(*stated.unit) ==
@@ -110,8 +110,8 @@ void expect_no_other_unit(const RecordFile& file, const std::string& name)
             refuse_record(
                 name, fmt::format("the line {} states the unit {}, but {} is {}. Correct one of "
                                   "them.",
-                                  quoted(trimmed(std::string_view(other->second))),
-                                  quoted(std::string_view(other->first.text)),
+                                  quoted_bytes(trimmed(std::string_view(other->second))),
+                                  quoted_bytes(std::string_view(other->first.text)),
                                   file.has_given_unit ? "the given unit" : "that of the format",
                                   name_of(component.unit)));
         }
@@ -190,7 +190,7 @@ RecordFile read_text_with_unit(const Lines& lines, const std::string& name,
         "{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, SMC, or "
         "text of one or two columns, in which # or % precedes comments. "
         "Convert the file to one of these.",
-        quoted(trimmed(lines.line()))));
+        quoted_bytes(trimmed(lines.line()))));
 }
 
 /// Refuses options that a file states itself.
@@ -257,7 +257,7 @@ RecordFile parse_record(std::string_view text, const std::string& name,
 
 RecordFile read_record(const std::string& path, const RecordOptions& options)
 {
-    return parse_record(text_of_file<RecordError>(path, record_file), path, options);
+    return parse_record(text_of_file(path, record_file), path, options);
 }
 
 } // namespace overturn

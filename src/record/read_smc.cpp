@@ -30,7 +30,7 @@ void expect_accelerogram(const Lines& lines)
 {
     if (!contains(lines.line(), "ACCELEROGRAM")) {
         lines.refuse(fmt::format("{} is not an accelerogram. Give the file of the acceleration.",
-                                 quoted(trimmed(lines.line()))));
+                                 quoted_bytes(trimmed(lines.line()))));
     }
 }
 
@@ -56,7 +56,7 @@ double time_step_of_rate(const Lines& lines)
     if (!(samples_per_second >= least && samples_per_second < no_value)) {
         lines.refuse(fmt::format("the number of samples per second, columns 16 to 30, is {}, but "
                                  "must be above 0 and below 1.7e38. Correct it.",
-                                 quoted(word)));
+                                 quoted_bytes(word)));
     }
     return 1 / samples_per_second;
 }

@@ -1,6 +1,7 @@
 #include "overturn/record/read_table.hpp"
 
-#include "overturn/record/utf8.hpp"
+#include "overturn/text/error.hpp"
+#include "overturn/text/utf8.hpp"
 
 #include "lines.hpp"
 
@@ -50,7 +51,7 @@ public:
 
     [[noreturn]] void refuse(std::int64_t line, std::int64_t column, std::string_view reason) const
     {
-        throw TableError(fmt::format("{}:{}:{}: {}", *name_, line, column, reason));
+        throw Error(exit_code::job, "{}:{}:{}: {}", *name_, line, column, reason);
     }
 
 private:
@@ -139,8 +140,9 @@ void expect_utf8(Values values)
         const std::int64_t column = values.column();
         const std::string_view value = values.next();
         if (!is_utf8(value)) {
-            values.refuse(line, column,
-                          fmt::format("{} is not UTF-8. Save the table in UTF-8.", quoted(value)));
+            values.refuse(
+                line, column,
+                fmt::format("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value)));
         }
     }
 }
@@ -161,7 +163,7 @@ std::vector<TableColumn> read_names(Values& values)
             values.refuse(line, column,
                           fmt::format("the name {} is repeated. Give every column a name "
                                       "of its own.",
-                                      quoted(name)));
+                                      quoted_bytes(name)));
         }
         columns.push_back({std::move(name), {}, {}});
     } while (!values.ends_row());
@@ -169,7 +171,7 @@ std::vector<TableColumn> read_names(Values& values)
         values.refuse(1, 1,
                       fmt::format("{} is one name. Separate names and values by commas, and write "
                                   "numbers with a decimal point.",
-                                  quoted(columns[0].name)));
+                                  quoted_bytes(columns[0].name)));
     }
     return columns;
 }
@@ -186,12 +188,13 @@ void for_each_value_of_row(Values& values, std::size_t columns, const Visit& vis
         }
         if (values.ends_row()) {
             if (i + 1 != columns) {
-                throw TableError(fmt::format("{}:{}: the row has {} value{}, but the first line "
-                                             "names {} column{}. Separate values by commas; put "
-                                             "a value that contains one in quotes. The decimal "
-                                             "mark is a point.",
-                                             values.name(), line, i + 1, i == 0 ? "" : "s", columns,
-                                             columns == 1 ? "" : "s"));
+                throw Error(exit_code::job,
+                            "{}:{}: the row has {} value{}, but the first line "
+                            "names {} column{}. Separate values by commas; put "
+                            "a value that contains one in quotes. The decimal "
+                            "mark is a point.",
+                            values.name(), line, i + 1, i == 0 ? "" : "s", columns,
+                            columns == 1 ? "" : "s");
             }
             return;
         }
@@ -211,13 +214,14 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
 {
     text = without_empty_lines_at_the_end(without_byte_order_mark(text));
     if (text.empty()) {
-        throw TableError(name + ":1: the file is empty. The first line names the columns, such as "
-                                "width,height,restitution.");
+        throw Error(exit_code::job,
+                    name + ":1: the file is empty. The first line names the columns, such as "
+                           "width,height,restitution.");
     }
     if (text.find('\0') != text.npos) {
-        throw TableError(name +
-                         ": is not a table of text, because it contains NUL characters. Save "
-                         "it as comma-separated values in UTF-8.");
+        throw Error(exit_code::job,
+                    name + ": is not a table of text, because it contains NUL characters. Save "
+                           "it as comma-separated values in UTF-8.");
     }
     Values values(text, name);
     if (!is_utf8(text)) {
@@ -245,7 +249,8 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
         });
     }
     if (table.lines.empty()) {
-        throw TableError(name + ":2: the table has no rows. Add a line of values for each block.");
+        throw Error(exit_code::job,
+                    name + ":2: the table has no rows. Add a line of values for each block.");
     }
     const auto is_text = [](const TableColumn& column) { return column.first_text >= 0; };
     if (std::any_of(table.columns.begin(), table.columns.end(), is_text)) {

@@ -106,7 +106,7 @@ void expect_decimal_points(Lines lines)
         doubtful->refuse(fmt::format(
             "{} may be a number with a decimal comma, because the file has no decimal point. Write "
             "numbers with a point, and separate columns by blanks.",
-            quoted(trimmed(doubtful->line()))));
+            quoted_bytes(trimmed(doubtful->line()))));
     }
 }
 

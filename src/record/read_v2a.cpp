@@ -32,7 +32,7 @@ void expect_title(const Lines& lines)
     if (!contains(lines.line(), "accelerogram")) {
         lines.refuse(fmt::format("{} is not the first line of a component, such as Corrected "
                                  "accelerogram. Give the file as it was published.",
-                                 quoted(lines.line())));
+                                 quoted_bytes(lines.line())));
     }
 }
 
@@ -42,7 +42,7 @@ std::string component_name(const Lines& lines)
     const std::size_t place = place_after(lines.line(), "Component");
     if (place == std::string_view::npos) {
         lines.refuse(fmt::format("{} does not name the component. Write it as in Component N28W.",
-                                 quoted(lines.line())));
+                                 quoted_bytes(lines.line())));
     }
     const std::string_view name = trimmed(lines.line().substr(place));
     return std::string(name.substr(0, name.find_first_of(" \t")));
@@ -53,7 +53,7 @@ void expect_unit(const Lines& lines)
     if (!contains(lines.line(), "mm/s/s")) {
         lines.refuse(fmt::format("{} does not state the unit mm/s/s. Give the values as text with "
                                  "their unit.",
-                                 quoted(lines.line())));
+                                 quoted_bytes(lines.line())));
     }
 }
 

@@ -71,8 +71,10 @@ std::vector<Word> words_of(std::string_view line)
                 words.push_back({word.spelling.substr(0, unit - 1), word.text.substr(0, unit - 1),
                                  word.before});
                 word = {word.spelling.substr(unit), word.text.substr(unit), "["};
+                words.push_back(std::exchange(word, Word{{}, {}, "," + marks})); // ends the phrase
+            } else {
+                words.push_back(std::exchange(word, Word{{}, {}, marks}));
             }
-            words.push_back(std::exchange(word, Word{{}, {}, marks}));
         }
     };
     for (const char letter : line) {
@@ -216,7 +218,8 @@ private:
     bool is_multiple() const
     {
         const auto rest = after_factor(word(at_));
-        if (!rest || (is_number_like(word(at_)) && !words_[at_].before.empty())) {
+        const bool is_power = word(at_).find_first_of("^*") != std::string::npos; // 10^-3
+        if (!rest || (is_number_like(word(at_)) && !words_[at_].before.empty() && !is_power)) {
             return false;
         }
         constexpr std::array<std::string_view, 3> joints{"of", "x", "*"};
@@ -268,7 +271,8 @@ private:
         }
         const auto found = match(at_);
         const bool is_unit = found && found->unit != AccelerationUnit::g;
-        if (is_unit || is_length_over_time(word(at_))) {
+        const bool is_scaled = word(at_) == "scaled" && continues(at_ + 1) && word(at_ + 1) == "by";
+        if (is_unit || is_scaled || is_length_over_time(word(at_)) || is_always_unit(word(at_))) {
             take_any();
         } else {
             ++at_;

@@ -30,13 +30,25 @@ constexpr bool is_digit(char character)
 
 std::string simplified(std::string_view line)
 {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> letters{
+        {{"\xc2\xb2", "2"},      // superscript 2
+         {"\xb2", "2"},          // in Latin-1
+         {"\xc2\xb3", "3"},      // superscript 3
+         {"\xe2\x81\xbb", "-"},  // superscript minus
+         {"\xe2\x88\x92", "-"},  // minus
+         {"\xc2\xb7", ""},       // dot
+         {"\xe2\x8b\x85", ""}}}; // dot
     std::string text;
-    for (const char letter : line) {
-        if (letter == '\xb2') {
-            text.resize(text.size() - (text.ends_with('\xc2') ? 1 : 0)); // of UTF-8
-            text += '2';
+    while (!line.empty()) {
+        const auto* found = std::find_if(letters.begin(), letters.end(), [&](const auto& letter) {
+            return line.starts_with(letter.first);
+        });
+        if (found != letters.end()) {
+            text += found->second;
+            line.remove_prefix(found->first.size());
         } else {
-            text += 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+            text += 'A' <= line[0] && line[0] <= 'Z' ? char(line[0] - 'A' + 'a') : line[0];
+            line.remove_prefix(1);
         }
     }
     return text;
@@ -106,11 +118,12 @@ bool is_operator(std::string_view word)
 
 bool resembles_unit(std::string_view word)
 {
-    constexpr std::array<std::string_view, 35> names{
-        "g",    "gs",  "gal",  "gals",   "mgal",  "mg",     "ug",           "cms",  "cmss",
-        "mm",   "cm",  "dm",   "km",     "ft",    "feet",   "foot",         "inch", "inches",
-        "si",   "cgs", "mks",  "metric", "count", "counts", "mss",          "mps",  "cmps",
-        "mmps", "mms", "volt", "volts",  "ms",    "msec",   "milliseconds", "us"};
+    constexpr std::array<std::string_view, 38> names{
+        "g",    "gs",           "gal",  "gals", "mgal",    "mg",     "ug",    "cms",
+        "cmss", "mm",           "cm",   "dm",   "km",      "ft",     "feet",  "foot",
+        "inch", "inches",       "si",   "cgs",  "mks",     "metric", "count", "counts",
+        "mss",  "mps",          "cmps", "mmps", "mms",     "volt",   "volts", "ms",
+        "msec", "milliseconds", "us",   "min",  "minutes", "hours"};
     const auto end = std::find_if_not(word.begin(), word.end(), is_letter);
     const std::string_view name = word.substr(0, std::size_t(end - word.begin()));
     const bool is_short = name == "m" || name == "in"; // also an initial, and a preposition
@@ -120,7 +133,14 @@ bool resembles_unit(std::string_view word)
 
 bool is_time(std::string_view word)
 {
-    constexpr std::array<std::string_view, 4> units{"ms", "msec", "milliseconds", "us"};
+    constexpr std::array<std::string_view, 7> units{"ms",  "msec",    "milliseconds", "us",
+                                                    "min", "minutes", "hours"};
+    return is_one_of(word, units);
+}
+
+bool is_always_unit(std::string_view word)
+{
+    constexpr std::array<std::string_view, 5> units{"n/kg", "si", "mks", "cgs", "mgal"};
     return is_one_of(word, units);
 }
 

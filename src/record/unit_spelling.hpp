@@ -9,7 +9,8 @@
 
 namespace overturn {
 
-/// In lower case, with the superscript 2 of UTF-8 and of Latin-1 as a digit.
+/// In lower case, with superscripts of UTF-8 and Latin-1 as digits and minus signs, and without the
+/// dots of products.
 std::string simplified(std::string_view line);
 
 /// A unit or a part of one in a normal form: "sec**2" becomes "s2".
@@ -24,6 +25,9 @@ bool is_operator(std::string_view word);
 /// Whether a word begins like a unit: with the name of a length, of an acceleration, of a system of
 /// units or of raw data, alone or before something other than a letter.
 bool resembles_unit(std::string_view word);
+
+/// Whether a word can only be a unit, wherever it is: that of a force over a mass, or a system.
+bool is_always_unit(std::string_view word);
 
 /// Whether a word is a unit of time other than the second.
 bool is_time(std::string_view word);

@@ -73,21 +73,26 @@ std::vector<Numerics> accuracy_ladder(const Scene& scene)
     return ladder;
 }
 
-AccuracyStudy::AccuracyStudy(const Scene& scene, const Plane& plane, std::int64_t points,
+AccuracyStudy::AccuracyStudy(const Scene& scene, const Grid& grid, std::int64_t points,
                              std::int64_t in_digits, Kernel kernel)
     : scene_(scene), kernel_(kernel)
 {
-    sample_.plane = sample_of(plane, points);
+    sample_.grid = sample_of(grid, points);
     settle_verdicts();
     compute_in_digits(in_digits);
 }
 
+Problem AccuracyStudy::problem(const Numerics& numerics, std::vector<Field> fields) const
+{
+    return {scene_, sample_.grid, numerics, Product::spectrum, std::move(fields)};
+}
+
 void AccuracyStudy::settle_verdicts()
 {
-    const Tiling tiling(sample_.plane);
+    const Problem settled = problem(most_accurate, {Field::region, Field::margin});
+    const Tiling tiling = tiling_of(settled);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        truth_.push_back(sweep_tile(scene_, most_accurate, sample_.plane, tiling[i],
-                                    {Field::region, Field::margin}, kernel_));
+        truth_.push_back(compute_tile(settled, tiling[i], kernel_));
         const auto& regions = values_of<std::uint8_t>(truth_.back(), 0);
         for (std::size_t point = 0; point < regions.size(); ++point) {
             if (regions[point] < decided_regions) {
@@ -101,11 +106,13 @@ void AccuracyStudy::settle_verdicts()
 
 void AccuracyStudy::compute_in_digits(std::int64_t wanted)
 {
-    const Tiling tiling(sample_.plane);
+    const Tiling tiling = tiling_of(problem(most_accurate, {}));
     const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const PointRun run(scene_, points_of(scene_, sample_.plane, tiling[i]), kernel_, nullptr,
-                           motion_of(scene_, tiling[i]));
+        const Coordinates coordinates(scene_, sample_.grid, tiling[i]);
+        const std::vector<std::int64_t> motions = coordinates.motions(); // of a tile, all are equal
+        const PointRun run(scene_, coordinates.points(), kernel_, nullptr,
+                           motions.empty() ? 0 : motions.front());
         Ends ends(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
             run.run_exactly<Digits50>(point, ends);
@@ -121,15 +128,15 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
 
 void AccuracyStudy::compute_regions(const Numerics& numerics) const
 {
-    const Tiling tiling(sample_.plane);
+    const Problem regions = problem(numerics, {Field::region});
+    const Tiling tiling = tiling_of(regions);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        sweep_tile(scene_, numerics, sample_.plane, tiling[i], {Field::region}, kernel_);
+        compute_tile(regions, tiling[i], kernel_);
     }
 }
 
 AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
 {
-    const Tiling tiling(sample_.plane);
     AccuracyRow row;
     row.numerics = numerics;
 
@@ -139,13 +146,14 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
     if (with_bounds) {
         requested.push_back(Field::error);
     }
+    const Problem studied = problem(numerics, requested);
+    const Tiling tiling = tiling_of(studied);
     std::vector<double> angle, velocity, margin, ratios;
     std::int64_t exceeded = 0;
     double steps = 0;
     auto exact = in_digits_.begin();
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const TileFields fields =
-            sweep_tile(scene_, numerics, sample_.plane, tiling[i], requested, kernel_);
+        const TileFields fields = compute_tile(studied, tiling[i], kernel_);
         const auto& true_region = values_of<std::uint8_t>(truth_[std::size_t(i)], 0);
         const auto& true_margin = values_of<double>(truth_[std::size_t(i)], 1);
         const auto& region = values_of<std::uint8_t>(fields, 0);
@@ -182,7 +190,7 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
             }
         }
     }
-    const double points = double(sample_.plane.points());
+    const double points = double(sample_.grid.points());
     row.steps = steps / points;
     row.evaluations = row.steps * (numerics.method == Method::rk45 ? 6 : 1);
     row.angle = distribution(angle);

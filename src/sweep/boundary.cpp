@@ -38,7 +38,7 @@ public:
 
     std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
     {
-        std::vector<PlanePoint> points;
+        std::vector<Point> points;
         for (const double amplitude : amplitudes) {
             points.push_back(
                 {line_.slenderness, line_.restitution, amplitude / line_.unit, line_.frequency});

@@ -3,10 +3,12 @@
 #include "fill_cell.hpp"
 
 #include "overturn/mechanics/theory.hpp"
+#include "overturn/problem/coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace overturn {
@@ -35,11 +37,20 @@ void split(int begin, int end, int parts, const Visitor& visit)
     }
 }
 
-/// The longest side of a cell along an axis of a plane [points]: 1/32 of the axis, but at least 64
-/// and at most 256.
-int longest_cell(const Axis& axis)
+/// The longest side of a cell along the dimension of this role [points]: 1/32 of the axis, but at
+/// least 64 and at most 256.
+int longest_cell(const Grid& grid, Role role)
 {
-    return int(std::clamp<std::int64_t>(axis.size() / 32, 64, 256));
+    const auto dimension = grid.dimension_of(role);
+    const std::int64_t size = dimension ? grid.dimensions[*dimension].size() : 1;
+    return int(std::clamp<std::int64_t>(size / 32, 64, 256));
+}
+
+/// The entry of a shape or index for a dimension; `otherwise` if there is none.
+std::int64_t along(const std::optional<std::size_t>& dimension, const Shape& shape,
+                   std::int64_t otherwise)
+{
+    return dimension ? shape[*dimension] : otherwise;
 }
 
 /// A share of 2^64.
@@ -85,13 +96,17 @@ void for_each_audited(double share, std::int64_t row, std::int64_t begin, std::i
 /// The points of a tile, filled cell by cell.
 class Filler {
 public:
-    Filler(const Scene& scene, const Numerics& numerics, const Plane& plane, const Tile& tile,
-           bool with_impacts, Kernel kernel, DropRequested drop_requested, const FillRule& rule)
-        : theory_(scene.theory), numerics_(numerics), axes_(scene, plane, tile), rule_(rule),
-          longest_{longest_cell(plane.amplitude), longest_cell(plane.frequency)},
-          run_(scene, {}, kernel, std::move(drop_requested)),
+    Filler(const Problem& problem, const Tile& tile, Kernel kernel, DropRequested drop_requested,
+           const FillRule& rule)
+        : theory_(problem.scene.theory), numerics_(problem.numerics), rule_(rule),
+          points_(Coordinates(problem.scene, problem.grid, tile).points()),
+          columns_(along(problem.grid.dimension_of(Role::rate), tile.count, 1)),
+          longest_{longest_cell(problem.grid, Role::strength),
+                   longest_cell(problem.grid, Role::rate)},
+          run_(problem.scene, {}, kernel, std::move(drop_requested)),
           node_at_(new int[std::size_t(tile.points())])
     {
+        const bool with_impacts = std::ranges::count(problem.fields, Field::impacts) > 0;
         const auto count = std::size_t(tile.points());
         filled_.region.resize(count);
         filled_.evaluated.resize(count);
@@ -106,7 +121,7 @@ public:
         }
     }
 
-    /// first: the row and the column of the first point among all points of the plane.
+    /// first: the row and the column of the first point among all points of the grid.
     void audit(std::array<std::int64_t, 2> first)
     {
         std::vector<int> checked;
@@ -134,8 +149,8 @@ public:
     FilledTile result() { return std::move(filled_); }
 
 private:
-    int rows() const { return int(axes_.amplitudes.size()); }
-    int columns() const { return int(axes_.frequencies.size()); }
+    int rows() const { return int(std::int64_t(points_.size()) / columns_); }
+    int columns() const { return int(columns_); }
     int place(int row, int column) const { return row * columns() + column; }
     bool with_impacts() const { return !filled_.impacts.empty(); }
 
@@ -202,10 +217,10 @@ private:
     std::int64_t integrate(const std::vector<int>& places, Records records)
     {
         records.region = true;
-        std::vector<PlanePoint> points;
+        std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
-            points.push_back(axes_(std::size_t(place / columns()), std::size_t(place % columns())));
+            points.push_back(points_[std::size_t(place)]);
         }
         const PointRun run = run_.with_points(std::move(points));
         const Ends ends = ends_of(run, numerics_, records);
@@ -277,8 +292,9 @@ private:
 
     const Theory theory_;
     const Numerics numerics_;
-    const TileAxes axes_;
     const FillRule rule_;
+    const std::vector<Point> points_; // row by row
+    const std::int64_t columns_;
     const std::array<int, 2> longest_; // side of a cell along rows and columns [points]
     const PointRun run_;               // without points
     FilledTile filled_;
@@ -288,20 +304,19 @@ private:
 
 } // namespace
 
-FilledTile fill_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                     const Tile& tile, bool with_impacts, Kernel kernel,
+FilledTile fill_tile(const Problem& problem, const Tile& tile, Kernel kernel,
                      DropRequested drop_requested, const FillRule& rule)
 {
-    Filler filler(scene, numerics, plane, tile, with_impacts, kernel, std::move(drop_requested),
-                  rule);
+    Filler filler(problem, tile, kernel, std::move(drop_requested), rule);
     filler.fill();
-    // The rows of the whole plane are numbered from the first one of the first spectrum.
+    // The rows of all spectra are numbered from the first one of the first spectrum.
+    const auto rate = problem.grid.dimension_of(Role::rate);
+    const Shape shape = problem.grid.shape();
     std::int64_t row = 0;
-    const Shape shape = shape_of(plane);
-    for (std::size_t i = 0; i + 1 < shape.size(); ++i) {
-        row = row * shape[i] + tile.begin[i];
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        row = i == rate ? row : row * shape[i] + tile.begin[i];
     }
-    filler.audit({row, tile.begin.back()});
+    filler.audit({row, along(rate, tile.begin, 0)});
     return filler.result();
 }
 

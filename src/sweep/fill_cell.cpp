@@ -12,7 +12,7 @@ template <Theory theory>
 Node node_of(const PointRun& run, const Ends& ends, int point)
 {
     const auto i = std::size_t(point);
-    const PlanePoint& at = run.point(point);
+    const Point& at = run.point(point);
     const Block<double> block{at.slenderness, at.restitution};
     const SafeRates<double> safe = safe_rates<theory>(ends.tilt[i], block);
     const double u = ends.rate[i];

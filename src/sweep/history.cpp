@@ -61,7 +61,7 @@ private:
 template <Theory theory, class GroundOf>
 class HistoryBuilder {
 public:
-    HistoryBuilder(const PlanePoint& point, const GroundOf& excitation)
+    HistoryBuilder(const Point& point, const GroundOf& excitation)
         : block_{point.slenderness, point.restitution}, excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
@@ -241,7 +241,7 @@ private:
 
 } // namespace
 
-History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view)
+History history_of(const Scene& scene, const Point& point, const HistoryView& view)
 {
     return with_theory(scene.theory, [&]<Theory theory>() {
         const auto build = [&](const auto& excitation) {

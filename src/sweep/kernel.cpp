@@ -1,5 +1,7 @@
 #include "sweep_kernel.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include <array>
 
 namespace overturn {
@@ -81,11 +83,13 @@ Kernel widest_kernel()
         }
     }
     if (processor_runs(Kernel::one_lane)) {
-        throw ProcessorError("this processor cannot run any kernel of this build. Configure "
-                             "overturn with -DOVERTURN_KERNELS=all, or build it on this machine.");
+        throw Error(exit_code::usage,
+                    "this processor cannot run any kernel of this build. Configure "
+                    "overturn with -DOVERTURN_KERNELS=all, or build it on this machine.");
     }
-    throw ProcessorError("this processor supports neither AVX2 with FMA nor AVX-512, of which "
-                         "overturn requires one (Intel processors since 2013, AMD since 2015).");
+    throw Error(exit_code::usage,
+                "this processor supports neither AVX2 with FMA nor AVX-512, of which "
+                "overturn requires one (Intel processors since 2013, AMD since 2015).");
 }
 
 } // namespace overturn

@@ -3,7 +3,7 @@
 #include "overturn/integrate/more_digits.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
-#include "overturn/sweep/fields.hpp"
+#include "overturn/problem/fields.hpp"
 
 #include <algorithm>
 
@@ -55,11 +55,10 @@ std::uint16_t Ends::stored_impacts(std::size_t point, bool recorded) const
                : std::uint16_t(std::min(impacts[point], double(impact_count::largest)));
 }
 
-Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
-               const std::vector<PlanePoint>& points)
+Pushes::Pushes(const GroundMotion<double>& motion, Theory theory, const std::vector<Point>& points)
     : of_point(points.size())
 {
-    const auto have_one_push = [](const PlanePoint& one, const PlanePoint& other) {
+    const auto have_one_push = [](const Point& one, const Point& other) {
         return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
     };
     const PerLobe<FlankInPulse<double>> flanks = flanks_of(motion);
@@ -76,7 +75,7 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory,
     }
 }
 
-PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
+PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
                    DropRequested drop_requested, std::int64_t motion)
     : scene_(scene), record_(scene.is_recorded() ? scene.records[std::size_t(motion)] : nullptr),
       motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
@@ -84,7 +83,7 @@ PointRun::PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel ke
       pushes_(record_ ? Pushes() : Pushes(motion_, scene.theory, points_))
 {}
 
-PointRun PointRun::with_points(std::vector<PlanePoint> points) const
+PointRun PointRun::with_points(std::vector<Point> points) const
 {
     PointRun run = *this;
     run.points_ = std::move(points);
@@ -100,7 +99,7 @@ bool PointRun::falls_freely(int point) const
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const PlanePoint& at = points_[std::size_t(point)];
+    const Point& at = points_[std::size_t(point)];
     if (record_) {
         return visit(record_excitation<theory>(*record_, T(at.slenderness), T(at.amplitude),
                                                T(at.frequency)));
@@ -209,7 +208,7 @@ template void PointRun::run_exactly<Digits50>(int, Ends&) const;
 bool PointRun::settle_low_bounces(int point, Ends& ends) const
 {
     const auto i = std::size_t(point);
-    const PlanePoint& block = points_[i];
+    const Point& block = points_[i];
     // The margin is that of a block at rest, 1, up to this error: the distances to the limits of
     // the rate change by no more than the tilt plus the rate.
     const double error = with_theory(scene_.theory, [&]<Theory theory>() {

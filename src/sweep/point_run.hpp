@@ -2,11 +2,10 @@
 #pragma once
 
 #include "sweep_kernel.hpp"
-#include "tile_points.hpp"
 
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/tile.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/tile.hpp"
 
 #include <optional>
 #include <vector>
@@ -38,8 +37,7 @@ struct Ends {
 /// The pushes of a pulse in the order of the points; successive points with the same push share it.
 struct Pushes {
     Pushes() = default;
-    Pushes(const GroundMotion<double>& motion, Theory theory,
-           const std::vector<PlanePoint>& points);
+    Pushes(const GroundMotion<double>& motion, Theory theory, const std::vector<Point>& points);
 
     const Push& operator[](int point) const
     {
@@ -54,14 +52,14 @@ struct Pushes {
 class PointRun {
 public:
     /// motion: the number of the record, if there are any.
-    PointRun(const Scene& scene, std::vector<PlanePoint> points, Kernel kernel,
+    PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr, std::int64_t motion = 0);
 
     /// The same scene and kernel with other points.
-    PointRun with_points(std::vector<PlanePoint> points) const;
+    PointRun with_points(std::vector<Point> points) const;
 
     int size() const { return int(points_.size()); }
-    const PlanePoint& point(int i) const { return points_[std::size_t(i)]; }
+    const Point& point(int i) const { return points_[std::size_t(i)]; }
 
     /// The phase at the end of the pulse [rad].
     double end_of_pulse() const { return motion_.end; }
@@ -108,7 +106,7 @@ private:
     GroundMotion<double> motion_;
     Kernel kernel_;
     DropRequested drop_requested_;
-    std::vector<PlanePoint> points_;
+    std::vector<Point> points_;
     Pushes pushes_;
 };
 

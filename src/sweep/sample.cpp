@@ -23,21 +23,39 @@ Axis spread(const Axis& axis, std::int64_t count)
 
 } // namespace
 
-Plane sample_of(const Plane& plane, std::int64_t points)
+Grid sample_of(const Grid& grid, std::int64_t points)
 {
-    constexpr std::int64_t most_of_a_block = 3; // slendernesses, and restitutions
-    Plane sample = plane;
-    sample.slenderness = spread(plane.slenderness, most_of_a_block);
-    sample.restitution = spread(plane.restitution, most_of_a_block);
-    const double left = double(points) / double(std::max<std::int64_t>(1, plane.motions)) /
-                        double(sample.slenderness.size()) / double(sample.restitution.size());
+    constexpr std::int64_t most_of_others = 3;
+    Grid sample = grid;
+    Axis* amplitude = nullptr;
+    Axis* frequency = nullptr;
+    auto left = double(points);
+    for (Dimension& dimension : sample.dimensions) {
+        Column& column = dimension.columns.front();
+        const bool is_last = &dimension == &sample.dimensions.back();
+        if (column.quantity->role == Role::motion) {
+            left /= double(dimension.size());
+        } else if (column.quantity->role == Role::strength) {
+            amplitude = &column.values;
+        } else if (is_last) {
+            frequency = &column.values;
+        } else {
+            column.values = spread(column.values, most_of_others);
+            left /= double(dimension.size());
+        }
+    }
     const std::int64_t side = std::max<std::int64_t>(1, std::int64_t(std::sqrt(left)));
-    const std::int64_t amplitudes = std::clamp<std::int64_t>(
-        std::int64_t(left / double(std::min(side, plane.frequency.size()))), 1,
-        plane.amplitude.size());
-    sample.amplitude = spread(plane.amplitude, amplitudes);
-    sample.frequency =
-        spread(plane.frequency, std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
+    const std::int64_t frequencies = frequency != nullptr ? frequency->size() : 1;
+    const std::int64_t amplitudes =
+        std::clamp<std::int64_t>(std::int64_t(left / double(std::min(side, frequencies))), 1,
+                                 amplitude != nullptr ? amplitude->size() : 1);
+    if (amplitude != nullptr) {
+        *amplitude = spread(*amplitude, amplitudes);
+    }
+    if (frequency != nullptr) {
+        *frequency =
+            spread(*frequency, std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
+    }
     return sample;
 }
 
@@ -53,7 +71,7 @@ std::vector<std::vector<int>> evenly_chosen(const Tiling& tiling, std::int64_t w
     double share = 0.5;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const Tile tile = tiling[i];
-        const auto columns = int(tile.columns());
+        const auto columns = tile.count.empty() ? 1 : int(tile.count.back());
         std::set<int> of_tile;
         for (; next < double(before + tile.points()); next += all ? 1 : stride) {
             const auto point = int(std::int64_t(next) - before);

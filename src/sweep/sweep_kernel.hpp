@@ -6,9 +6,9 @@
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/ground_motion.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
+#include "overturn/problem/point.hpp"
+#include "overturn/problem/scene.hpp"
 #include "overturn/sweep/kernel.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
 
 #include <cstdint>
 
@@ -24,7 +24,7 @@ struct Push {
 struct KernelTask {
     const GroundMotion<double>& pulse; ///< unless there is a record
     const Accelerogram* record;
-    const PlanePoint* points;
+    const Point* points;
     const int* push_of_point; ///< index into `pushes`, ascending; only under a pulse
     const Push* pushes;
     double tolerance; ///< see Numerics

@@ -37,7 +37,7 @@ class ABoundary(Scratch):
         for engine in ("netcdf4", "h5netcdf"):
             with xarray.open_dataset(self.folder / "boundary.h5", engine=engine) as found:
                 self.assertEqual(found.flip_amplitude.dims,
-                                 ("slenderness", "restitution", "crossing", "frequency"))
+                                 ("slenderness", "restitution_of_maximum", "crossing", "frequency"))
                 flips = found.flip_amplitude.values
                 below, above = found.region_below.values, found.region_above.values
         there = np.isfinite(flips)

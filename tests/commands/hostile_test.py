@@ -113,8 +113,8 @@ class AHostileResultFile(Scratch):
         self.assert_refused_by_all("has two names")
 
     def test_is_reported_as_damaged_if_hdf5_crashes_or_requests_gigabytes(self):
-        # Found by tools/check fuzz: HDF5 1.10.8 crashes at two of these and allocates 6 GB for the
-        # third.
+        # As found by tools/check fuzz: HDF5 1.10.8 crashes at one of these and allocates 6 GB for the
+        # other.
         for found in sorted(FOUND.iterdir()):
             shutil.copy(found, self.folder / "found.h5")
             for command in (["info", "found.h5"], ["verify", "found.h5"],

@@ -72,11 +72,10 @@ class Lists(Scratch):
                 share=data.restitution_of_maximum.values[row]))
             plane = self.compute("one.toml", f"{row}.h5")
             for field in FIELDS:
-                self.assertTrue(np.array_equal(data[field].values[row], plane[field].values[0, 0],
+                self.assertTrue(np.array_equal(data[field].values[row], plane[field].values[0],
                                                equal_nan=True), (row, field))
-            self.assertEqual(float(data.slenderness[row]), float(plane.slenderness[0]))
-            self.assertEqual(float(data.restitution_ratio[row]),
-                             float(plane.restitution_ratio[0, 0]))
+            for coordinate in ("slenderness", "restitution"):
+                self.assertEqual(float(data[coordinate][row]), plane[coordinate].item())
 
     def test_keeps_the_other_columns(self):
         data = self.compute("job.toml", "list.h5")
@@ -179,28 +178,29 @@ class Lists(Scratch):
                      "statues.csv:17:2: width is empty")
         self.refused(f"name,width,height,restitution\n{rows}\nb,2,1\n",
                      "statues.csv:17: the row has 3 values, but the first line names 4 columns")
-        self.refused("width,height\n1,2\n", "statues.csv:1: the restitution is missing")
-        self.refused("name,restitution\na,1\n", "statues.csv:1: the blocks are not described")
+        self.refused("width,height\n1,2\n", "job.toml:4:1: plane.restitution is missing")
+        self.refused("name,restitution\na,1\n", "job.toml:4:1: plane.slenderness is missing")
         self.refused("width,half_width,height,restitution\n1,1,2,1\n",
                      "statues.csv:1:2: half_width cannot be combined with width")
         self.refused("width,height,restitution,region\n1,2,1,1\n",
                      "statues.csv:1:4: region is the name of a variable of the result")
         self.refused("width,height,restitution,pga\n1,2,1,1\n",
-                     "statues.csv:1:4: pga does not describe a pulse by itself")
-        self.refused("slenderness,restitution\n0.3,0.9\n", "plane.pga needs the dimensions of the "
-                     "blocks")
+                     "statues.csv:1:4: pga cannot be combined with plane.pga")
+        self.refused("slenderness,restitution\n0.3,0.9\n",
+                     "job.toml:6:16: plane.pulse_period needs the dimensions of the block")
 
     def test_is_refused_where_a_plane_is_needed_or_contradicts_it(self):
-        for key in ("plane.restitution=0.9", "plane.size=1"):
-            self.assert_exit(self.overturn("check", "job.toml", "--set", key), 65,
-                             "cannot be combined with [blocks]")
+        for key, words in (("restitution", "statues.csv:1:4: restitution_of_maximum cannot be combined with "
+                                           "plane.restitution"),
+                           ("size", "plane.size cannot be combined with the column width")):
+            self.assert_exit(self.overturn("check", "job.toml", "--set", f"plane.{key}=0.9"), 65, words)
         self.refused(STATUES, "a list of blocks", command=("boundary", "job.toml"))
         self.refused(STATUES, "follows one block", code=2,
                      command=("history", "job.toml", "-o", "history.h5"))
         self.refused(STATUES, "studied on a plane", code=2,
                      command=("accuracy", "job.toml", "-o", "accuracy.h5"))
-        self.refused("width,height,restitution,pga,frequency\n1,2,0.9,1,2\n",
-                     "plane cannot be combined with a table whose rows have motions of their own")
+        self.refused("width,height,restitution,frequency\n1,2,0.9,2\n",
+                     "plane.pulse_period cannot be combined with the column frequency")
         self.assert_exit(self.overturn("check", "job.toml", "--set", "blocks.table=none.csv"), 65,
                          "none.csv: cannot be read")
 

@@ -20,14 +20,14 @@ class ABoundaryUnderARecord(ScratchWithRecords):
         result = self.overturn("boundary", "job.toml", "-o", out, "--set", self.SIZES, "--set",
                                "plane.slenderness=0.2", *arguments, ranks=ranks)
         self.assert_exit(result, 0, self.STRIPS)
-        return self.opened(out).isel(motion=0, slenderness=0, restitution=0)
+        return self.opened(out).isel(restitution_of_maximum=0)
 
     def test_has_the_verdicts_of_the_spectrum_at_all_steps_of_the_scan(self):
         scale = "plane.scale={ first = 1.0, last = 1.5, count = 501 }"  # the finest step
         found = self.boundary("--set", scale)
         self.run_job("--set", self.SIZES, "--set", "plane.slenderness=0.2", "--set", scale,
                      "--set", "numerics.resolve=true")
-        spectrum = self.opened().isel(motion=0, slenderness=0, restitution=0)
+        spectrum = self.opened().isel(restitution_of_maximum=0)
         self.assertEqual(found.unsafe_share.dims, ("size",))
         self.assertTrue((found.undecided_share == 0).all())
         flips = found.flip_amplitude.values
@@ -65,7 +65,7 @@ class ABoundaryUnderARecord(ScratchWithRecords):
 
     def test_is_the_same_in_peak_accelerations(self):
         scale = self.boundary("--set", "plane.scale={ first = 1.0, last = 1.5, count = 11 }")
-        peak = float(scale.pga)
+        peak = float(scale.record_pga)
         pga = self.boundary("--set", f"plane.pga={{ first = {peak}, last = {1.5 * peak}, "
                             "count = 11 }", out="pga.h5", ranks=2)
         self.assertTrue(np.array_equal(scale.region_above, pga.region_above))

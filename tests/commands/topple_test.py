@@ -54,7 +54,7 @@ class Toppling(Scratch):
             "boundary", "small.toml", "-o", "b.h5", *one,
             "--set", "plane.amplitude={ first = 1, last = 15, count = 141 }"), 0)
         with h5py.File(self.folder / "b.h5") as file:
-            flips = file["flip_amplitude"][0, 0, :3, 0] * math.tan(alpha)
+            flips = file["flip_amplitude"][:3, 0] * math.tan(alpha)
         (first, last), (above, end) = answer["toppling_pga"]
         for mine, theirs in zip((first, last, above), flips):
             self.assertLess(abs(mine - theirs), 1e-10)
@@ -122,20 +122,30 @@ class Toppling(Scratch):
         for one, other in zip(moon["toppling_pga"], earth["toppling_pga"], strict=True):
             self.assertLess(abs(one[0] / other[0] - 1), 1e-11)
 
-    def test_draws_the_history_in_seconds_and_degrees(self):
-        self.topple(*PULSE, "--pga", "0.9", "--plot", "tilt.svg")
-        picture = (self.folder / "tilt.svg").read_text()
-        for words in ("time since the start of the pulse  [s]", "tilt [degrees]"):
-            self.assertIn(f">{words}<", picture)
-        self.assertNotIn("history.h5", self.files())
+    def test_writes_the_motion_at_the_requested_acceleration(self):
+        text = self.topple(*PULSE, "--pga", "0.9", "--history", "tilt.h5")
+        self.assertTrue(text.endswith("\n\ntilt.h5: written; draw it with tools/plot_history tilt.h5 "
+                                      "--units physical\n"))
+        (self.folder / "job.toml").write_text("""
+            scene.pulse = "one_sine"
+            plane = { pulse_period = 0.5, pga = 0.9, restitution = { values = [1.0], of = "maximum" } }
+            block = { width = 0.6, height = 1.8 }
+            """)
+        self.assert_exit(self.overturn("history", "job.toml", "-o", "same.h5"), 0)
+        with h5py.File(self.folder / "tilt.h5") as one, h5py.File(self.folder / "same.h5") as other:
+            for name in ("time", "angle", "velocity"):
+                self.assertEqual(one[name][:].tolist(), other[name][:].tolist())
+        before = (self.folder / "tilt.h5").read_bytes()
+        self.answer(*PULSE, "--pga", "0.9", "--history", "tilt.h5")  # prints nothing but JSON
+        self.assertEqual((self.folder / "tilt.h5").read_bytes(), before)
 
-    def test_that_cannot_be_drawn_tells_why(self):
-        for picture, reason in (("none/tilt.png", "No such file or directory"),
-                                ("tilt.xyz", "must end in .png")):
-            result = self.overturn("topple", *PULSE, "--pga", "0.9", "--plot", picture)
-            self.assert_exit(result, 74)
-            self.assertEqual(len(result.stderr.splitlines()), 1)
-            self.assertIn(reason, result.stderr)
+    def test_that_cannot_be_written_is_refused_before_the_answer(self):
+        (self.folder / "notes.h5").write_text("not to be lost")
+        for path, reason in (("none/tilt.h5", "there is no folder"), ("notes.h5", "its kind is not")):
+            result = self.overturn("topple", *PULSE, "--pga", "0.9", "--history", path)
+            self.assert_exit(result, 74, reason)
+            self.assertEqual(result.stdout, "")
+        self.assertEqual((self.folder / "notes.h5").read_text(), "not to be lost")
 
     def assert_partition(self, answer):
         """Checks that the ranges of the three kinds cover the search without gaps."""
@@ -248,7 +258,7 @@ class Toppling(Scratch):
                 ((*PULSE, "--component", "2"), "--component applies to a record"),
                 ((*RECORD, "--scale", "2", "--pga", "1"), "exclude each other"),
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
-                ((*PULSE, "--plot", "a.png"), "Give --pga or --scale"),
+                ((*PULSE, "--history", "a.h5"), "Give --pga or --scale"),
                 ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
                 ((*PULSE, "--width", "0"), "0 is not a positive, finite number"),
                 ((*PULSE, "--pga-max", "nan"), "nan is not a positive, finite number"),

@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 ENGINES = ["h5netcdf", "netcdf4"]
-SHAPE = {"slenderness": 2, "restitution": 3, "amplitude": 7, "frequency": 11}
+SHAPE = {"slenderness": 2, "restitution_of_maximum": 3, "amplitude": 67, "frequency": 131}
 FIELDS = ["region", "angle", "velocity", "margin", "impacts", "status"]
 
 
@@ -65,12 +65,12 @@ class TestXarray(Sample):
     def test_has_four_coordinates_with_units(self):
         def check(dataset):
             units = {name: dataset[name].attrs["units"] for name in SHAPE}
-            self.assertEqual(units, {"slenderness": "rad", "restitution": "1", "amplitude": "1",
-                                     "frequency": "1"})
+            self.assertEqual(units, {"slenderness": "rad", "restitution_of_maximum": "1",
+                                     "amplitude": "1", "frequency": "1"})
             np.testing.assert_array_equal(dataset.slenderness, [0.1745716, 0.25])
-            np.testing.assert_array_equal(dataset.restitution, [0.7, 0.85, 1])
-            np.testing.assert_allclose(dataset.amplitude, np.linspace(0.25, 16, 7), rtol=1e-15)
-            np.testing.assert_allclose(dataset.frequency, np.linspace(0.5, 12, 11), rtol=1e-15)
+            np.testing.assert_array_equal(dataset.restitution_of_maximum, [0.7, 0.85, 1])
+            np.testing.assert_allclose(dataset.amplitude, np.linspace(0.25, 16, 67), rtol=1e-15)
+            np.testing.assert_allclose(dataset.frequency, np.linspace(0.5, 12, 131), rtol=1e-15)
             for name in dataset.variables:
                 self.assertIn(len(dataset[name].attrs["long_name"]), range(3, 41), name)
         self.in_every_engine(self.finished, check)
@@ -96,18 +96,21 @@ class TestXarray(Sample):
 
     def test_selects_by_coordinates(self):
         def check(dataset):
-            point = dataset.angle.sel(slenderness=0.25, restitution=0.85, amplitude=16, frequency=0.5)
-            self.assertEqual(point.item(), position()[1, 1, 6, 0] + 1 / 8)
+            point = dataset.angle.sel(slenderness=0.25, restitution_of_maximum=0.85, amplitude=16,
+                                      frequency=0.5)
+            self.assertEqual(point.item(), position()[1, 1, 66, 0] + 1 / 8)
         self.in_every_engine(self.finished, check)
 
-    def test_has_the_restitution_ratio_as_a_coordinate(self):
+    def test_has_derived_coordinates(self):
         largest = (1 - 1.5 * np.sin([[0.1745716], [0.25]]) ** 2) ** 2
 
         def check(dataset):
-            self.assertIn("restitution_ratio", dataset.coords)
-            np.testing.assert_allclose(dataset.restitution_ratio, [[0.7, 0.85, 1]] * largest,
+            self.assertEqual(dataset.restitution.dims, ("slenderness", "restitution_of_maximum"))
+            np.testing.assert_allclose(dataset.restitution, [[0.7, 0.85, 1]] * largest, rtol=1e-14)
+            self.assertEqual(dataset.pga.dims, ("slenderness", "amplitude"))
+            np.testing.assert_allclose(dataset.pga, np.tan(dataset.slenderness) * dataset.amplitude,
                                        rtol=1e-14)
-            self.assertEqual(dataset.restitution.attrs["of"], "maximum")
+            self.assertLessEqual({"restitution", "pga"}, set(dataset.coords))
         self.in_every_engine(self.finished, check)
 
     def test_has_as_many_meanings_as_flags(self):
@@ -131,7 +134,7 @@ class TestXarray(Sample):
     def test_reads_nan_and_codes_in_tiles_not_computed(self):
         def check(dataset):
             missing = np.isnan(dataset.angle.values)
-            self.assertEqual((~missing).sum(), 2 * 4 * 4)  # one tile of each rank
+            self.assertEqual((~missing).sum(), 2 * 64 * 64)  # one tile of each rank
             self.assertEqual(dataset.region.dtype, "u1")
             np.testing.assert_array_equal(dataset.region.values == 255, missing)
             np.testing.assert_array_equal(dataset.status.values == 255, missing)
@@ -165,7 +168,7 @@ class TestXarray(Sample):
         def check(dataset):
             table = dataset.to_dataframe()
             self.assertEqual(len(table), np.prod(list(SHAPE.values())))
-            self.assertEqual(set(table.columns), {*FIELDS, "restitution_ratio"})
+            self.assertEqual(set(table.columns), {*FIELDS, "restitution", "pga"})
         self.in_every_engine(self.finished, check)
 
     def test_writes_the_dataset_again(self):
@@ -184,18 +187,18 @@ class TestOtherReaders(Sample):
                 self.assertEqual([scale.keys()[0] for scale in file[name].dims], list(SHAPE))
                 np.testing.assert_array_equal(file[name].dims[3][0], file["frequency"])
             self.assertEqual(file["run/job_resolved"][()].tobytes().decode()[:5], "pulse")
-            self.assertEqual(file["angle"].chunks, (1, 1, 4, 4))
+            self.assertEqual(file["angle"].chunks, (1, 1, 64, 64))
 
     def test_netcdf4_masks_only_points_not_computed(self):
         with netCDF4.Dataset(self.unfinished) as file:
             self.assertEqual(file["angle"].dimensions, tuple(SHAPE))
             for name in ("angle", "region"):
-                self.assertEqual(np.ma.count(file[name][:]), 2 * 4 * 4)
+                self.assertEqual(np.ma.count(file[name][:]), 2 * 64 * 64)
 
     def test_ncdump_reads_every_value(self):
         run = subprocess.run(["ncdump", self.finished], capture_output=True, text=True, timeout=60)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        self.assertIn("double angle(slenderness, restitution, amplitude, frequency) ;", run.stdout)
+        self.assertIn("double angle(slenderness, restitution_of_maximum, amplitude, frequency) ;", run.stdout)
         self.assertIn('frequency:units = "1" ;', run.stdout)
         self.assertIn("tile = 36 ;", run.stdout)
 

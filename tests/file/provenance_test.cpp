@@ -2,6 +2,7 @@
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ TEST(Sidecar, EscapesCharactersReservedInJson)
 {
     const ScratchFolder folder;
     write_sidecar(folder / "a.h5", sample_run());
-    EXPECT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr(R"("node\"1\"\\\u000a")"));
+    EXPECT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr(R"("node\"1\"\\\u000A")"));
 }
 
 TEST(Sidecar, ReplacesAnOlderOne)
@@ -71,7 +72,7 @@ TEST(Sidecar, DoesNotReplaceAForeignFile)
 {
     const ScratchFolder folder;
     write_bytes(folder / "a.h5.json", "somebody else's");
-    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_run()), FileError);
+    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_run()), Error);
     EXPECT_EQ(bytes_of(folder / "a.h5.json"), "somebody else's");
 }
 
@@ -82,7 +83,8 @@ TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
     try {
         write_sidecar(folder / "a.h5", sample_run());
         ADD_FAILURE() << "the sidecar was written";
-    } catch (const FileError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::output);
         EXPECT_THAT(error.what(),
                     HasSubstr("a.h5.json\", the sidecar file of this run: file too large"));
         EXPECT_THAT(error.what(), HasSubstr("nevertheless"));
@@ -93,7 +95,7 @@ TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 TEST(Sidecar, RequiresAFolder)
 {
     const ScratchFolder folder;
-    EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_run()), FileError);
+    EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_run()), Error);
 }
 
 TEST(ProgramIdentity, HasAVersionAndACommit)

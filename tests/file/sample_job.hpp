@@ -2,57 +2,69 @@
 #pragma once
 
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/problem/given.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
-#include <cmath>
-#include <limits>
+#include <string_view>
 
 namespace overturn {
 
+/// Tiles of 64 x 64 points do not divide the plane evenly: 67 = 64 + 3 rows, 131 = 64 + 64 + 3
+/// columns.
 inline Job sample_job()
 {
+    const auto given = [](std::string_view name, Axis values) {
+        return Given{&quantity(name), std::string(name), std::move(values), GivenAs::axis};
+    };
     Job job;
     job.title = "Sample: r = r_max, α = 10°";
-    job.scene = {.pulse = PulseKind::symmetric_ricker,
-                 .theory = Theory::nonlinear,
-                 .shape = {.window = 1.25}};
-    job.plane.frequency = Axis(AxisRange{0.5, 12, 11, Spacing::linear});
-    job.plane.amplitude = Axis(AxisRange{0.25, 16, 7, Spacing::linear});
-    job.plane.restitution = Axis(AxisList{0.7, 0.85, 1});
-    job.plane.slenderness = Axis(AxisList{0.1745716, 0.25});
-    job.plane.restitution_of = RestitutionOf::maximum;
-    job.numerics = {.method = Method::rk45, .tolerance = 1e-9};
-    job.fields = {Field::region, Field::angle,   Field::velocity,
-                  Field::margin, Field::impacts, Field::status};
+    Problem& problem = job.problem;
+    problem.scene = {.pulse = PulseKind::symmetric_ricker,
+                     .theory = Theory::nonlinear,
+                     .shape = {.window = 1.25}};
+    problem.grid =
+        grid_of(problem.scene, {given("frequency", Axis(AxisRange{0.5, 12, 131, Spacing::linear})),
+                                given("amplitude", Axis(AxisRange{0.25, 16, 67, Spacing::linear})),
+                                given("restitution_of_maximum", Axis(AxisList{0.7, 0.85, 1})),
+                                given("slenderness", Axis(AxisList{0.1745716, 0.25}))});
+    problem.numerics = {.method = Method::rk45, .tolerance = 1e-9};
+    problem.fields = {Field::region, Field::angle,   Field::velocity,
+                      Field::margin, Field::impacts, Field::status};
     job.given = "title = \"Sample: r = r_max, α = 10°\"\n";
     job.overrides = {"plane.slenderness.values=[0.1745716, 0.25]", "output.fields=[\"region\"]"};
     job.resolved = "pulse = \"symmetric_ricker\"\nwindow = 1.25\ntolerance = 1e-09\n";
     return job;
 }
 
-/// Tiles that do not divide the plane evenly: 7 = 4 + 3 rows, 11 = 4 + 4 + 3 columns.
-inline Tiling sample_tiling(const Job& job)
+/// The values of an axis of the job.
+inline Axis& axis_of(Job& job, std::string_view name)
 {
-    return Tiling(shape_of(job.plane), {4, 4});
+    Grid& grid = job.problem.grid;
+    return grid.dimensions[*grid.dimension_of(name)].columns.front().values;
 }
 
 /// Every point has a unique value, computed from its position in the plane.
 inline TileFields sample_values(const Job& job, const Tile& tile)
 {
+    const Shape shape = job.problem.grid.shape();
+    const auto position_of = [&](std::int64_t point) {
+        std::int64_t position = 0;
+        std::int64_t stride = 1;
+        for (std::size_t i = shape.size(); i-- > 0;) {
+            position += stride * (tile.begin[i] + point % tile.count[i]);
+            stride *= shape[i];
+            point /= tile.count[i];
+        }
+        return position;
+    };
     TileFields result;
-    for (const Field field : job.fields) {
+    for (const Field field : job.problem.fields) {
         FieldValues values = make_field_values(field, std::size_t(tile.points()));
         std::visit(
             [&](auto& list) {
                 using Value = typename std::decay_t<decltype(list)>::value_type;
                 for (std::int64_t i = 0; i < tile.points(); ++i) {
-                    const std::int64_t row = tile.begin[2] + i / tile.columns();
-                    const std::int64_t column = tile.begin[3] + i % tile.columns();
-                    const std::int64_t block =
-                        tile.begin[0] * job.plane.restitution.size() + tile.begin[1];
-                    const std::int64_t position =
-                        (block * job.plane.amplitude.size() + row) * job.plane.frequency.size() +
-                        column;
+                    const std::int64_t position = position_of(i);
                     list[std::size_t(i)] = Value(position % 251);
                     if constexpr (std::is_floating_point_v<Value>) {
                         list[std::size_t(i)] = double(position) + double(int(field)) / 8;

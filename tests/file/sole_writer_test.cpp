@@ -1,6 +1,7 @@
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/sole_writer.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ TEST(SoleWriter, IsRefusedOnlyIfAnotherExists)
                 const SoleWriter writer(path);
                 EXPECT_EQ(++held, 1);
                 --held;
-            } catch (const FileError& error) {
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), exit_code::output);
                 EXPECT_THAT(error.what(), testing::HasSubstr("is being written by another run"));
             }
         }

@@ -2,7 +2,8 @@
 #include "support/scratch_folder_mpi.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ protected:
     void create(const std::string& path) const
     {
         if (rank == 0) {
-            create_spectrum_file(path, job, tiling);
+            create_spectrum_file(path, job);
         }
         MPI_Barrier(MPI_COMM_WORLD);
     }
@@ -55,8 +56,8 @@ protected:
     std::string bytes_from_one_rank(const std::string& path) const
     {
         if (rank == 0) {
-            create_spectrum_file(path, job, tiling);
-            SpectrumFile file(path, MPI_COMM_SELF, job);
+            create_spectrum_file(path, job);
+            SpectrumFile file(path, MPI_COMM_SELF, job.problem);
             write_tiles(file, all_tiles());
             file.close();
         }
@@ -66,7 +67,7 @@ protected:
 
     SharedScratchFolder folder;
     Job job = sample_job();
-    Tiling tiling = sample_tiling(job);
+    Tiling tiling = tiling_of(job.problem);
     int rank = 0;
     int ranks = 1;
 };
@@ -75,7 +76,7 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
 {
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "many.h5");
-    SpectrumFile file(folder / "many.h5", MPI_COMM_WORLD, job);
+    SpectrumFile file(folder / "many.h5", MPI_COMM_WORLD, job.problem);
     // Unequal shares, from the last tile to the first: rank 0 writes half of them.
     std::vector<std::int64_t> mine;
     for (std::int64_t number = tiling.size() - 1; number >= 0; --number) {
@@ -92,14 +93,14 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
 TEST_F(SpectrumFileOnRanks, IsCompleteWhenEveryTileIsWritten)
 {
     bytes_from_one_rank(folder / "a.h5");
-    EXPECT_EQ(examine(folder / "a.h5", job, tiling), Existing::complete);
+    EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, tiling.size());
 }
 
 TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
 {
     create(folder / "a.h5");
     {
-        SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+        SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
         if (rank == ranks - 1) {
             std::vector<std::int64_t> numbers = all_tiles();
             numbers.erase(numbers.begin() + 3);
@@ -108,8 +109,8 @@ TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
         }
         file.close();
     }
-    EXPECT_EQ(examine(folder / "a.h5", job, tiling), Existing::unfinished);
-    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+    EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, tiling.size() - 2);
+    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == 0) {
         EXPECT_THAT(file.missing_tiles(), ElementsAre(3, tiling.size() - 1));
     }
@@ -121,7 +122,7 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenFinishedLater)
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "resumed.h5");
     for (const std::int64_t remainder : {1, 0}) {
-        SpectrumFile file(folder / "resumed.h5", MPI_COMM_WORLD, job);
+        SpectrumFile file(folder / "resumed.h5", MPI_COMM_WORLD, job.problem);
         if (rank == 0) {
             std::vector<std::int64_t> numbers = file.missing_tiles();
             std::erase_if(numbers, [&](auto number) { return number % 2 != remainder; });
@@ -135,14 +136,14 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenFinishedLater)
 TEST_F(SpectrumFileOnRanks, HasValuesThatMatchTheirChecksums)
 {
     bytes_from_one_rank(folder / "a.h5");
-    EXPECT_THAT(damaged_tiles(folder / "a.h5"), IsEmpty());
+    EXPECT_THAT(StoredResult(folder / "a.h5").damaged_tiles(), IsEmpty());
 }
 
 TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 {
     create(folder / "new.h5");
     bytes_from_one_rank(folder / "a.h5");
-    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job);
+    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == ranks - 1) {
         for (const std::int64_t number : all_tiles()) {
             file.forget(tiling[number]);
@@ -155,9 +156,10 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 TEST_F(SpectrumFileOnRanks, CannotBeOpenedIfItDoesNotExist)
 {
     try {
-        SpectrumFile file(folder / "nowhere.h5", MPI_COMM_WORLD, job);
+        SpectrumFile file(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem);
         ADD_FAILURE() << "opened";
-    } catch (const FileError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::output);
         EXPECT_THAT(error.what(), HasSubstr("cannot open"));
     }
 }
@@ -190,8 +192,8 @@ TEST_F(SpectrumFileOnRanks, DiffersBetweenRanksIfOneHasACopyOrNoFile)
 TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
 {
     const std::string path = folder / ("limited" + std::to_string(rank));
-    create_spectrum_file(path, job, tiling);
-    SpectrumFile file(path, MPI_COMM_SELF, job);
+    create_spectrum_file(path, job);
+    SpectrumFile file(path, MPI_COMM_SELF, job.problem);
     rlimit before = {};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, SIG_IGN);
@@ -200,7 +202,8 @@ TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
     std::string message;
     try {
         file.write(tiling[17], sample_values(job, tiling[17]));
-    } catch (const FileError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::output);
         message = error.what();
     }
     setrlimit(RLIMIT_FSIZE, &before);
@@ -208,7 +211,7 @@ TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
     EXPECT_EQ(message, "cannot write tile 17 of \"region\": file too large. Run the same command "
                        "again to resume.");
     file.close();
-    EXPECT_EQ(summarize(path).tiles_done, 0)
+    EXPECT_EQ(StoredResult(path).tiles().tiles_done, 0)
         << "a tile that was not written must not count as done";
 }
 

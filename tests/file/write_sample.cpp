@@ -5,6 +5,7 @@
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/text/error.hpp"
 
 #include <csignal>
 #include <cstdlib>
@@ -39,12 +40,12 @@ void write_sample(const std::string& path, Stop stop)
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
     const Job job = job_with_long_text();
-    const Tiling tiling = sample_tiling(job);
-    if (rank == 0 && examine(path, job, tiling) == Existing::nothing) {
-        create_spectrum_file(path, job, tiling);
+    const Tiling tiling = tiling_of(job.problem);
+    if (rank == 0 && !existing_result(path, job)) {
+        create_spectrum_file(path, job);
     }
     MPI_Barrier(MPI_COMM_WORLD);
-    SpectrumFile file(path, MPI_COMM_WORLD, job);
+    SpectrumFile file(path, MPI_COMM_WORLD, job.problem);
     // All ranks read the list of missing tiles before the first of them writes.
     const std::vector<std::int64_t> missing = file.missing_tiles();
     MPI_Barrier(MPI_COMM_WORLD);
@@ -85,7 +86,7 @@ int main(int argc, char** argv)
     }
     try {
         overturn::write_sample(argc > 1 ? argv[1] : "sample.h5", stop);
-    } catch (const overturn::FileError& error) {
+    } catch (const overturn::Error& error) {
         std::cerr << error.what() << std::endl;
         MPI_Abort(MPI_COMM_WORLD, 74);
     }

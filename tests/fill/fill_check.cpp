@@ -1,12 +1,14 @@
 // fill_check POINTS [SEED [MUTANT]]: fills spectra without an audit, compares them with spectra of
-// which every point is integrated, and prints every kind of plane with the share of integrated
+// which every point is integrated, and prints every kind of spectrum with the share of integrated
 // points. At least POINTS points are compared: tiles in which weaker rules fail and, if POINTS is
-// not 0, the paper's planes, random planes, and random planes where many low bounces precede a
+// not 0, the paper's spectra, random spectra, and random spectra where many low bounces precede a
 // large motion. MUTANT: kappa (the rule of the nominal error) or grazes (impacts that could vanish
 // are ignored). Exit code 1 if a point is wrong, or if more points than expected were integrated.
 #include "overturn/mechanics/block.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/fill.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "support/given_values.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -16,13 +18,6 @@
 
 namespace overturn {
 namespace {
-
-struct Problem {
-    Scene scene;
-    Numerics numerics;
-    Plane plane;
-    bool with_impacts = false;
-};
 
 struct Counts {
     std::int64_t points = 0;
@@ -38,6 +33,27 @@ struct Counts {
     double share() const { return points > 0 ? double(integrated) / double(points) : 0; }
 };
 
+/// A spectrum of one block, filled without an audit.
+Problem filled_spectrum(const Scene& scene, Numerics numerics, std::vector<Given> points,
+                        bool with_impacts = false)
+{
+    numerics.fill = true;
+    numerics.audit = 0;
+    Problem problem{.scene = scene,
+                    .grid = grid_of(scene, std::move(points)),
+                    .numerics = numerics,
+                    .fields = {Field::region, Field::evaluated}};
+    if (with_impacts) {
+        problem.fields.insert(problem.fields.begin(), Field::impacts);
+    }
+    return problem;
+}
+
+bool has_impacts(const Problem& problem)
+{
+    return problem.fields.front() == Field::impacts;
+}
+
 std::string text_of(const Axis& axis)
 {
     const auto& range = std::get<AxisRange>(axis.definition());
@@ -51,7 +67,9 @@ std::string text_of(const Axis& axis)
 void name_point(const Problem& problem, std::int64_t row, std::int64_t column, int filled,
                 int direct)
 {
-    const auto& [scene, numerics, plane, with_impacts] = problem;
+    const auto& [scene, grid, numerics, product, fields] = problem;
+    const Coordinates coordinates(scene, grid);
+    const Axis& amplitude = grid.find("amplitude")->values;
     std::printf(
         "  WRONG: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha "
         "%.17g, r %.17g, Omega %s, a %s, %lld points a side%s: row %lld, column %lld: "
@@ -59,24 +77,24 @@ void name_point(const Problem& problem, std::int64_t row, std::int64_t column, i
         std::string(name_of(scene.pulse)).c_str(), std::string(name_of(scene.theory)).c_str(),
         std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
         numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-        scene.shape.gamma, scene.shape.nu, plane.slenderness[0], plane.restitution_ratio(0, 0),
-        text_of(plane.frequency).c_str(), text_of(plane.amplitude).c_str(),
-        static_cast<long long>(plane.amplitude.size()), with_impacts ? ", with impacts" : "",
-        static_cast<long long>(row), static_cast<long long>(column), filled, direct);
+        scene.shape.gamma, scene.shape.nu, coordinates.of("slenderness").first(),
+        coordinates.of("restitution").first(), text_of(grid.find("frequency")->values).c_str(),
+        text_of(amplitude).c_str(), static_cast<long long>(amplitude.size()),
+        has_impacts(problem) ? ", with impacts" : "", static_cast<long long>(row),
+        static_cast<long long>(column), filled, direct);
 }
 
 Counts compare(const Problem& problem, const Tile& tile, const FillRule& rule)
 {
-    const auto& [scene, numerics, plane, with_impacts] = problem;
-    const FilledTile filled =
-        fill_tile(scene, numerics, plane, tile, with_impacts, widest_kernel(), nullptr, rule);
-    std::vector<Field> fields{Field::region};
+    const bool with_impacts = has_impacts(problem);
+    const FilledTile filled = fill_tile(problem, tile, widest_kernel(), nullptr, rule);
+    Problem every_point = problem;
+    every_point.numerics.fill = false;
+    every_point.fields = {Field::region};
     if (with_impacts) {
-        fields.push_back(Field::impacts);
+        every_point.fields.push_back(Field::impacts);
     }
-    Numerics every_point = numerics;
-    every_point.fill = false;
-    const TileFields direct = sweep_tile(scene, every_point, plane, tile, fields, widest_kernel());
+    const TileFields direct = compute_tile(every_point, tile, widest_kernel());
     const auto& region = std::get<std::vector<std::uint8_t>>(direct.values[0]);
     Counts counts;
     for (std::size_t i = 0; i < region.size(); ++i) {
@@ -87,8 +105,8 @@ Counts compare(const Problem& problem, const Tile& tile, const FillRule& rule)
             (with_impacts &&
              filled.impacts[i] != std::get<std::vector<std::uint16_t>>(direct.values[1])[i]);
         if (wrong && counts.wrong++ == 0) {
-            name_point(problem, tile.begin[2] + std::int64_t(i) / tile.columns(),
-                       tile.begin[3] + std::int64_t(i) % tile.columns(), filled.region[i],
+            name_point(problem, tile.begin[0] + std::int64_t(i) / tile.count[1],
+                       tile.begin[1] + std::int64_t(i) % tile.count[1], filled.region[i],
                        region[i]);
         }
     }
@@ -97,7 +115,7 @@ Counts compare(const Problem& problem, const Tile& tile, const FillRule& rule)
 
 Counts compare(const Problem& problem, const FillRule& rule)
 {
-    const Tiling tiling = filled_tiling(problem.plane);
+    const Tiling tiling = tiling_of(problem);
     Counts counts;
     for (std::int64_t n = 0; n < tiling.size(); ++n) {
         counts.add(compare(problem, tiling[n], rule));
@@ -113,57 +131,41 @@ struct HardTile {
 
 Counts compare(const HardTile& hard, const FillRule& rule)
 {
-    const Tiling tiling = filled_tiling(hard.problem.plane);
+    const Tiling tiling = tiling_of(hard.problem);
     for (std::int64_t n = 0; n < tiling.size(); ++n) {
         const Tile tile = tiling[n];
-        if (hard.row < tile.begin[2] + tile.count[2] &&
-            hard.column < tile.begin[3] + tile.count[3]) {
+        if (hard.row < tile.begin[0] + tile.count[0] &&
+            hard.column < tile.begin[1] + tile.count[1]) {
             return compare(hard.problem, tile, rule);
         }
     }
     return {};
 }
 
-Plane plane_of(const AxisRange& frequency, const AxisRange& amplitude)
-{
-    Plane plane;
-    plane.frequency = Axis(frequency);
-    plane.amplitude = Axis(amplitude);
-    plane.restitution = Axis(AxisList{1});
-    plane.restitution_of = RestitutionOf::maximum;
-    plane.slenderness = Axis(AxisList{std::atan(1 / 5.67)});
-    return plane;
-}
-
 std::vector<HardTile> hard_tiles()
 {
-    Problem sine{.scene = {.pulse = PulseKind::sine, .shape = {.cycles = 2.5}},
-                 .numerics = {.method = Method::taylor, .tolerance = 1e-6, .audit = 0},
-                 .plane = plane_of({.first = 0.05, .last = 1.8128522632822612, .count = 868},
-                                   {.first = 1.001, .last = 1.4804846656126971, .count = 868})};
-    sine.plane.slenderness = Axis(AxisList{0.26662054772862431});
-    sine.plane.restitution = Axis(AxisList{0.8025885124983132});
-    sine.plane.restitution_of = RestitutionOf::absolute;
-    Problem cosine{.scene = {.pulse = PulseKind::cosine, .shape = {.cycles = 3}},
-                   .numerics = {.audit = 0},
-                   .plane = plane_of({.first = 0.05, .last = 1.5294371192114744, .count = 400},
-                                     {.first = 1.001, .last = 1.4381634078456134, .count = 400}),
-                   .with_impacts = true};
-    cosine.plane.slenderness = Axis(AxisList{0.14424994278535325});
-    cosine.plane.restitution = Axis(AxisList{0.9776654199149466});
-    cosine.plane.restitution_of = RestitutionOf::absolute;
+    const Problem sine = filled_spectrum(
+        {.pulse = PulseKind::sine, .shape = {.cycles = 2.5}},
+        {.method = Method::taylor, .tolerance = 1e-6},
+        {number("slenderness", 0.26662054772862431), number("restitution", 0.8025885124983132),
+         axis("amplitude", AxisRange{1.001, 1.4804846656126971, 868}),
+         axis("frequency", AxisRange{0.05, 1.8128522632822612, 868})});
+    const Problem cosine = filled_spectrum(
+        {.pulse = PulseKind::cosine, .shape = {.cycles = 3}}, {},
+        {number("slenderness", 0.14424994278535325), number("restitution", 0.9776654199149466),
+         axis("amplitude", AxisRange{1.001, 1.4381634078456134, 400}),
+         axis("frequency", AxisRange{0.05, 1.5294371192114744, 400})},
+        true);
     return {{sine, 133, 616}, {cosine, 66, 316}};
 }
 
-/// The planes of the paper's figures: its block under a pulse, the restitution over the largest.
+/// The spectra of the paper's figures: its block under a pulse, the restitution over the largest.
 Problem paper_problem(PulseKind pulse, double restitution, std::int64_t side)
 {
-    Problem problem{.scene = {.pulse = pulse}, .numerics = {}, .plane = {}};
-    problem.plane = plane_of({.first = 0.1, .last = 12, .count = side},
-                             {.first = 0.1, .last = 16, .count = side});
-    problem.plane.restitution = Axis(AxisList{restitution});
-    problem.numerics.audit = 0;
-    return problem;
+    return filled_spectrum(
+        {.pulse = pulse}, {},
+        {number("slenderness", std::atan(1 / 5.67)), number("restitution_of_maximum", restitution),
+         axis("amplitude", AxisRange{0.1, 16, side}), axis("frequency", AxisRange{0.1, 12, side})});
 }
 
 class RandomProblems {
@@ -173,35 +175,34 @@ public:
     /// corner: low frequencies and amplitudes just above 1.
     Problem next(bool corner)
     {
-        Problem problem;
-        problem.scene.pulse = PulseKind(std::size_t(uniform() * double(pulses.size())));
-        problem.scene.theory = uniform() < 0.7 ? Theory::nonlinear : Theory::linear;
-        problem.scene.shape = {.window = between(0.5, 2),
-                               .cycles = std::round(uniform() * 5 + 1) / 2,
-                               .gamma = between(1, 3),
-                               .nu = between(-pi<double>(), pi<double>())};
-        problem.numerics.method = uniform() < 0.5 ? Method::rk45 : Method::taylor;
-        problem.numerics.tolerance =
-            problem.numerics.method == Method::rk45 ? 1e-9 : (uniform() < 0.5 ? 1e-9 : 1e-6);
-        problem.numerics.resolve = uniform() < 0.1;
-        problem.numerics.audit = 0;
-        problem.with_impacts = uniform() < 0.2;
+        Scene scene;
+        scene.pulse = PulseKind(std::size_t(uniform() * double(pulses.size())));
+        scene.theory = uniform() < 0.7 ? Theory::nonlinear : Theory::linear;
+        scene.shape = {.window = between(0.5, 2),
+                       .cycles = std::round(uniform() * 5 + 1) / 2,
+                       .gamma = between(1, 3),
+                       .nu = between(-pi<double>(), pi<double>())};
+        Numerics numerics;
+        numerics.method = uniform() < 0.5 ? Method::rk45 : Method::taylor;
+        numerics.tolerance =
+            numerics.method == Method::rk45 ? 1e-9 : (uniform() < 0.5 ? 1e-9 : 1e-6);
+        numerics.resolve = uniform() < 0.1;
+        const bool with_impacts = uniform() < 0.2;
         const Spacing spacing = uniform() < 0.3 ? Spacing::log : Spacing::linear;
         const auto side = std::int64_t(std::exp(between(std::log(256), std::log(1500))));
-        const auto axis = [&](double first, double last) {
-            return AxisRange{.first = first, .last = last, .count = side, .spacing = spacing};
-        };
-        problem.plane = corner
-                            ? plane_of(axis(0.05, between(0.5, 2)), axis(1.001, between(1.05, 1.5)))
-                            : plane_of(axis(log_between(0.05, 2), between(4, 15)),
-                                       axis(between(0.1, 1.2), between(4, 20)));
+        const double last_amplitude = corner ? between(1.05, 1.5) : between(4, 20);
+        const double first_amplitude = corner ? 1.001 : between(0.1, 1.2);
+        const double last_frequency = corner ? between(0.5, 2) : between(4, 15);
+        const double first_frequency = corner ? 0.05 : log_between(0.05, 2);
         const double slenderness = between(0.05, 0.5);
-        problem.plane.slenderness = Axis(AxisList{slenderness});
-        problem.plane.restitution_of = RestitutionOf::absolute;
         const double largest = largest_restitution(slenderness);
-        problem.plane.restitution =
-            Axis(AxisList{uniform() < 0.3 ? largest : between(0.5 * largest, 1)});
-        return problem;
+        const double restitution = uniform() < 0.3 ? largest : between(0.5 * largest, 1);
+        return filled_spectrum(
+            scene, numerics,
+            {number("slenderness", slenderness), number("restitution", restitution),
+             axis("amplitude", AxisRange{first_amplitude, last_amplitude, side, spacing}),
+             axis("frequency", AxisRange{first_frequency, last_frequency, side, spacing})},
+            with_impacts);
     }
 
 private:
@@ -215,13 +216,13 @@ private:
     std::mt19937_64 generator_;
 };
 
-/// Prints the counts of one kind of planes; they are right if no point is wrong and at most this
+/// Prints the counts of one kind of spectra; they are right if no point is wrong and at most this
 /// share was integrated.
-bool report(const std::string& planes, const Counts& counts, double most)
+bool report(const std::string& spectra, const Counts& counts, double most)
 {
     const bool right = counts.wrong == 0 && counts.share() <= most;
     std::printf("%-40s %12lld points, %6.2f %% integrated (at most %g %%), %lld wrong%s\n",
-                planes.c_str(), static_cast<long long>(counts.points), 100 * counts.share(),
+                spectra.c_str(), static_cast<long long>(counts.points), 100 * counts.share(),
                 100 * most, static_cast<long long>(counts.wrong), right ? "" : ": FAILED");
     std::fflush(stdout);
     return right;
@@ -244,7 +245,7 @@ bool check(std::int64_t points, std::uint64_t seed, const FillRule& rule)
             paper.add(compare(paper_problem(PulseKind(pulse), restitution, side), rule));
         }
     }
-    right = report("planes of the paper", paper, most) && right;
+    right = report("spectra of the paper", paper, most) && right;
     RandomProblems random(seed);
     Counts kinds[2];
     while (paper.points + kinds[0].points + kinds[1].points < points) {
@@ -252,7 +253,7 @@ bool check(std::int64_t points, std::uint64_t seed, const FillRule& rule)
             kinds[corner].add(compare(random.next(corner), rule));
         }
     }
-    right = report("random planes, seed " + std::to_string(seed), kinds[0], 0.3) && right;
+    right = report("random spectra, seed " + std::to_string(seed), kinds[0], 0.3) && right;
     right = report("low frequency and amplitude", kinds[1], 1) && right;
     std::printf(right ? "every filled point is right\n" : "FAILED\n");
     return right;

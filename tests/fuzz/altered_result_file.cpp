@@ -1,6 +1,7 @@
 #include "altered_result_file.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/problem/given.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <hdf5.h>
@@ -49,10 +50,22 @@ private:
     std::string_view bytes_;
 };
 
-constexpr std::array objects{"slenderness",      "restitution", "amplitude",    "frequency",
-                             "region",           "impacts",     "checksum",     "job_resolved",
-                             "job_given",        "tile",        "region_below", "run/checksum",
-                             "run/job_resolved", "run/tile",    "run",          "/"};
+constexpr std::array objects{"slenderness",
+                             "restitution",
+                             "amplitude",
+                             "frequency",
+                             "region",
+                             "impacts",
+                             "pga",
+                             "run/run_token",
+                             "run/job_given",
+                             "run/tile",
+                             "region_below",
+                             "run/checksum",
+                             "run/job_resolved",
+                             "run/coordinate_checksums",
+                             "run",
+                             "/"};
 constexpr std::array attributes{"kind",           "title",      "program_version", "program_commit",
                                 "format_version", "dimensions", "tile_shape",      "units"};
 constexpr std::array<hsize_t, 12> lengths{0,
@@ -213,7 +226,7 @@ const std::string& file_to_alter()
         const ScratchFolder folder;
         const std::string path = folder / "as_written.h5";
         const Job job = job_to_alter();
-        create_spectrum_file(path, job, tiling_of(job));
+        create_spectrum_file(path, job);
         return bytes_of(path);
     }();
     return bytes;
@@ -223,13 +236,16 @@ const std::string& file_to_alter()
 
 Job job_to_alter()
 {
+    const auto given = [](std::string_view name, AxisList values) {
+        const auto as = values.size() == 1 ? GivenAs::number : GivenAs::axis;
+        return Given{&quantity(name), std::string(name), Axis(std::move(values)), as};
+    };
     Job job;
-    job.plane.frequency = Axis(AxisList{1, 2});
-    job.plane.amplitude = Axis(AxisList{1, 2});
-    job.plane.restitution = Axis(AxisList{0.7});
-    job.plane.slenderness = Axis(AxisList{0.2});
+    job.problem.grid =
+        grid_of(job.problem.scene, {given("frequency", {1, 2}), given("amplitude", {1, 2}),
+                                    given("restitution", {0.7}), given("slenderness", {0.2})});
     job.title = "A file to alter";
-    job.fields = {Field::region, Field::impacts};
+    job.problem.fields = {Field::region, Field::impacts};
     job.given = "the job file\n";
     job.resolved = "title = \"A file to alter\"\n";
     return job;

@@ -2,7 +2,7 @@
 
 #include "commands/command_line.hpp"
 #include "commands/commands.hpp"
-#include "commands/exit_code.hpp"
+#include "overturn/text/error.hpp"
 
 #include <stdexcept>
 #include <vector>
@@ -70,7 +70,7 @@ Verdict use_as_command_line(std::string_view bytes)
         const Command command = read_command_line(count, arguments.data());
         return command.execute ? Verdict::accepted
                                : throw std::logic_error("a command has nothing to execute");
-    } catch (const UsageError&) {
+    } catch (const Error&) {
         return Verdict::refused;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/untrapped_floating_point.hpp"
 
@@ -36,16 +37,18 @@ std::vector<std::string> take_overrides(std::string_view& bytes)
 
 void use(const Job& job, const std::string& path)
 {
-    demand(job.plane.points() > 0 && tiling_of(job).size() > 0, "an accepted job has no points");
-    demand(spectrum_file_bytes(job, tiling_of(job)) > double(job.plane.points()),
+    const Problem& problem = job.problem;
+    demand(problem.grid.points() > 0 && tiling_of(problem).size() > 0,
+           "an accepted job has no points");
+    demand(spectrum_file_bytes(job) > double(problem.grid.points()),
            "a file is smaller than its values");
-    cut_by_window(job.scene);
+    cut_by_window(problem.scene);
     write_bytes(path, job.resolved);
     const std::string again = read_job(path).resolved;
     demand(again == job.resolved,
            fmt::format("the resolved job\n{}\nis read back as\n{}", job.resolved, again));
-    if (job.plane.amplitude.size() > 1) {
-        demand(boundary_of(job).plane.points() > 0, "a boundary has no points");
+    if (problem.grid.axis_or_number(Role::strength)->values.size() > 1 && !problem.numerics.fill) {
+        demand(items_of(boundary_of(job).problem).count > 0, "a boundary has no lines");
     }
 }
 
@@ -59,7 +62,7 @@ Verdict use_as_job(std::string_view bytes, const std::string& path)
     try {
         use(read_job(path, overrides), path);
         return Verdict::accepted;
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.find('\n') == message.npos, "a refusal has more than one line:  " + message);
         return Verdict::refused;

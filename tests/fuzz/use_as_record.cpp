@@ -1,6 +1,7 @@
 #include "hostile_input.hpp"
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ Verdict use_as_record(std::string_view bytes, const std::string& path)
         demand(!file.components.empty(), "a record has no components");
         std::for_each(file.components.begin(), file.components.end(), use);
         return Verdict::accepted;
-    } catch (const RecordError& error) {
+    } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.starts_with(path + ":"), "a refusal does not name the file: " + message);
         demand(message.ends_with('.') && message.find('\n') == message.npos,

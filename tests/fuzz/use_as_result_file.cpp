@@ -2,10 +2,12 @@
 
 #include "altered_result_file.hpp"
 
-#include "overturn/file/file_error.hpp"
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/spectrum_summary.hpp"
+#include "overturn/file/stored_result.hpp"
+#include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
+
+#include <optional>
 
 namespace overturn {
 
@@ -18,7 +20,7 @@ bool is_answered(const Question& question)
     try {
         question();
         return true;
-    } catch (const FileError&) {
+    } catch (const Error&) {
         return false;
     }
 }
@@ -27,16 +29,18 @@ bool is_answered(const Question& question)
 
 Verdict use_as_result_file(const std::string& path)
 {
-    const Job job = job_to_alter();
-    const bool is_summarised = is_answered([&] { summarize(path); });
-    const bool is_verified = is_answered([&] {
-        damaged_coordinates(path);
-        damaged_tiles(path);
-    });
-    is_answered([&] { origin_of(path); });
-    is_answered([&] { count_lines(path); });
-    is_answered([&] { examine(path, job, tiling_of(job)); });
-    return is_summarised && is_verified ? Verdict::accepted : Verdict::refused;
+    std::optional<StoredResult> stored;
+    const bool is_opened = is_answered([&] { stored.emplace(path); });
+    const bool is_verified = is_opened && is_answered([&] {
+                                 stored->damaged_coordinates();
+                                 stored->damaged_tiles();
+                             });
+    if (is_opened) {
+        is_answered([&] { stored->count_lines(); });
+    }
+    stored.reset();
+    is_answered([&] { existing_result(path, job_to_alter()); });
+    return is_verified ? Verdict::accepted : Verdict::refused;
 }
 
 Verdict use_as_result_file(std::string_view bytes, const std::string& path)

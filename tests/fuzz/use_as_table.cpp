@@ -1,8 +1,9 @@
 #include "hostile_input.hpp"
 
+#include "overturn/problem/given.hpp"
+#include "overturn/problem/quantity.hpp"
 #include "overturn/record/read_table.hpp"
-#include "overturn/sweep/block_list.hpp"
-#include "overturn/sweep/quantity.hpp"
+#include "overturn/text/error.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -18,10 +19,10 @@ void demand(bool condition, const std::string& otherwise)
     }
 }
 
-/// The columns of numbers with known names.
-Columns columns_of(const Table& table)
+/// The columns of numbers with the names of coordinates. Their values are allowed.
+std::vector<Given> columns_of(const Table& table)
 {
-    Columns columns;
+    std::vector<Given> columns;
     for (const TableColumn& column : table.columns) {
         demand(!column.name.empty() && table.find(column.name) == &column, "a name is repeated");
         const bool is_text = column.first_text >= 0;
@@ -29,8 +30,11 @@ Columns columns_of(const Table& table)
                    std::int64_t(column.texts.size()) == (is_text ? table.rows() : 0) &&
                    column.first_text < table.rows(),
                "a column does not have a value in each row");
-        if (!is_text && find_quantity(column.name) != nullptr) {
-            columns[column.name] = column.numbers;
+        const Quantity* quantity = find_quantity(column.name);
+        if (!is_text && quantity != nullptr && applies_to(*quantity, false) &&
+            std::ranges::all_of(column.numbers,
+                                [&](double value) { return quantity->allows(value); })) {
+            columns.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});
         }
     }
     return columns;
@@ -45,15 +49,16 @@ Verdict use_as_table(std::string_view bytes)
         const Table table = read_table(bytes, name);
         demand(table.rows() > 0 && std::is_sorted(table.lines.begin(), table.lines.end()),
                "the lines of the rows do not ascend");
-        const BlockList list = block_list({}, columns_of(table));
-        demand(list.size == table.rows(), "the list does not have a block in each row");
+        const Grid grid = grid_of({}, columns_of(table));
+        demand(grid.points() == table.rows(), "the grid does not have a point for each row");
         return Verdict::accepted;
-    } catch (const TableError& error) {
+    } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.starts_with(name + ":") && message.ends_with('.'),
                "a refusal does not name the file: " + message);
-    } catch (const ListError& error) {
-        demand(error.row() >= ListError::no_row, "a refusal names an impossible row");
+    } catch (const GivenError& error) {
+        demand(error.row() >= GivenError::no_row, "a refusal names an impossible row");
+        demand(find_quantity(error.quantity()) != nullptr, "a refusal names no quantity");
     }
     return Verdict::refused;
 }

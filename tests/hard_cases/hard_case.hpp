@@ -1,8 +1,8 @@
-// A hard case: one point of a plane together with its scene.
+// A hard case: one point together with its scene.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/sweep/scene.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <cmath>
 #include <ostream>

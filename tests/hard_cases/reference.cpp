@@ -11,7 +11,7 @@ using T = Digits50;
 /// Gives at least 25 correct digits at the end of a pulse.
 constexpr double tolerance = 1e-30;
 
-Point<T> in_digits(const HardCase& point)
+PulsePoint<T> in_digits(const HardCase& point)
 {
     return {T(point.slenderness), T(point.restitution), T(point.frequency), T(point.amplitude)};
 }

@@ -1,5 +1,7 @@
 #include "verdicts.hpp"
 
+#include "support/given_values.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,17 +76,13 @@ std::optional<bool> verdict_of(const Truth& truth)
 
 Outcome outcome_of(const HardCase& point, const Numerics& numerics)
 {
-    Plane plane;
-    plane.slenderness = Axis(AxisList{point.slenderness});
-    plane.restitution = Axis(AxisList{point.restitution});
-    plane.frequency = Axis(AxisList{point.frequency});
-    plane.amplitude = Axis(AxisList{point.amplitude});
-    const Scene scene{
-        .pulse = point.pulse, .theory = point.theory, .shape = {.window = point.window}};
-    const std::vector<Field> fields{Field::region, Field::angle,   Field::velocity, Field::margin,
-                                    Field::error,  Field::impacts, Field::steps,    Field::status};
-    const auto values =
-        sweep_tile(scene, numerics, plane, Tiling(plane)[0], fields, widest_kernel()).values;
+    const Problem problem{
+        .scene = {.pulse = point.pulse, .theory = point.theory, .shape = {.window = point.window}},
+        .grid = grid_of_point(point),
+        .numerics = numerics,
+        .fields = {Field::region, Field::angle, Field::velocity, Field::margin, Field::error,
+                   Field::impacts, Field::steps, Field::status}};
+    const auto values = compute_tile(problem, tiling_of(problem)[0], widest_kernel()).values;
     const auto number = [&](std::size_t i) { return std::get<std::vector<double>>(values[i])[0]; };
     return {.region = Region(std::get<std::vector<std::uint8_t>>(values[0])[0]),
             .angle = number(1),

@@ -5,7 +5,7 @@
 #include "reference.hpp"
 
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +21,7 @@ struct Outcome {
     std::uint8_t status = 0;
 };
 
-/// Sweeps a plane of this point alone.
+/// Computes a spectrum of this point alone.
 Outcome outcome_of(const HardCase& point, const Numerics& numerics);
 
 /// Without resolve: both methods at the loosest tolerance at which errors are known, at the default

@@ -91,22 +91,12 @@ class AnInstallation(unittest.TestCase):
         outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
                    "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
                    "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
-                   "plot-fragility": (recorded, "fragility.png"), "to-csv": (self.spectrum, "spectrum.csv"),
-                   "to-xdmf": (self.spectrum, "spectrum.xdmf2")}
+                   "plot-fragility": (recorded, "fragility.png"), "to-csv": (self.spectrum, "spectrum.csv")}
         for tool, (argument, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", argument, "-o", self.folder / output)
             self.assertGreater((self.folder / output).stat().st_size, 100, tool)
-        tested = {f"overturn-{tool}" for tool in (*outputs, "join-spectra", "synthetic-record")}  # below, and above
+        tested = {f"overturn-{tool}" for tool in (*outputs, "synthetic-record")}
         self.assertEqual({path.name for path in (self.prefix / "bin").glob("overturn-*")}, tested)
-
-    def test_a_tool_finds_the_program(self):
-        for name, slenderness in (("one", 0.1), ("two", 0.2)):
-            run(self.overturn, "run", self.folder / "job.toml", "-o", self.folder / f"{name}.h5",
-                "--set", f"plane.slenderness.values=[{slenderness}]")
-        run(self.prefix / "bin/overturn-join-spectra", self.folder / "one.h5",
-            self.folder / "two.h5", "-o", self.folder / "both.h5")
-        with h5py.File(self.folder / "both.h5") as file:
-            self.assertEqual(list(file["slenderness"]), [0.1, 0.2])
 
     def test_the_python_package_has_its_module_beside_it(self):
         tools = self.prefix / "share/overturn/tools"

@@ -14,7 +14,7 @@ TEST(BounceSeries, OfABarelyLiftedBlockEndsInClosedForm)
 {
     for (const double excess : {1e-15, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3}) {
         const auto end = forced_end<Theory::nonlinear>(
-            PulseKind::one_sine, Point<double>{0.1745, 0.91, 2.0, 1 + excess}, 1e-9);
+            PulseKind::one_sine, PulsePoint<double>{0.1745, 0.91, 2.0, 1 + excess}, 1e-9);
         EXPECT_TRUE(end.rested);
         // Two lobes lift it. Impact by impact, each series would continue until its speed is
         // round-off: 2 log(1e-16) / log(0.91) = 780 impacts.
@@ -26,7 +26,7 @@ TEST(BounceSeries, OfABarelyLiftedBlockEndsInClosedForm)
 TEST(BounceSeries, ABlockAtRestBetweenTheLobesIsIndependentOfTheFirst)
 {
     // The second half of a one-sine pulse is a half-sine pulse in the opposite direction.
-    const Point<double> point{0.2, 0.5, 1.0, 1.02};
+    const PulsePoint<double> point{0.2, 0.5, 1.0, 1.02};
     const auto both = forced_end<Theory::nonlinear>(PulseKind::one_sine, point, 1e-11);
     const auto second = forced_end<Theory::nonlinear>(PulseKind::half_sine, point, 1e-11);
     ASSERT_TRUE(both.rested);
@@ -37,7 +37,7 @@ TEST(BounceSeries, ABlockAtRestBetweenTheLobesIsIndependentOfTheFirst)
 TEST(BounceSeries, NearlyPlasticImpactsBringTheBlockToRestAtOnce)
 {
     const auto end = forced_end<Theory::nonlinear>(PulseKind::one_sine,
-                                                   Point<double>{0.2, 1e-12, 2.0, 1.05}, 1e-9);
+                                                   PulsePoint<double>{0.2, 1e-12, 2.0, 1.05}, 1e-9);
     EXPECT_TRUE(end.rested);
     EXPECT_LE(end.impacts, 4);
 }
@@ -45,7 +45,7 @@ TEST(BounceSeries, NearlyPlasticImpactsBringTheBlockToRestAtOnce)
 TEST(BounceSeries, WithoutLossNeverComesToRest)
 {
     const auto end = forced_end<Theory::nonlinear>(PulseKind::one_sine,
-                                                   Point<double>{0.2, 1.0, 2.0, 1.01}, 1e-9);
+                                                   PulsePoint<double>{0.2, 1.0, 2.0, 1.01}, 1e-9);
     EXPECT_FALSE(end.rested);
     EXPECT_FALSE(end.capped);
     EXPECT_GT(end.impacts, 50);

@@ -87,7 +87,7 @@ TYPED_TEST(ClosedForm, TriangularLinearOverturnsFromTheAmplitudeOfItsIntegral)
 TYPED_TEST(ClosedForm, RectangularLinearEndsInTheStateOfItsClosedForm)
 {
     // y'' = y - A alpha from y = alpha: tilt = alpha (A - 1)(cosh tau - 1).
-    const Point<double> point{0.2, 0.9, 2.5, 1.4};
+    const PulsePoint<double> point{0.2, 0.9, 2.5, 1.4};
     const auto end = forced_end<Theory::linear, TypeParam>(PulseKind::rectangular, point, digits);
     const double tau = pi<double>() / point.frequency;
     EXPECT_NEAR(end.state.tilt, 0.2 * 0.4 * (std::cosh(tau) - 1), 1e-11 * 0.2);
@@ -102,7 +102,7 @@ const double printed = 0.5e-6 + 1e-9;
 TYPED_TEST(ClosedForm, OneSineLinearHasTheSafeStripOfZhangAndMakris)
 {
     // p = 2.14, alpha = 0.25, velocity ratio 0.9, Omega = 5; printed there: 3.01, 6.32, 7.18.
-    const Point<double> point{0.25, 0.81, 5, 0};
+    const PulsePoint<double> point{0.25, 0.81, 5, 0};
     EXPECT_NEAR((flip<Theory::linear, TypeParam>(PulseKind::one_sine, point, 2.9, 3.1, digits)),
                 3.018600, printed);
     EXPECT_NEAR((flip<Theory::linear, TypeParam>(PulseKind::one_sine, point, 6.2, 6.5, digits)),
@@ -114,7 +114,7 @@ TYPED_TEST(ClosedForm, OneSineLinearHasTheSafeStripOfZhangAndMakris)
 TYPED_TEST(ClosedForm, OneSineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
-    const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
+    const PulsePoint<double> point{alpha, largest_restitution(alpha), 3, 0};
     EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 1.3, 1.5, digits)),
                 1.382896, printed);
     EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.5, 3.62, digits)),
@@ -126,7 +126,7 @@ TYPED_TEST(ClosedForm, OneSineNonlinearHasTheBoundariesOfThePapersBlock)
 TYPED_TEST(ClosedForm, OneSineNonlinearHasAWiderSafeStripWithLessRestitution)
 {
     const double alpha = papers_slenderness();
-    const Point<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
+    const PulsePoint<double> point{alpha, 0.7 * largest_restitution(alpha), 3, 0};
     EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 1.4, 1.5, digits)),
                 1.458920, printed);
     EXPECT_NEAR((flip<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 3.2, 3.4, digits)),
@@ -138,7 +138,7 @@ TYPED_TEST(ClosedForm, OneSineNonlinearHasAWiderSafeStripWithLessRestitution)
 TYPED_TEST(ClosedForm, OneCosineNonlinearHasTheBoundariesOfThePapersBlock)
 {
     const double alpha = papers_slenderness();
-    const Point<double> point{alpha, largest_restitution(alpha), 3, 0};
+    const PulsePoint<double> point{alpha, largest_restitution(alpha), 3, 0};
     EXPECT_NEAR(
         (flip<Theory::nonlinear, TypeParam>(PulseKind::one_cosine, point, 1.7, 1.9, digits)),
         1.801257, printed);

@@ -185,7 +185,7 @@ TEST(ForcedStage, BoundsItsErrorAgainstFiftyDigits)
     std::mt19937_64 generator(9);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 25; ++i) {
-            const Point<double> point = random_point(generator);
+            const PulsePoint<double> point = random_point(generator);
             const auto exact = forced_end<theory>(pulse, in_digits(point), 1e-25);
             const auto margin = double(margin_of<theory>(exact, in_digits(point)));
             const auto check = [&]<class Method>(double tolerance) {
@@ -207,7 +207,7 @@ TEST(ForcedStage, HasTheSameEndWithAndWithoutItsError)
 {
     std::mt19937_64 generator(10);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
-        const Point<double> point = random_point(generator);
+        const PulsePoint<double> point = random_point(generator);
         const auto check = [&]<class Method>() {
             const auto plain = forced_end<theory, Method>(pulse, point, 1e-6);
             const auto watched = forced_end<theory, Method, true>(pulse, point, 1e-6);

@@ -22,7 +22,7 @@ TEST(ForcedStage, ErrorDecreasesWithTheTolerance)
     double log_ratio = 0;
     const int points = 200;
     for (int i = 0; i < points; ++i) {
-        const Point<double> point = random_point(generator);
+        const PulsePoint<double> point = random_point(generator);
         const auto error = [&](double tolerance) {
             const auto best =
                 forced_end<Theory::nonlinear>(PulseKind::one_sine, point, 1e-13).state;
@@ -42,7 +42,7 @@ TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
     std::mt19937_64 generator(8);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 50; ++i) {
-            const Point<double> point = random_point(generator);
+            const PulsePoint<double> point = random_point(generator);
             Excitation<double> excitation = excitation_of<theory>(pulse, point);
             const auto plain = run_in_doubles<TypeParam, theory>(point.block(), excitation, 1e-9);
             excitation.acceleration = -excitation.acceleration;
@@ -61,7 +61,7 @@ TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
 
 /// Eq. 47 as printed, in seconds, with p = sqrt(3 g / 4 R), by small classical Runge-Kutta steps
 /// from the uplift to the end of a half-sine pulse, in which no block strikes the ground.
-State<double> dimensional_end(const Point<double>& point, double p)
+State<double> dimensional_end(const PulsePoint<double>& point, double p)
 {
     const double omega = point.frequency * p;
     const double psi = std::asin(1 / point.amplitude);
@@ -90,8 +90,8 @@ State<double> dimensional_end(const Point<double>& point, double p)
 
 TYPED_TEST(ForcedStageByMethod, ResultDoesNotDependOnTheFrequencyParameter)
 {
-    for (const Point<double>& point :
-         {Point<double>{0.17, 0.9, 5, 1.6}, Point<double>{0.3, 0.8, 6, 2.5}}) {
+    for (const PulsePoint<double>& point :
+         {PulsePoint<double>{0.17, 0.9, 5, 1.6}, PulsePoint<double>{0.3, 0.8, 6, 2.5}}) {
         const auto ours =
             forced_end<Theory::nonlinear, TypeParam>(PulseKind::half_sine, point, 1e-12);
         ASSERT_EQ(ours.impacts, 0);
@@ -109,8 +109,8 @@ TYPED_TEST(ForcedStageByMethod, ABlockThatIsNotLiftedStaysAtRest)
 {
     for_every_scene([]<Theory theory>(PulseKind pulse) {
         for (const double amplitude : {0.0, 0.4, 0.999}) {
-            const auto end =
-                forced_end<theory, TypeParam>(pulse, Point<double>{0.2, 0.8, 3, amplitude}, 1e-9);
+            const auto end = forced_end<theory, TypeParam>(
+                pulse, PulsePoint<double>{0.2, 0.8, 3, amplitude}, 1e-9);
             EXPECT_EQ(end.state.tilt, 0);
             EXPECT_EQ(end.state.rate, 0);
             EXPECT_FALSE(end.fell);
@@ -127,7 +127,7 @@ TYPED_TEST(ForcedStageByMethod, OverturningEndsWithTheVelocityOfEnergyAndWork)
     const double alpha = 0.2;
     const double amplitude = 5;
     const auto end = forced_end<Theory::nonlinear, TypeParam>(
-        PulseKind::rectangular, Point<double>{alpha, 0.9, 0.4, amplitude}, 1e-12);
+        PulseKind::rectangular, PulsePoint<double>{alpha, 0.9, 0.4, amplitude}, 1e-12);
     ASSERT_TRUE(end.fell);
     const double push = -amplitude * std::tan(alpha);
     const double y = alpha - pi<double>() / 2;
@@ -144,7 +144,7 @@ template <class Method>
 ForcedEnd<double> near_graze(double amplitude, double tolerance)
 {
     return forced_end<Theory::nonlinear, Method>(
-        PulseKind::antisymmetric_ricker, Point<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
+        PulseKind::antisymmetric_ricker, PulsePoint<double>{0.2, 0.85, 1.0, amplitude}, tolerance);
 }
 
 /// The amplitude at which it just touches the ground.
@@ -185,7 +185,7 @@ TYPED_TEST(ForcedStageByMethod, ANumberThatIsNotFiniteEndsTheLaneWithAStatus)
 {
     const UntrappedFloatingPoint overflow_at_the_first_step;
     const auto end = forced_end<Theory::nonlinear, TypeParam>(
-        PulseKind::one_sine, Point<double>{0.2, 0.8, 3, 1e200}, 1e-9);
+        PulseKind::one_sine, PulsePoint<double>{0.2, 0.8, 3, 1e200}, 1e-9);
     EXPECT_TRUE(end.not_finite);
     EXPECT_FALSE(end.fell);
 }

@@ -22,12 +22,14 @@ Digits50 difference(const ForcedEnd<Digits50>& exact, const ForcedEnd<S>& end)
 
 /// The effect of a small relative change in the ground motion on the end state, over alpha.
 template <Theory theory>
-double sensitivity(PulseKind pulse, const Point<double>& point, const ForcedEnd<Digits50>& exact)
+double sensitivity(PulseKind pulse, const PulsePoint<double>& point,
+                   const ForcedEnd<Digits50>& exact)
 {
     const Digits50 change = 1e-15;
     double sum = 0;
-    for (const auto coordinate : {&Point<Digits50>::frequency, &Point<Digits50>::amplitude}) {
-        Point<Digits50> beside = in_digits(point);
+    for (const auto coordinate :
+         {&PulsePoint<Digits50>::frequency, &PulsePoint<Digits50>::amplitude}) {
+        PulsePoint<Digits50> beside = in_digits(point);
         beside.*coordinate *= 1 + change;
         const auto end = forced_end<theory>(pulse, beside, reference_tolerance);
         sum += double(difference(exact, end) / change) / point.slenderness;
@@ -36,7 +38,7 @@ double sensitivity(PulseKind pulse, const Point<double>& point, const ForcedEnd<
 }
 
 template <Theory theory, class Method>
-void expect_what_the_tolerance_promises(PulseKind pulse, const Point<double>& point,
+void expect_what_the_tolerance_promises(PulseKind pulse, const PulsePoint<double>& point,
                                         const ForcedEnd<Digits50>& exact, double amplification,
                                         double tolerance)
 {
@@ -58,7 +60,7 @@ TEST(Methods, AgreeWithFiftyDigitsWithinTheirTolerances)
     std::mt19937_64 generator(5);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 40; ++i) {
-            const Point<double> point = random_point(generator);
+            const PulsePoint<double> point = random_point(generator);
             const auto exact = forced_end<theory>(pulse, in_digits(point), reference_tolerance);
             const double amplification = 1 + sensitivity<theory>(pulse, point, exact);
             const auto check = [&]<class Method>(std::initializer_list<double> tolerances) {
@@ -79,7 +81,7 @@ TEST(Methods, AgreeWithEachOtherInFiftyDigits)
     // Ensures that the reference above is not an error of one method.
     std::mt19937_64 generator(6);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
-        const Point<double> point = random_point(generator);
+        const PulsePoint<double> point = random_point(generator);
         const auto exact = forced_end<theory>(pulse, in_digits(point), reference_tolerance);
         const auto other = run_forced_stage<RungeKutta, theory>(
             in_digits(point).block(), excitation_of<theory>(pulse, in_digits(point)), 1e-13);
@@ -96,7 +98,7 @@ TEST(TaylorMethod, ErrorDecreasesWithTheTolerance)
     double log_ratio = 0;
     const int points = 100;
     for (int i = 0; i < points; ++i) {
-        const Point<double> point = random_point(generator);
+        const PulsePoint<double> point = random_point(generator);
         const auto exact = forced_end<Theory::nonlinear>(PulseKind::one_sine, in_digits(point),
                                                          reference_tolerance);
         const auto error = [&](double tolerance) {
@@ -114,7 +116,7 @@ TEST(TaylorMethod, ErrorDecreasesWithTheTolerance)
 
 /// A line of amplitudes along which the number of impacts changes between two neighbours.
 struct Graze {
-    Point<double> point;
+    PulsePoint<double> point;
     double low, high; ///< amplitudes on both sides of the change, a relative 1e-13 apart
 };
 
@@ -125,7 +127,7 @@ std::vector<Graze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size
 {
     std::vector<Graze> found;
     while (found.size() < wanted) {
-        Point<double> point = random_point(generator);
+        PulsePoint<double> point = random_point(generator);
         const auto impacts_at = [&](double amplitude) {
             point.amplitude = amplitude;
             const auto end = forced_end<theory, Taylor<20>>(pulse, point, 1e-13);
@@ -151,7 +153,7 @@ std::vector<Graze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size
 }
 
 template <Theory theory, class Method>
-void expect_impacts_of_fifty_digits(PulseKind pulse, const Point<double>& point, double exact,
+void expect_impacts_of_fifty_digits(PulseKind pulse, const PulsePoint<double>& point, double exact,
                                     double tolerance)
 {
     EXPECT_EQ((forced_end<theory, Method>(pulse, point, tolerance).impacts), exact)
@@ -170,7 +172,7 @@ TEST(Methods, MissNoImpactNextToAGraze)
             for (const double offset : {1e-3, 1e-5, 1e-7}) {
                 for (const double amplitude :
                      {graze.low * (1 - offset), graze.high * (1 + offset)}) {
-                    Point<double> point = graze.point;
+                    PulsePoint<double> point = graze.point;
                     point.amplitude = amplitude;
                     const double exact =
                         double(forced_end<theory>(pulse, in_digits(point), 1e-20).impacts);

@@ -74,7 +74,7 @@ double found_over_exact(PulseKind pulse, const PulseShape& shape, double frequen
     double low = 0.99 * exact;
     double high = 1.01 * exact;
     for (int i = 0; i < 60; ++i) {
-        const Point<double> point{0.25, 0.81, frequency, (low + high) / 2};
+        const PulsePoint<double> point{0.25, 0.81, frequency, (low + high) / 2};
         const auto end = forced_end<Theory::linear, Method>(pulse, point, digits, shape);
         const Region region = region_of<Theory::linear>(end, point.block());
         const bool overturns = is_unsafe(region) && region != Region::U1_plus &&
@@ -122,7 +122,7 @@ TYPED_TEST(UnderSines, MavroeidisPapageorgiouOverturnsFromTheAmplitudeOfItsInteg
 TYPED_TEST(UnderSines, OneCycleIsTheOneSine)
 {
     for (const double amplitude : {1.2, 2.0, 3.0, 3.6, 5.0, 9.0}) {
-        const Point<double> point{0.17, 0.9, 3, amplitude};
+        const PulsePoint<double> point{0.17, 0.9, 3, amplitude};
         const auto one = forced_end<Theory::nonlinear, TypeParam>(PulseKind::one_sine, point, 1e-9);
         const auto cycles =
             forced_end<Theory::nonlinear, TypeParam>(PulseKind::sine, point, 1e-9, {.cycles = 1});

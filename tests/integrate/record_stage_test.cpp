@@ -195,7 +195,7 @@ TEST(RecordStage, InDoublesAgreesWithFiftyDigitsWithinTheError)
 
 TEST(RecordStage, SamplesOfAPulseConvergeToThePulseWithOrderTwo)
 {
-    const Point<double> point{0.2, 0.8, 3, 2.2};
+    const PulsePoint<double> point{0.2, 0.8, 3, 2.2};
     const auto expect_order = [&]<Theory theory>() {
         const auto pulse = forced_end<theory, Taylor<20>>(PulseKind::one_sine, point, 1e-14);
         ASSERT_FALSE(pulse.fell);

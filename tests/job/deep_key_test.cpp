@@ -3,6 +3,7 @@
 #include "job_file.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/text/error.hpp"
 
 namespace overturn {
 
@@ -71,7 +72,8 @@ TEST(ReadingAJob, RefusesKeysOfAMillionParts)
         try {
             read_job(file.path());
             FAIL() << "the job was accepted";
-        } catch (const JobError& error) {
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), exit_code::job);
             const std::string message = error.what();
             EXPECT_NE(message.find(":2: a key has more than 16 parts"), message.npos) << message;
         }
@@ -82,8 +84,8 @@ TEST(AnOverride, RefusesKeysOfAMillionParts)
 {
     const JobFile file(sound_job);
     const std::string deep = key_of(1000000);
-    EXPECT_THROW(read_job(file.path(), {deep + "=1"}), JobError);
-    EXPECT_THROW(read_job(file.path(), {"plane.frequency={" + deep + "=1}"}), JobError);
+    EXPECT_THROW(read_job(file.path(), {deep + "=1"}), Error);
+    EXPECT_THROW(read_job(file.path(), {"plane.frequency={" + deep + "=1}"}), Error);
     EXPECT_EQ(read_job(file.path(), {"title=" + key_of(20)}).title, key_of(20)) << "a bare word";
 }
 

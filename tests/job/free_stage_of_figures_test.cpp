@@ -1,7 +1,8 @@
 // The regions of the paper's spectra compared with the analytical free stage of each point.
 #include "overturn/job/job.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,14 +38,16 @@ TEST(FreeStageOfThePapersFigures, HasTheOutcomeOfTheRegionAtEveryPoint)
             continue;
         }
         ++spectra;
-        const Job job =
-            read_job(entry.path(), {"plane.frequency.count=120", "plane.amplitude.count=120"});
-        const Tiling tiling(job.plane);
-        const Block<double> block{job.plane.slenderness[0], job.plane.restitution_ratio(0, 0)};
+        Problem problem =
+            read_job(entry.path(), {"plane.frequency.count=120", "plane.amplitude.count=120"})
+                .problem;
+        problem.fields = {Field::region, Field::angle, Field::velocity};
+        const Tiling tiling = tiling_of(problem);
+        const Coordinates coordinates(problem.scene, problem.grid);
+        const Block<double> block{coordinates.of("slenderness").first(),
+                                  coordinates.of("restitution").first()};
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
-            const TileFields fields =
-                sweep_tile(job.scene, job.numerics, job.plane, tiling[number],
-                           {Field::region, Field::angle, Field::velocity}, widest_kernel());
+            const TileFields fields = compute_tile(problem, tiling[number], widest_kernel());
             const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
             const auto& angles = std::get<std::vector<double>>(fields.values[1]);
             const auto& velocities = std::get<std::vector<double>>(fields.values[2]);

@@ -1,6 +1,9 @@
 // Temporary job files for tests.
 #pragma once
 
+#include "overturn/job/job.hpp"
+#include "overturn/problem/coordinates.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,6 +11,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace overturn {
 
@@ -58,6 +63,37 @@ inline std::string sound_job_with(int line, const std::string& text)
         begin = job.find('\n', begin) + 1;
     }
     return job.substr(0, begin) + text + job.substr(job.find('\n', begin));
+}
+
+/// The given values of a quantity.
+inline Axis axis(const Job& job, std::string_view quantity)
+{
+    const Column* column = job.problem.grid.find(quantity);
+    if (column == nullptr) {
+        throw std::runtime_error("the grid does not contain " + std::string(quantity));
+    }
+    return column->values;
+}
+
+/// The first value of a coordinate, given or derived.
+inline double coordinate(const Job& job, std::string_view name)
+{
+    return Coordinates(job.problem.scene, job.problem.grid).of(name).first();
+}
+
+inline bool gives(const Job& job, std::string_view quantity)
+{
+    return job.problem.grid.find(quantity) != nullptr;
+}
+
+/// The names of the dimensions, slowest first.
+inline std::vector<std::string> dimensions_of(const Job& job)
+{
+    std::vector<std::string> names;
+    for (const Dimension& dimension : job.problem.grid.dimensions) {
+        names.push_back(dimension.name);
+    }
+    return names;
 }
 
 } // namespace overturn

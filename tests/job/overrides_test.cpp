@@ -1,5 +1,7 @@
 #include "overturn/job/job.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include "job_file.hpp"
 
 #include <algorithm>
@@ -18,9 +20,9 @@ Job job_with(const std::vector<std::string>& overrides)
 TEST(AnOverride, ReplacesAValueOfTheFile)
 {
     const Job job = job_with({"numerics.tolerance=1e-6", "title=\"Another\""});
-    EXPECT_EQ(job.numerics.tolerance, 1e-6);
+    EXPECT_EQ(job.problem.numerics.tolerance, 1e-6);
     EXPECT_EQ(job.title, "Another");
-    EXPECT_EQ(job.fields.size(), 2u) << "other values are unchanged";
+    EXPECT_EQ(job.problem.fields.size(), 2u) << "other values are unchanged";
 }
 
 TEST(AnOverride, IsStoredAsGiven)
@@ -32,8 +34,9 @@ TEST(AnOverride, IsStoredAsGiven)
 
 TEST(AnOverride, IsReplacedByALaterOne)
 {
-    EXPECT_EQ(job_with({"numerics.tolerance=1e-6", "numerics.tolerance=1e-7"}).numerics.tolerance,
-              1e-7);
+    EXPECT_EQ(
+        job_with({"numerics.tolerance=1e-6", "numerics.tolerance=1e-7"}).problem.numerics.tolerance,
+        1e-7);
 }
 
 TEST(AnOverride, CreatesTablesMissingInTheFile)
@@ -43,31 +46,29 @@ TEST(AnOverride, CreatesTablesMissingInTheFile)
         read_job(file.path(), {"plane.frequency.values=[1]", "plane.amplitude.values=[2]",
                                "plane.restitution.values=[1]", "block.half_width=1",
                                "block.half_height=5", "output.fields=['margin']"});
-    EXPECT_EQ(job.plane.amplitude[0], 2);
-    EXPECT_EQ(job.fields, std::vector<Field>{Field::margin});
+    EXPECT_EQ(axis(job, "amplitude")[0], 2);
+    EXPECT_EQ(job.problem.fields, std::vector<Field>{Field::margin});
 }
 
 TEST(AnOverride, MayBeANumberForAWholeAxis)
 {
     const Job job = job_with({"plane.restitution=0.9", "plane.frequency=3"});
-    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9) << "r itself: of = \"maximum\" is removed";
-    EXPECT_EQ(job.plane.frequency.values(), std::vector<double>{3});
+    EXPECT_EQ(axis(job, "restitution").values(), AxisList{0.9})
+        << "r itself: of = \"maximum\" is removed";
+    EXPECT_EQ(axis(job, "frequency").values(), std::vector<double>{3});
 }
 
 TEST(AnOverride, ExtendsAnAxisThatIsANumber)
 {
     const JobFile file(sound_job_with(7, "restitution = 0.9"));
-    const auto plane = [&](const std::string& setting) {
-        return read_job(file.path(), {setting}).plane;
-    };
-    const Plane share = plane("plane.restitution.of=maximum");
-    EXPECT_EQ(share.restitution_of, RestitutionOf::maximum);
-    EXPECT_EQ(share.restitution.values(), std::vector<double>{0.9});
-    EXPECT_EQ(plane("plane.restitution.values=[0.5, 0.6]").restitution.size(), 2);
-    EXPECT_EQ(read_job(file.path(), {"plane.restitution.first=0.5", "plane.restitution.last=0.6",
-                                     "plane.restitution.count=3"})
-                  .plane.restitution.size(),
-              3);
+    const Job share = read_job(file.path(), {"plane.restitution.of=maximum"});
+    EXPECT_EQ(axis(share, "restitution_of_maximum").values(), AxisList{0.9});
+    const Job list = read_job(file.path(), {"plane.restitution.values=[0.5, 0.6]"});
+    EXPECT_EQ(axis(list, "restitution").size(), 2);
+    const Job range =
+        read_job(file.path(), {"plane.restitution.first=0.5", "plane.restitution.last=0.6",
+                               "plane.restitution.count=3"});
+    EXPECT_EQ(axis(range, "restitution").size(), 3);
 }
 
 TEST(AnOverride, OfAnAxisThatIsANumberIsRefusedAtTheNumberIfItIsWrong)
@@ -76,7 +77,8 @@ TEST(AnOverride, OfAnAxisThatIsANumberIsRefusedAtTheNumberIfItIsWrong)
     try {
         read_job(file.path(), {"plane.restitution.of=maximum"});
         FAIL() << "the job was accepted";
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         EXPECT_EQ(
             std::string(error.what()).find(file.path() + ":7:15: plane.restitution.values[0]"), 0u)
             << error.what();
@@ -85,19 +87,19 @@ TEST(AnOverride, OfAnAxisThatIsANumberIsRefusedAtTheNumberIfItIsWrong)
 
 TEST(AnOverride, AcceptsABareWordAsAString)
 {
-    EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).scene.pulse, PulseKind::one_cosine);
+    EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).problem.scene.pulse, PulseKind::one_cosine);
     EXPECT_EQ(job_with({"title=Two words, and Ω (omega)"}).title, "Two words, and Ω (omega)");
 }
 
 TEST(AnOverride, AcceptsListsOverSeveralLines)
 {
-    EXPECT_EQ(job_with({"plane.frequency.values=[1,\n 2]"}).plane.frequency.size(), 2);
+    EXPECT_EQ(axis(job_with({"plane.frequency.values=[1,\n 2]"}), "frequency").size(), 2);
 }
 
 TEST(AnOverride, OfValuesReplacesTheRange)
 {
     const Job job = job_with({"plane.frequency.values=[0.2]"});
-    EXPECT_EQ(std::get<AxisList>(job.plane.frequency.definition()), AxisList{0.2});
+    EXPECT_EQ(std::get<AxisList>(axis(job, "frequency").definition()), AxisList{0.2});
 }
 
 TEST(AnOverride, OfValuesReplacesALogarithmicRange)
@@ -105,50 +107,89 @@ TEST(AnOverride, OfValuesReplacesALogarithmicRange)
     const JobFile file(
         sound_job_with(5, "frequency = { first = 1, last = 4, count = 3, spacing = \"log\" }"));
     const Job job = read_job(file.path(), {"plane.frequency.values=[0.2, 0.3]"});
-    EXPECT_EQ(job.plane.frequency.values(), (AxisList{0.2, 0.3}));
+    EXPECT_EQ(axis(job, "frequency").values(), (AxisList{0.2, 0.3}));
 }
 
 TEST(AnOverride, OfARangeReplacesTheValues)
 {
     const Job job =
         job_with({"plane.amplitude.first=1", "plane.amplitude.last=4", "plane.amplitude.count=4"});
-    EXPECT_EQ(job.plane.amplitude.values(), (AxisList{1, 2, 3, 4}));
+    EXPECT_EQ(axis(job, "amplitude").values(), (AxisList{1, 2, 3, 4}));
 }
 
 TEST(AnOverride, OfTheRestitutionValuesKeepsTheKeyOf)
 {
     const Job job = job_with({"plane.restitution.values=[1.0]"});
-    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::maximum);
-    EXPECT_EQ(job.plane.restitution.size(), 1);
+    EXPECT_EQ(axis(job, "restitution_of_maximum").values(), AxisList{1});
 }
 
 TEST(AnOverride, OfAWholeAxisReplacesAllOfIt)
 {
     const Job job = job_with({"plane.restitution={values=[0.5]}"});
-    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::absolute);
-    EXPECT_EQ(job.plane.restitution[0], 0.5);
+    EXPECT_FALSE(gives(job, "restitution_of_maximum"));
+    EXPECT_EQ(axis(job, "restitution")[0], 0.5);
 }
 
 TEST(AnOverride, OfTheBlockReplacesTheSlenderness)
 {
     const Job job = job_with({"block.half_width=1", "block.half_height=2"});
-    ASSERT_TRUE(job.plane.block);
-    EXPECT_EQ(job.plane.block->half_height, 2);
+    EXPECT_FALSE(gives(job, "slenderness"));
+    EXPECT_EQ(axis(job, "half_height")[0], 2);
 }
 
 TEST(AnOverride, OfTheSlendernessReplacesTheBlock)
 {
     const JobFile file(sound_job_with(8, "[block]\nhalf_width = 1\nhalf_height = 2"));
     const Job job = read_job(file.path(), {"plane.slenderness.values=[0.3]"});
-    EXPECT_FALSE(job.plane.block);
-    EXPECT_EQ(job.plane.slenderness[0], 0.3);
+    EXPECT_FALSE(gives(job, "half_width") || gives(job, "half_height"));
+    EXPECT_EQ(axis(job, "slenderness")[0], 0.3);
+}
+
+TEST(AnOverride, OfAQuantityReplacesThoseThatItExcludes)
+{
+    EXPECT_FALSE(gives(job_with({"plane.pga=0.4"}), "amplitude"));
+    EXPECT_FALSE(gives(job_with({"plane.pulse_period=1", "plane.size=2"}), "frequency"));
+    const Job share = job_with({"plane.restitution_of_maximum=1"});
+    EXPECT_EQ(axis(share, "restitution_of_maximum").values(), AxisList{1})
+        << "the other spelling is dropped";
+    const Job size = job_with({"plane.frequency_parameter=1", "block.size=2"});
+    EXPECT_EQ(axis(size, "size")[0], 2);
+    EXPECT_FALSE(gives(size, "frequency_parameter")) << "also in another table";
+}
+
+TEST(AnOverride, OfATableReplacesTheBlockAndItsRestitution)
+{
+    const JobFile file(sound_job);
+    std::ofstream(file.directory() + "/blocks.csv") << "width,height,restitution\n1,5,0.9\n";
+    const std::string table = "blocks.table=blocks.csv";
+    const Job job = read_job(file.path(), {table});
+    EXPECT_FALSE(gives(job, "slenderness") || gives(job, "restitution_of_maximum"));
+    EXPECT_EQ(job.problem.grid.table()->columns.size(), 3u);
+    const Job again =
+        read_job(file.path(), {table, "plane.slenderness=0.2", "plane.restitution=0.9"});
+    EXPECT_EQ(again.problem.grid.table(), nullptr) << "a shape of the block replaces the table";
+}
+
+TEST(AnOverride, OfTheMotionRemovesTheQuantitiesThatDoNotApply)
+{
+    const JobFile file(sound_job);
+    std::ofstream(file.directory() + "/a.AT2")
+        << "PEER\nA, 1\nIN UNITS OF G\nNPTS= 3, DT= .1\n0 1 0\n";
+    const std::vector<std::string> record{"scene.record=a.AT2", "plane.scale=2", "plane.size=1"};
+    const Job recorded = read_job(file.path(), record);
+    EXPECT_FALSE(gives(recorded, "amplitude") || gives(recorded, "frequency"));
+    std::vector<std::string> pulse = record;
+    pulse.insert(pulse.end(), {"scene.pulse=one_cosine", "plane.pga=1", "plane.frequency=2"});
+    EXPECT_FALSE(gives(read_job(file.path(), pulse), "scale"));
 }
 
 TEST(AnOverride, OfThePulseRemovesAWindowThatDoesNotApply)
 {
     const JobFile file(sound_job_with(3, "pulse = \"symmetric_ricker\"\nwindow = 2"));
-    EXPECT_EQ(read_job(file.path(), {"scene.pulse=half_sine"}).scene.pulse, PulseKind::half_sine);
-    EXPECT_EQ(read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).scene.shape.window, 2);
+    EXPECT_EQ(read_job(file.path(), {"scene.pulse=half_sine"}).problem.scene.pulse,
+              PulseKind::half_sine);
+    EXPECT_EQ(
+        read_job(file.path(), {"scene.pulse=antisymmetric_ricker"}).problem.scene.shape.window, 2);
 }
 
 TEST(AnOverride, OfThePulseRemovesTheNumbersOfTheOther)
@@ -156,8 +197,8 @@ TEST(AnOverride, OfThePulseRemovesTheNumbersOfTheOther)
     const JobFile file(
         sound_job_with(3, "pulse = \"mavroeidis_papageorgiou\"\ngamma = 2\nnu = 0.3"));
     const Job job = read_job(file.path(), {"scene.pulse=sine", "scene.cycles=2.5"});
-    EXPECT_EQ(job.scene.pulse, PulseKind::sine);
-    EXPECT_EQ(job.scene.shape.cycles, 2.5);
+    EXPECT_EQ(job.problem.scene.pulse, PulseKind::sine);
+    EXPECT_EQ(job.problem.scene.shape.cycles, 2.5);
     EXPECT_EQ(job.resolved.find("gamma"), std::string::npos);
 }
 
@@ -180,7 +221,8 @@ TEST_P(AnOverrideIsRefused, WithTheArgumentAsLocation)
     try {
         job_with({GetParam().argument});
         FAIL() << "the override was accepted";
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         const std::string message = error.what();
         std::string place = "--set " + GetParam().argument + ": ";
         std::replace(place.begin(), place.end(), '\n', ' '); // a message is one line
@@ -228,7 +270,8 @@ TEST(AnOverride, IsShortenedInMessages)
     try {
         job_with({argument + "1]"});
         FAIL() << "the override was accepted";
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         EXPECT_LT(std::string(error.what()).size(), 300u) << error.what();
     }
 }

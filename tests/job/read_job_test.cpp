@@ -1,7 +1,11 @@
 #include "overturn/job/job.hpp"
 
-#include "job_file.hpp"
+#include "overturn/text/error.hpp"
 
+#include "job_file.hpp"
+#include "schema.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -15,7 +19,8 @@ std::string refusal_of(const std::string& path)
 {
     try {
         read_job(path);
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         return error.what();
     }
     return "accepted";
@@ -32,12 +37,13 @@ restitution = 0.9
 slenderness = 0.2
 )");
     const Job job = read_job(file.path());
-    EXPECT_EQ(job.plane.points(), 1);
-    EXPECT_EQ(job.plane.frequency[0], 3);
-    EXPECT_EQ(job.plane.amplitude[0], 1.5);
-    EXPECT_EQ(job.plane.restitution_ratio(0, 0), 0.9);
-    EXPECT_EQ(job.plane.slenderness[0], 0.2);
-    EXPECT_NE(job.resolved.find("frequency = { values = [3.0] }"), std::string::npos);
+    EXPECT_EQ(job.problem.grid.points(), 1);
+    EXPECT_EQ(axis(job, "frequency")[0], 3);
+    EXPECT_EQ(axis(job, "amplitude")[0], 1.5);
+    EXPECT_EQ(axis(job, "restitution")[0], 0.9);
+    EXPECT_EQ(axis(job, "slenderness")[0], 0.2);
+    EXPECT_EQ(dimensions_of(job), std::vector<std::string>{}) << "a number is no dimension";
+    EXPECT_NE(job.resolved.find("frequency = 3.0\n"), std::string::npos);
 }
 
 TEST(ReadingAJob, ReturnsTheValuesOfTheFile)
@@ -60,26 +66,120 @@ fields = ["margin", "region"]
 )");
     const Job job = read_job(file.path());
     EXPECT_EQ(job.title, "Antisymmetric");
-    EXPECT_EQ(job.scene.pulse, PulseKind::antisymmetric_ricker);
-    EXPECT_EQ(job.scene.theory, Theory::linear);
-    EXPECT_EQ(job.scene.shape.window, 1.5);
-    const auto& frequency = std::get<AxisRange>(job.plane.frequency.definition());
+    EXPECT_EQ(job.problem.scene.pulse, PulseKind::antisymmetric_ricker);
+    EXPECT_EQ(job.problem.scene.theory, Theory::linear);
+    EXPECT_EQ(job.problem.scene.shape.window, 1.5);
+    const auto frequency = std::get<AxisRange>(axis(job, "frequency").definition());
     EXPECT_EQ(frequency.first, 0.5);
     EXPECT_EQ(frequency.last, 8);
     EXPECT_EQ(frequency.count, 5);
     EXPECT_EQ(frequency.spacing, Spacing::log);
-    const auto& amplitude = std::get<AxisRange>(job.plane.amplitude.definition());
+    const auto amplitude = std::get<AxisRange>(axis(job, "amplitude").definition());
     EXPECT_EQ(amplitude.first, 0);
     EXPECT_EQ(amplitude.count, 17);
     EXPECT_EQ(amplitude.spacing, Spacing::linear);
-    EXPECT_EQ(std::get<AxisList>(job.plane.restitution.definition()), (AxisList{0.5, 1}));
-    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::maximum);
-    EXPECT_EQ(job.plane.slenderness.values(), (AxisList{0.1, 0.2, 0.3}));
-    EXPECT_FALSE(job.plane.block);
-    EXPECT_EQ(job.numerics.method, Method::rk45);
-    EXPECT_EQ(job.numerics.tolerance, 1e-6);
-    EXPECT_EQ(job.fields, (std::vector<Field>{Field::margin, Field::region}));
-    EXPECT_EQ(job.plane.points(), 5 * 17 * 2 * 3);
+    EXPECT_EQ(std::get<AxisList>(axis(job, "restitution_of_maximum").definition()),
+              (AxisList{0.5, 1}));
+    EXPECT_EQ(axis(job, "slenderness").values(), (AxisList{0.1, 0.2, 0.3}));
+    EXPECT_EQ(job.problem.numerics.method, Method::rk45);
+    EXPECT_EQ(job.problem.numerics.tolerance, 1e-6);
+    EXPECT_EQ(job.problem.fields, (std::vector<Field>{Field::margin, Field::region}));
+    EXPECT_EQ(job.problem.grid.points(), 5 * 17 * 2 * 3);
+}
+
+/// The names of the dimensions of a job with this text under its pulse.
+std::vector<std::string> dimensions_with(const std::string& rest)
+{
+    return dimensions_of(read_job(JobFile("scene.pulse = 'one_sine'\n" + rest).path()));
+}
+
+using Dimensions = std::vector<std::string>;
+
+TEST(ReadingAJob, AcceptsANumberOrAnAxisForEveryQuantity)
+{
+    const std::string many = " = { values = [0.5, 0.6] }\n";
+    EXPECT_EQ(dimensions_with("[plane]\npulse_period" + many + "pga" + many +
+                              "restitution_of_maximum" + many + "height" + many + "width" + many),
+              (Dimensions{"width", "height", "restitution_of_maximum", "pga", "pulse_period"}));
+    EXPECT_EQ(dimensions_with("[block]\nhalf_height" + many + "half_width = 0.2\n[plane]\n" +
+                              "pulse_frequency" + many + "amplitude = 2\nrestitution = 0.9\n"),
+              (Dimensions{"half_height", "pulse_frequency"}));
+    EXPECT_EQ(dimensions_with("[block]\nslenderness = 0.2\n[plane]\nfrequency" + many +
+                              "pga = 0.4\nrestitution" + many + "frequency_parameter" + many),
+              (Dimensions{"frequency_parameter", "restitution", "frequency"}));
+    EXPECT_EQ(dimensions_with("[plane]\npga = { values = [0.4] }\nslenderness = 0.2\nsize" + many +
+                              "restitution = 1\npulse_period = 1\n"),
+              (Dimensions{"size", "pga"}))
+        << "a list of one value is a dimension";
+}
+
+TEST(ReadingAJob, AcceptsAPeakAccelerationWithoutASize)
+{
+    const Job job = read_job(JobFile(sound_job_with(6, "pga = 0.4")).path());
+    EXPECT_NEAR(coordinate(job, "amplitude"), 0.4 / std::tan(0.1745716), 1e-15);
+}
+
+TEST(ReadingAJob, AcceptsBothSpellingsOfAShareOfTheLargestRestitution)
+{
+    const std::string resolved = read_job(JobFile(sound_job).path()).resolved;
+    EXPECT_EQ(
+        read_job(
+            JobFile(sound_job_with(7, "restitution_of_maximum = { values = [0.7, 0.85] }")).path())
+            .resolved,
+        resolved);
+}
+
+TEST(TheKeysOfAJob, AreTheQuantitiesOfItsPoints)
+{
+    for (const Quantity& quantity : all_quantities()) {
+        const auto count = [&](std::string_view table) {
+            const std::vector<std::string_view> keys = keys_of(table);
+            return std::count(keys.begin(), keys.end(), quantity.name);
+        };
+        const bool is_motion = quantity.role == Role::motion;
+        EXPECT_EQ(count("plane"), quantity.is_coordinate() && !is_motion) << quantity.name;
+        EXPECT_EQ(count("block"), quantity.role == Role::block) << quantity.name;
+    }
+    EXPECT_EQ(keys_of(""), (std::vector<std::string_view>{"title", "scene", "plane", "block",
+                                                          "blocks", "numerics", "output"}));
+    EXPECT_EQ(keys_of("no_table"), std::vector<std::string_view>{});
+}
+
+TEST(TheKeysOfAJob, CanBeOverridden)
+{
+    const std::vector<std::string> keys = override_keys();
+    const auto has = [&](const std::string& key) {
+        return std::find(keys.begin(), keys.end(), key) != keys.end();
+    };
+    const JobFile pulse(sound_job);
+    std::ofstream(pulse.directory() + "/record.AT2")
+        << "PEER\nA, 1\nIN UNITS OF G\nNPTS= 3, DT= .1\n0 1 0\n";
+    for (const std::string_view name : keys_of("plane")) {
+        const std::string key = "plane." + std::string(name);
+        EXPECT_TRUE(has(key)) << key;
+        std::vector<std::string> settings; // what else this quantity needs
+        if (name == "width" || name == "half_width") {
+            settings = {"plane.height=3"};
+        } else if (name == "height" || name == "half_height") {
+            settings = {"plane.width=0.1"};
+        } else if (name == "restitution") {
+            settings = {"plane.restitution=1"}; // without of = "maximum"
+        } else if (name == "scale") {
+            settings = {"scene.record=record.AT2", "plane.size=1"};
+        } else if (quantity(name).role == Role::rate) {
+            settings = {"plane.size=1"};
+        }
+        settings.push_back(key + "=0.5");
+        EXPECT_EQ(axis(read_job(pulse.path(), settings), name).values(), AxisList{0.5}) << key;
+        EXPECT_TRUE(has(key + ".values"));
+        settings.back() = key + ".values=[0.25, 0.5]";
+        EXPECT_EQ(axis(read_job(pulse.path(), settings), name).values(), (AxisList{0.25, 0.5}))
+            << key;
+    }
+    for (const std::string key : {"title", "scene.pulse", "block.half_height.count", "blocks.table",
+                                  "plane.restitution.of", "output.fields"}) {
+        EXPECT_TRUE(has(key)) << key;
+    }
 }
 
 TEST(ReadingAJob, FillsInTheDefaults)
@@ -94,33 +194,31 @@ slenderness = { values = [0.2] }
 )");
     const Job job = read_job(file.path());
     EXPECT_EQ(job.title, "");
-    EXPECT_EQ(job.scene.theory, Theory::nonlinear);
-    EXPECT_EQ(job.scene.shape.window, 1);
-    EXPECT_EQ(job.plane.restitution_of, RestitutionOf::absolute);
-    EXPECT_EQ(job.numerics.method, Method::rk45);
-    EXPECT_EQ(job.numerics.tolerance, 1e-9);
-    EXPECT_EQ(job.fields, std::vector<Field>{Field::region});
+    EXPECT_EQ(job.problem.scene.theory, Theory::nonlinear);
+    EXPECT_EQ(job.problem.scene.shape.window, 1);
+    EXPECT_FALSE(gives(job, "restitution_of_maximum"));
+    EXPECT_EQ(job.problem.numerics.method, Method::rk45);
+    EXPECT_EQ(job.problem.numerics.tolerance, 1e-9);
+    EXPECT_EQ(job.problem.fields, std::vector<Field>{Field::region});
 }
 
 TEST(ReadingAJob, FillsInTheDefaultsOfEmptyTables)
 {
     const JobFile without_tolerance(sound_job_with(10, ""));
-    EXPECT_EQ(read_job(without_tolerance.path()).numerics.tolerance, 1e-9);
+    EXPECT_EQ(read_job(without_tolerance.path()).problem.numerics.tolerance, 1e-9);
     const JobFile without_fields(sound_job_with(12, ""));
-    EXPECT_EQ(read_job(without_fields.path()).fields, std::vector<Field>{Field::region});
+    EXPECT_EQ(read_job(without_fields.path()).problem.fields, std::vector<Field>{Field::region});
 }
 
 TEST(ReadingAJob, DerivesTheSlendernessFromTheBlock)
 {
     const JobFile file(sound_job_with(8, "[block]\nhalf_width = 1.0\nhalf_height = 5.67"));
-    const Plane plane = read_job(file.path()).plane;
-    ASSERT_TRUE(plane.block);
-    EXPECT_EQ(plane.block->half_width, 1);
-    EXPECT_EQ(plane.block->half_height, 5.67);
-    ASSERT_EQ(plane.slenderness.size(), 1);
+    const Job job = read_job(file.path());
+    EXPECT_EQ(axis(job, "half_width")[0], 1);
+    EXPECT_EQ(axis(job, "half_height")[0], 5.67);
     // The paper's block, to its seven known digits; degrees or h/b would be far off.
-    EXPECT_NEAR(plane.slenderness[0], 0.1745716, 5e-8);
-    EXPECT_NEAR(plane.restitution_ratio(0, 0), 0.7 * 0.911547, 5e-7);
+    EXPECT_NEAR(coordinate(job, "slenderness"), 0.1745716, 5e-8);
+    EXPECT_NEAR(coordinate(job, "restitution"), 0.7 * 0.911547, 5e-7);
 }
 
 TEST(ReadingAJob, AcceptsTheEndsOfEveryInterval)
@@ -136,8 +234,8 @@ slenderness = { values = [1.5707963267948963] }
 [numerics]
 tolerance = 1e-14
 )");
-    EXPECT_EQ(read_job(file.path()).plane.frequency.first(), 5e-324);
-    EXPECT_EQ(read_job(file.path(), {"numerics.tolerance=1e-2"}).numerics.tolerance, 1e-2);
+    EXPECT_EQ(axis(read_job(file.path()), "frequency").first(), 5e-324);
+    EXPECT_EQ(read_job(file.path(), {"numerics.tolerance=1e-2"}).problem.numerics.tolerance, 1e-2);
 }
 
 TEST(ReadingAJob, AcceptsTheFinestAscendingRanges)
@@ -146,19 +244,19 @@ TEST(ReadingAJob, AcceptsTheFinestAscendingRanges)
     // 4 eps last = 2^-49 apart for last = 2; half of that is refused.
     const std::vector<std::string> fine{"plane.frequency.first=1.9999999999999822",
                                         "plane.frequency.last=2", "plane.frequency.count=11"};
-    const Axis axis = read_job(file.path(), fine).plane.frequency;
-    for (std::int64_t i = 1; i < axis.size(); ++i) {
-        EXPECT_LT(axis[i - 1], axis[i]);
+    const Axis frequency = axis(read_job(file.path(), fine), "frequency");
+    for (std::int64_t i = 1; i < frequency.size(); ++i) {
+        EXPECT_LT(frequency[i - 1], frequency[i]);
     }
     const std::vector<std::string> finer{fine[0], fine[1], "plane.frequency.count=21"};
-    EXPECT_THROW(read_job(file.path(), finer), JobError);
+    EXPECT_THROW(read_job(file.path(), finer), Error);
 }
 
 TEST(ReadingAJob, ContainsNoNegativeZero)
 {
     const JobFile file(sound_job_with(6, "amplitude = { values = [-0.0, 1] }"));
     const Job job = read_job(file.path());
-    EXPECT_FALSE(std::signbit(job.plane.amplitude[0]));
+    EXPECT_FALSE(std::signbit(axis(job, "amplitude")[0]));
 }
 
 TEST(ReadingAJob, StoresTheFileByteForByte)

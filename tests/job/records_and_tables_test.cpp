@@ -1,7 +1,9 @@
 // Names of motions and of columns, and strengths, of jobs with records and tables.
+#include "job_file.hpp"
 #include "motion_names.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <fmt/format.h>
@@ -60,6 +62,13 @@ protected:
                    "[plane]\n" + strength + "\nsize = 1\nslenderness = 0.2\nrestitution = 0.9\n");
     }
 
+    /// A job with a table and a plane.
+    Job table(const std::string& text, const std::string& scene, const std::string& plane) const
+    {
+        write("t.csv", text);
+        return job(scene, "[blocks]\ntable = \"t.csv\"\n[plane]\n" + plane);
+    }
+
     /// A job with a table of one block; pulse: under this pulse, else records of the scene.
     Job table(const std::string& text, const std::string& scene = "pulse = \"one_sine\"") const
     {
@@ -73,12 +82,15 @@ protected:
     ScratchFolder folder_;
 };
 
+using Names = std::vector<std::string>;
+
 template <class Read>
 std::string refusal_of(const Read& read)
 {
     try {
         read();
-    } catch (const JobError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         return error.what();
     }
     return "accepted";
@@ -91,6 +103,12 @@ std::vector<std::string> names_of(const Job& job)
         names.push_back(motion.name);
     }
     return names;
+}
+
+/// The numbers of the records of the rows of a table, from 1.
+AxisList numbers_of_motions(const Job& job)
+{
+    return job.problem.grid.find("motion")->values.values();
 }
 
 using Motions = JobWithFiles;
@@ -106,7 +124,6 @@ TEST_F(Motions, AreNamedByTheirFilesAndThoseOfOneFileAlsoByTheirComponents)
     const Job suite =
         plane("record = ['a.V2A', 'a.V2A', 'b.AT2', 'a.V2A']\ncomponent = [1, 2, 1, 3]");
     EXPECT_EQ(names_of(suite), names);
-    EXPECT_EQ(names_of(read_resolved_job(suite.resolved, "resolved")), names);
 }
 
 TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)
@@ -130,12 +147,12 @@ TEST_F(Motions, AreChosenInTablesByTheirNames)
 {
     write_components("a.V2A", {"N", "E"});
     const auto motion_of = [&](const std::string& name) {
-        return table("slenderness,size,restitution,scale,motion\n0.2,1,0.9,1," + name + "\n",
-                     "record = ['a.V2A', 'a.V2A']\ncomponent = ['N', 'E']")
-            .plane.list->motion;
+        return numbers_of_motions(
+            table("slenderness,size,restitution,scale,motion\n0.2,1,0.9,1," + name + "\n",
+                  "record = ['a.V2A', 'a.V2A']\ncomponent = ['N', 'E']"));
     };
-    EXPECT_EQ(motion_of("a.V2A:E"), std::vector<std::int64_t>{1});
-    EXPECT_EQ(motion_of("a:N"), std::vector<std::int64_t>{0});
+    EXPECT_EQ(motion_of("a.V2A:E"), AxisList{2});
+    EXPECT_EQ(motion_of("a:N"), AxisList{1});
     EXPECT_THAT(
         refusal_of([&] { motion_of("a.V2A"); }),
         HasSubstr("t.csv:2:5: motion = \"a.V2A\" is the name of several records: \"a.V2A:N\" "
@@ -149,11 +166,11 @@ TEST_F(Motions, OfFilesWhoseNamesAreNotUtf8AreRefused)
                 HasSubstr("matches the file b\u00e9.AT2, whose name is not UTF-8. Rename it."));
 }
 
-TEST_F(Motions, InLatin1AreReadAgainFromTheResolvedJob)
+TEST_F(Motions, InLatin1AreStoredInUtf8)
 {
     write("b.AT2", "PEER\nM\xe9xico, \xd1\nIN UNITS OF G\nNPTS= 3, DT= .1\n0 1 0\n");
     const Job job = plane("record = 'b.AT2'");
-    EXPECT_EQ(read_resolved_job(job.resolved, "resolved").motions[0].component, "\u00d1");
+    EXPECT_EQ(job.motions[0].component, "\u00d1");
     EXPECT_EQ(job.motions[0].header[1], "M\u00e9xico, \u00d1");
 }
 
@@ -166,8 +183,8 @@ TEST_F(Strengths, WhoseFactorOnTheRecordOverflowsAreRefused)
         const double peak = std::pow(10.0, -308.5 - double(random() % 100) / 10);
         write_record("b.AT2", fmt::format("0 {} 0", peak));
         EXPECT_THAT(refusal_of([&] { plane("record = 'b.AT2'", "pga = 1"); }),
-                    HasSubstr("plane.pga is 1, which exceeds the range of double precision as a "
-                              "factor on \"b.AT2\", whose peak is"))
+                    HasSubstr("plane.pga = 1 exceeds the range of double precision as a factor on "
+                              "the record, whose peak is"))
             << peak;
         EXPECT_THAT(refusal_of([&] {
                         table("slenderness,size,restitution,pga\n0.2,1,0.9,0\n0.2,1,0.9,1\n",
@@ -230,6 +247,66 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
         HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
 }
 
+TEST_F(Columns, MayGiveAnySubsetOfTheQuantities)
+{
+    const Job shapes = table("height,width\n2,0.5\n3,1\n", "pulse = \"one_sine\"",
+                             "pga = { values = [0.1, 0.3] }\nrestitution_of_maximum = 1\n"
+                             "pulse_period = { first = 1, last = 2, count = 3 }\n");
+    EXPECT_EQ(dimensions_of(shapes), (Names{"block", "pga", "pulse_period"}));
+    EXPECT_EQ(shapes.problem.grid.shape(), (Shape{2, 2, 3}));
+    const Job strengths = table("pga,id\n0.1,a\n0.4,b\n", "pulse = \"one_sine\"",
+                                "size = 1\nslenderness = { values = [0.2, 0.3] }\n"
+                                "restitution = 0.9\npulse_period = { values = [1, 2] }\n");
+    EXPECT_EQ(dimensions_of(strengths), (Names{"block", "slenderness", "pulse_period"}));
+    EXPECT_EQ(strengths.problem.grid.table()->columns.size(), 1u) << "id does not describe points";
+    write_record("b.AT2", "0 1 0");
+    const Job sizes = table("size\n1\n2\n3\n", "record = ['b.AT2']",
+                            "scale = { values = [1, 2] }\nslenderness = 0.2\nrestitution = 0.9\n");
+    EXPECT_EQ(dimensions_of(sizes), (Names{"motion", "block", "scale"}));
+}
+
+TEST_F(Columns, AreRefusedAtTheirRowAndColumn)
+{
+    const auto refusal = [&](const std::string& text, const std::string& plane) {
+        return refusal_of([&] { table(text, "pulse = \"one_sine\"", plane); });
+    };
+    const std::string motion = "pga = 1\npulse_period = 1\n";
+    EXPECT_THAT(refusal("width,height,restitution\n1,2,0.9\n1,2,1.5\n", motion),
+                HasSubstr("t.csv:3:3: restitution = 1.5 is outside (0, 1]."));
+    EXPECT_THAT(refusal("restitution,height,width\n1,1e300,1e-300\n", motion),
+                HasSubstr("t.csv:2:3: width makes the block 1e-300 m wide and 1e+300 m high"));
+    EXPECT_THAT(refusal("slenderness,size,restitution_of_maximum\n0.2,1,1\n0.2,1,1.2\n", motion),
+                HasSubstr("t.csv:3:3: restitution_of_maximum = 1.2 gives r = 1.06"));
+    EXPECT_THAT(refusal("slenderness,size,restitution\n0.2,1,0.9\n", motion + "width = 1\n"),
+                HasSubstr("t.csv:1:1: slenderness cannot be combined with plane.width, which "
+                          "describes the block in another way. Remove one of them."));
+    EXPECT_THAT(refusal("width,height,restitution\n1,2,0.9\n", motion + "size = 1\n"),
+                HasSubstr("job.toml:8:8: plane.size cannot be combined with the column width"));
+    EXPECT_THAT(refusal("width,restitution\n1,0.9\n", motion),
+                HasSubstr("job.toml:5:1: plane.height is missing. Give width and height, or their "
+                          "halves, in metres."));
+}
+
+TEST_F(Columns, OfABlockWithoutAPlaneAreRefusedAtTheTable)
+{
+    write("t.csv", "width,restitution,pga\n1,0.9,0.2\n");
+    EXPECT_THAT(refusal_of([&] { job("pulse = \"one_sine\"", "[blocks]\ntable = \"t.csv\"\n"); }),
+                HasSubstr("t.csv:1: height is missing. Give width and height"));
+}
+
+TEST_F(Columns, OfTheMotionAreIgnoredUnderAPulse)
+{
+    EXPECT_FALSE(table(with_column("motion", "a.AT2")).problem.scene.is_recorded());
+}
+
+TEST_F(Motions, AreADimensionIfTheyAreAListOrAPattern)
+{
+    write_record("a.AT2", "0 1 0");
+    EXPECT_EQ(dimensions_of(plane("record = 'a.AT2'")), Names());
+    EXPECT_EQ(dimensions_of(plane("record = ['a.AT2']")), Names{"motion"});
+    EXPECT_EQ(dimensions_of(plane("record = '*.AT2'")), Names{"motion"});
+}
+
 TEST_F(Motions, AreFoundInATableByNamesThatLookLikeNumbers)
 {
     const std::vector<std::string> names{"3", "03", "1e1", "10"};
@@ -242,7 +319,7 @@ TEST_F(Motions, AreFoundInATableByNamesThatLookLikeNumbers)
         const Job found =
             table("width,height,restitution,motion,scale\n1,4,0.8," + names[i] + ",1\n",
                   "record = [" + records + "]");
-        EXPECT_EQ(found.plane.list->motion, std::vector{std::int64_t(i)}) << names[i];
+        EXPECT_EQ(numbers_of_motions(found), AxisList{double(i + 1)}) << names[i];
     }
 }
 

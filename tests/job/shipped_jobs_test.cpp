@@ -1,6 +1,7 @@
 // Every job shipped with the program is valid.
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/plausibility.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/plausibility.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ TEST_P(AShippedJob, IsValid)
     const Job job = read_job(path);
     EXPECT_FALSE(job.title.empty());
     EXPECT_TRUE(job.given.starts_with("# ")) << "it begins with a comment";
-    EXPECT_EQ(implausible_values(job.scene, job.plane), "");
+    EXPECT_EQ(implausible_values(job.problem.scene, job.problem.grid), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, AShippedJob, testing::ValuesIn(names_of_shipped_jobs()),
@@ -48,10 +49,12 @@ TEST(TheJobsOfTheFigures, AreThoseOfThePapersBlock)
         if (name.starts_with("figure_")) {
             const Job job = read_job(jobs_directory / (name + ".toml"));
             ++figures;
-            ASSERT_TRUE(job.plane.block) << name;
-            EXPECT_NEAR(job.plane.slenderness[0], 0.1745716, 5e-8) << name;
-            EXPECT_EQ(job.plane.restitution_of, RestitutionOf::maximum) << name;
-            EXPECT_EQ(job.plane.points(), 1000 * 1000) << name;
+            const Grid& grid = job.problem.grid;
+            const Coordinates coordinates(job.problem.scene, grid);
+            EXPECT_TRUE(coordinates.has("size")) << name;
+            EXPECT_NEAR(coordinates.of("slenderness").first(), 0.1745716, 5e-8) << name;
+            EXPECT_NE(grid.find("restitution_of_maximum"), nullptr) << name;
+            EXPECT_EQ(grid.points(), 1000 * 1000) << name;
         }
     }
     EXPECT_EQ(figures, 9) << "figures 7a, 9a, 9b and both of 11, 14 and 16";

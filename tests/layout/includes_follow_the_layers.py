@@ -8,8 +8,9 @@ import pathlib
 import re
 import sys
 
-LAYER = {"number": 0, "mechanics": 1, "integrate": 2, "sweep": 3, "record": 4, "job": 4, "file": 4,
-         "farm": 4, "commands": 5, "python": 5}
+LAYER = {"number": 0, "text": 0, "mechanics": 1, "integrate": 2, "problem": 3,
+         "sweep": 3, "record": 4, "job": 4,
+         "file": 4, "farm": 4, "commands": 5, "python": 5}
 # The modules of layer 4 that another of layer 4 may include.
 NEIGHBOURS = {"record": set(), "job": {"record"}, "file": {"job"}, "farm": {"job"}}
 # Only these modules may include these headers. Module file opens files on a communicator.

@@ -10,7 +10,7 @@ namespace overturn {
 namespace {
 
 template <Theory theory>
-std::optional<LowBounces> bounds_of(PulseKind pulse, const Point<double>& point)
+std::optional<LowBounces> bounds_of(PulseKind pulse, const PulsePoint<double>& point)
 {
     return bound_of_low_bounces<theory>(point.slenderness, excitation_of<theory>(pulse, point));
 }
@@ -24,9 +24,9 @@ TEST(LowBounces, BoundTheMotionAtAnyMoment)
         for (int i = 0; i < 60; ++i) {
             const double slenderness = 0.05 + 0.8 * uniform(generator);
             const double restitution = i % 2 ? 1 : uniform(generator);
-            const Point<double> point{slenderness, restitution,
-                                      std::pow(10, -1 + 2 * uniform(generator)),
-                                      1 + std::pow(10, -0.5 - 2.5 * uniform(generator))};
+            const PulsePoint<double> point{slenderness, restitution,
+                                           std::pow(10, -1 + 2 * uniform(generator)),
+                                           1 + std::pow(10, -0.5 - 2.5 * uniform(generator))};
             Excitation<double> excitation = excitation_of<theory>(pulse, point);
             const GroundMotion<double>& motion = excitation.motion;
             excitation.motion =
@@ -49,7 +49,7 @@ TEST(LowBounces, BoundTheMotionAtAnyMoment)
 TEST(LowBounces, UnderAConstantPushAreCloseToTheClosedForm)
 {
     // Linear theory: |theta| = (a - 1) alpha (cosh tau - 1) from rest.
-    const Point<double> point{0.2, 1, 3, 1.02};
+    const PulsePoint<double> point{0.2, 1, 3, 1.02};
     const auto bounds = bounds_of<Theory::linear>(PulseKind::rectangular, point);
     ASSERT_TRUE(bounds);
     const double duration = pi<double>() / point.frequency;

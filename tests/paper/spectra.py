@@ -111,13 +111,13 @@ def spectrum(figure, *settings):
     settings = (f"plane.frequency.count={COUNT}", f"plane.amplitude.count={COUNT}",
                 f"output.fields=[{listed}]", *settings)
     with output_of("run", figure, *overrides(settings)) as file:
-        data = {name: file[name][0, 0] for name in fields}
+        data = {name: file[name][...].squeeze() for name in fields}
         data["impacts"] = data["impacts"].astype(int)
         data["frequency"], data["amplitude"] = np.meshgrid(file["frequency"], file["amplitude"])
-        return Spectrum(slenderness=float(file["slenderness"][0]),
-                        restitution=float(file["restitution_ratio"][0, 0]),
-                        half_width=file.attrs["half_width"],
-                        half_height=file.attrs["half_height"], **data)
+        return Spectrum(slenderness=file["slenderness"][...].item(),
+                        restitution=file["restitution"][...].item(),
+                        half_width=file["half_width"][...].item(),
+                        half_height=file["half_height"][...].item(), **data)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -45,7 +45,7 @@ class TheBitsOfAPlane(WithTheSameBits):
                           "amplitude": {"first": 0.5, "last": 12, "count": 13},
                           "restitution": {"values": [0.7, 0.8]}, "slenderness": 0.2}})
             outcome = overturn.evaluate(
-                slenderness=spectrum.slenderness.values[:, None, None, None],
+                slenderness=spectrum.slenderness.item(),
                 restitution=spectrum.restitution.values[:, None, None],
                 amplitude=spectrum.amplitude.values[:, None], frequency=spectrum.frequency.values, **scene,
                 **numerics)

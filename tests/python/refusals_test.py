@@ -86,10 +86,10 @@ class AnArgumentError(Refused):
 
     def test_of_missing_arguments(self):
         self.assert_refused(TypeError, "Give width and height", width=None)
-        self.assert_refused(TypeError, "the restitution is missing", restitution=None)
+        self.assert_refused(TypeError, "restitution is missing", restitution=None)
         self.assert_refused(TypeError, "the ground motion is incomplete", pga=None)
         self.assert_refused(TypeError, "the ground motion is incomplete", pulse_period=None)
-        self.assert_refused(TypeError, "pulse_period needs the size of the blocks", width=None, height=None,
+        self.assert_refused(TypeError, "pulse_period needs the dimensions of the block", width=None, height=None,
                             slenderness=0.2)
         self.assert_refused(TypeError, "a record needs time_step", RECORD, time_step=None)
         self.assert_refused(TypeError, "either scale or pga", RECORD, scale=None)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,8 @@ inline std::string refusal_of(std::string_view text, const RecordOptions& option
 {
     try {
         parse_record(text, "a.txt", options);
-    } catch (const RecordError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         return error.what();
     }
     return "accepted";

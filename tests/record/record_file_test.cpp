@@ -14,7 +14,8 @@ std::string refusal_of_file(const std::string& path)
 {
     try {
         read_record(path, in_g);
-    } catch (const RecordError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         return error.what();
     }
     return "accepted";

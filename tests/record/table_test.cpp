@@ -1,5 +1,6 @@
 // Tables of comma-separated values.
 #include "overturn/record/read_table.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,8 @@ std::string refusal_of(std::string_view text)
 {
     try {
         table_of(text);
-    } catch (const TableError& error) {
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), exit_code::job);
         return error.what();
     }
     return "no error";

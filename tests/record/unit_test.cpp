@@ -22,7 +22,7 @@ double factor_of(const std::string& text)
     try {
         const RecordComponent component = component_of(text);
         return component.unit == AccelerationUnit::g ? 0 : .5 / over_gravity(component, 1).front();
-    } catch (const RecordError&) {
+    } catch (const Error&) {
         return -1;
     }
 }
@@ -53,14 +53,15 @@ const std::vector<Group> groups{
            "ACCELERATION, CM/SEC**2", "ACCELERATION CM/S2 CORRECTED", "Acceleration in cm per sec per sec",
            "ACCELERATION IN CM/SEC SQUARED", "acceleration in cm s-2", "acceleration in cm/s\xc2\xb2",
            "acceleration in cm/s\xb2", "ACCELERATION: CM / SEC / SEC", "ACCELERATION IN CM/(S*S)"}},
-    {1, {"ACCELERATION IN M/S/S", "UNITS: M/S^2", "acceleration (m/s2)", "ACCELERATION IN METERS/SEC/SEC", "units = m s^-2"}},
+    {1, {"ACCELERATION TIME SERIES m\xc2\xb7s\xe2\x81\xbb\xc2\xb2", "ACCELERATION (m s\xe2\x88\x92\xc2\xb2)", "ACCELERATION IN M/S/S", "UNITS: M/S^2", "acceleration (m/s2)", "ACCELERATION IN METERS/SEC/SEC", "units = m s^-2"}},
     {1000, {"ACCELERATION IN MM/S/S", "UNITS OF MM/SEC**2", "acceleration [mm/s^2]"}},
     {-1, {"ACCELERATION IN G/10", "ACCELERATION IN G / 10", "UNITS OF G*981", "ACCELERATION (G/100)", "ACCELERATION IN 0.01 G",
           "ACCELERATION IN 10**-3 G", "ACCELERATION IN PERCENT OF G", "ACCELERATION IN % G", "ACCELERATION (%G)",
           "ACCELERATION IN MILLI-G", "ACCELERATION IN TENTHS OF G", "UNITS: FURLONGS", "ACCELERATION (CM/S)",
           "ACCELERATION IN FT/S/S", "ACCELERATION IN IN/SEC/SEC", "ACCELERATION IN SI UNITS", "ACCELERATION IN COUNTS",
           "ACCELERATION IN CM", "ACCELERATION IN CM/S/S * 10", "ACCELERATION IN UNITS OF G (CM/S/S)", "UNITS: MG",
-          "ACCELERATION IN CM/S/S/S", "ACCELERATION IN VOLTS", "ACCELERATION G X 100", "SPECTRAL ACCELERATION (G)", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G",
+          "ACCELERATION IN CM/S/S/S", "ACCELERATION IN VOLTS", "ACCELERATION TIME SERIES N/kg", "ACCELERATION TIME SERIES SI",
+          "ACCELERATION TIME SERIES [10^-3 G]", "ACCELERATION TIME SERIES IN UNITS OF G (SCALED BY 10)", "ACCELERATION G X 100", "SPECTRAL ACCELERATION (G)", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G",
           "ACCELERATION, % OF G", "ACCELERATION, MICRO-G", "ACCELERATION IN CMSS", "ACCELERATION PERCENT G"}}};
 // clang-format on
 
@@ -212,7 +213,8 @@ TEST(AStatedUnit, InTheNameOfAColumnMustBeTheGivenOne)
 TEST(AStatedUnit, OfTheTimesOfATextIsSeconds)
 {
     for (const char* other :
-         {"# t [ms]  a [g]", "# time_ms, acc_g", "# acceleration in g, time in ms"}) {
+         {"# t [ms]  a [g]", "# time_ms, acc_g", "# acceleration in g, time in ms", "# t_ms acc_g",
+          "# t (min), a (g)"}) {
         EXPECT_THAT(refusal_of(std::string(other) + "\n0 1\n10 2\n", in_g),
                     testing::HasSubstr("Give times in seconds."))
             << other;

@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "commands"))
-from program import ENVIRONMENT, OVERTURN, children_of, ranks_of, under_mpi  # noqa: E402
+from program import ENVIRONMENT, OVERTURN, ranks_of, under_mpi  # noqa: E402
 
 BEGAN = time.monotonic()
 CORES = len(os.sched_getaffinity(0))
@@ -182,8 +182,8 @@ class Command:
 
     def look_at_memory(self):
         with contextlib.suppress(OSError):  # already ended
-            if not self.under_mpi:  # a process that reads files in a child process
-                self.pids = [self.process.pid, *children_of(self.process.pid)]
+            if not self.under_mpi:
+                self.pids = [self.process.pid]
             elif len(self.pids) < self.ranks:
                 self.pids = ranks_of(self.process.pid)
         for pid in self.pids:

@@ -1,8 +1,7 @@
-// Every pulse with both theories, and a plane of a single point.
+// Every pulse with both theories.
 #pragma once
 
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <vector>
 
@@ -17,18 +16,6 @@ inline std::vector<Scene> every_scene()
         }
     }
     return scenes;
-}
-
-/// Point: PlanePoint, or Point<double>.
-template <class Point>
-Plane plane_of(const Point& point)
-{
-    Plane plane;
-    plane.slenderness = Axis(AxisList{point.slenderness});
-    plane.restitution = Axis(AxisList{point.restitution});
-    plane.frequency = Axis(AxisList{point.frequency});
-    plane.amplitude = Axis(AxisList{point.amplitude});
-    return plane;
 }
 
 } // namespace overturn

@@ -1,5 +1,5 @@
-// One point of a plane, from its four coordinates, and the end of its forced stage in doubles and
-// in 50 digits.
+// One point under a pulse, from its four coordinates, and the end of its forced stage in doubles
+// and in 50 digits.
 #pragma once
 
 #include "overturn/integrate/more_digits.hpp"
@@ -7,7 +7,7 @@
 namespace overturn {
 
 template <class S>
-struct Point {
+struct PulsePoint {
     S slenderness; ///< [rad]
     S restitution; ///< r [1]
     S frequency;   ///< Omega [1]
@@ -17,7 +17,8 @@ struct Point {
 };
 
 template <Theory theory, class S>
-Excitation<S> excitation_of(PulseKind pulse, const Point<S>& point, const PulseShape& shape = {})
+Excitation<S> excitation_of(PulseKind pulse, const PulsePoint<S>& point,
+                            const PulseShape& shape = {})
 {
     return excitation_of<theory>(ground_motion<S>(pulse, shape), point.slenderness, point.amplitude,
                                  point.frequency);
@@ -32,7 +33,7 @@ GroundMotion<S> cut_at(const S& phase, GroundMotion<S> motion)
     return motion;
 }
 
-inline Point<Digits50> in_digits(const Point<double>& point)
+inline PulsePoint<Digits50> in_digits(const PulsePoint<double>& point)
 {
     return {point.slenderness, point.restitution, point.frequency, point.amplitude};
 }
@@ -44,7 +45,7 @@ ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<do
                                  double tolerance);
 
 template <Theory theory, class Method = RungeKutta, bool with_error = false>
-ForcedEnd<double> forced_end(PulseKind pulse, const Point<double>& point, double tolerance,
+ForcedEnd<double> forced_end(PulseKind pulse, const PulsePoint<double>& point, double tolerance,
                              const PulseShape& shape = {})
 {
     return run_in_doubles<Method, theory, with_error>(
@@ -52,7 +53,7 @@ ForcedEnd<double> forced_end(PulseKind pulse, const Point<double>& point, double
 }
 
 template <Theory theory>
-ForcedEnd<Digits50> forced_end(PulseKind pulse, const Point<Digits50>& point, double tolerance)
+ForcedEnd<Digits50> forced_end(PulseKind pulse, const PulsePoint<Digits50>& point, double tolerance)
 {
     return run_in_more_digits<Digits50, theory>(point.block(), excitation_of<theory>(pulse, point),
                                                 nullptr, tolerance);
@@ -69,7 +70,7 @@ void for_every_scene(const Visitor& visit)
 }
 
 template <Theory theory, class S>
-S margin_of(const ForcedEnd<S>& end, const Point<S>& point)
+S margin_of(const ForcedEnd<S>& end, const PulsePoint<S>& point)
 {
     return margin_of<theory>(end, point.block());
 }
@@ -88,7 +89,7 @@ double flip_of(const IsUnsafe& is_unsafe_at, double low, double high)
 
 /// The amplitude between `low` and `high` at which the verdict flips.
 template <Theory theory, class Method = RungeKutta>
-double flip(PulseKind pulse, Point<double> point, double low, double high, double tolerance,
+double flip(PulseKind pulse, PulsePoint<double> point, double low, double high, double tolerance,
             const PulseShape& shape = {})
 {
     const auto is_unsafe_at = [&](double amplitude) {

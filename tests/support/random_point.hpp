@@ -8,7 +8,7 @@
 namespace overturn {
 
 /// Slenderness 0.08 to 0.45, more than half of the largest restitution, always lifted.
-inline Point<double> random_point(std::mt19937_64& generator)
+inline PulsePoint<double> random_point(std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
     const double slenderness = 0.08 + 0.37 * uniform(generator);

@@ -1,4 +1,5 @@
 #include "overturn/sweep/accuracy.hpp"
+#include "support/given_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,41 +9,40 @@
 namespace overturn {
 namespace {
 
-Plane papers_plane()
+/// The paper's block.
+Grid papers_grid(const Given& amplitude, const Given& frequency)
 {
-    Plane plane;
-    plane.frequency = Axis(AxisRange{0.5, 8, 300, Spacing::linear});
-    plane.amplitude = Axis(AxisRange{1.2, 12, 200, Spacing::linear});
-    plane.restitution = Axis(AxisList{0.9});
-    plane.slenderness = Axis(AxisList{0.1745716});
-    return plane;
+    return grid_of(
+        {}, {number("slenderness", 0.1745716), number("restitution", 0.9), amplitude, frequency});
 }
 
 const AccuracyStudy& study()
 {
-    static const AccuracyStudy made({}, papers_plane(), 1024, 64, widest_kernel());
+    static const AccuracyStudy made({},
+                                    papers_grid(axis("amplitude", AxisRange{1.2, 12, 200}),
+                                                axis("frequency", AxisRange{0.5, 8, 300})),
+                                    1024, 64, widest_kernel());
     return made;
 }
 
-TEST(AccuracyStudy, DistributesItsSampleOverThePlane)
+TEST(AccuracyStudy, DistributesItsSampleOverTheGrid)
 {
-    const Plane& sample = study().sample().plane;
-    EXPECT_EQ(sample.frequency.first(), 0.5);
-    EXPECT_EQ(sample.frequency.last(), 8);
-    EXPECT_EQ(sample.amplitude.first(), 1.2);
-    EXPECT_EQ(sample.amplitude.last(), 12);
+    const Grid& sample = study().sample().grid;
+    EXPECT_EQ(sample.find("frequency")->values.first(), 0.5);
+    EXPECT_EQ(sample.find("frequency")->values.last(), 8);
+    EXPECT_EQ(sample.find("amplitude")->values.first(), 1.2);
+    EXPECT_EQ(sample.find("amplitude")->values.last(), 12);
     EXPECT_LE(sample.points(), 1024);
     EXPECT_GT(sample.points(), 900);
     EXPECT_EQ(study().sample().in_digits, 64);
 }
 
-TEST(AccuracyStudy, UsesAllPointsOfASmallPlane)
+TEST(AccuracyStudy, UsesAllPointsOfASmallGrid)
 {
-    Plane plane = papers_plane();
-    plane.frequency = Axis(AxisList{1, 2, 5});
-    plane.amplitude = Axis(AxisList{2, 3});
-    const AccuracyStudy small({}, plane, 1024, 100, widest_kernel());
-    EXPECT_EQ(small.sample().plane.points(), 6);
+    const Grid grid =
+        papers_grid(axis("amplitude", AxisList{2, 3}), axis("frequency", AxisList{1, 2, 5}));
+    const AccuracyStudy small({}, grid, 1024, 100, widest_kernel());
+    EXPECT_EQ(small.sample().grid.points(), 6);
     EXPECT_EQ(small.sample().in_digits, 6);
 }
 
@@ -52,7 +52,7 @@ TEST(AccuracyStudy, CountsEveryPointByRegionAndByDistance)
     const auto sum = [](const auto& counts) {
         return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
     };
-    EXPECT_EQ(sample.settled, sample.plane.points());
+    EXPECT_EQ(sample.settled, sample.grid.points());
     EXPECT_EQ(sum(sample.by_region), sample.settled);
     EXPECT_EQ(sum(sample.by_distance), sample.settled);
 }

@@ -1,3 +1,4 @@
+#include "overturn/problem/axis.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "support/every_scene.hpp"
 #include "support/one_point.hpp"

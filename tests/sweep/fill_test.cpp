@@ -1,6 +1,7 @@
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/fill.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
 #include "support/every_scene.hpp"
+#include "support/given_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,35 +11,45 @@
 namespace overturn {
 namespace {
 
-Plane some_plane(std::int64_t rows, std::int64_t columns)
+Grid grid_of_block(double slenderness, double share_of_maximum, const AxisRange& amplitude,
+                   const AxisRange& frequency)
 {
-    Plane plane;
-    plane.frequency = Axis(AxisRange{.first = 0.3, .last = 9, .count = columns});
-    plane.amplitude = Axis(AxisRange{.first = 0.9, .last = 12, .count = rows});
-    plane.restitution = Axis(AxisList{0.9});
-    plane.restitution_of = RestitutionOf::maximum;
-    plane.slenderness = Axis(AxisList{0.2});
-    return plane;
+    return grid_of({}, {number("slenderness", slenderness),
+                        number("restitution_of_maximum", share_of_maximum),
+                        axis("amplitude", amplitude), axis("frequency", frequency)});
 }
 
-struct Problem {
-    Scene scene;
-    Numerics numerics;
-    Plane plane;
-};
+Grid some_grid(std::int64_t rows, std::int64_t columns)
+{
+    return grid_of_block(0.2, 0.9, {.first = 0.9, .last = 12, .count = rows},
+                         {.first = 0.3, .last = 9, .count = columns});
+}
 
-FilledTile filled(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                  bool with_impacts = false, const FillRule& rule = {},
+const std::vector<Field> region_alone{Field::region, Field::evaluated};
+const std::vector<Field> region_and_impacts{Field::region, Field::impacts, Field::evaluated};
+
+/// A filled spectrum, of one tile.
+Problem filled_problem(const Scene& scene, Numerics numerics, const Grid& grid,
+                       std::vector<Field> fields = region_alone)
+{
+    numerics.fill = true;
+    return {.scene = scene, .grid = grid, .numerics = numerics, .fields = std::move(fields)};
+}
+
+FilledTile filled(const Problem& problem, const FillRule& rule = {},
                   Kernel kernel = widest_kernel())
 {
-    return fill_tile(scene, numerics, plane, filled_tiling(plane)[0], with_impacts, kernel, nullptr,
-                     rule);
+    EXPECT_EQ(tiling_of(problem).size(), 1);
+    return fill_tile(problem, tiling_of(problem)[0], kernel, nullptr, rule);
 }
 
-TileFields integrated(const Scene& scene, const Numerics& numerics, const Plane& plane)
+/// The region and the impacts of every point.
+TileFields integrated(Problem problem)
 {
-    return sweep_tile(scene, numerics, plane, filled_tiling(plane)[0],
-                      {Field::region, Field::impacts}, widest_kernel());
+    const Tile tile = tiling_of(problem)[0];
+    problem.numerics.fill = false;
+    problem.fields = {Field::region, Field::impacts};
+    return compute_tile(problem, tile, widest_kernel());
 }
 
 const auto& regions_of(const TileFields& fields)
@@ -55,13 +66,14 @@ std::int64_t count(const std::vector<std::uint8_t>& values, std::uint8_t value)
 
 TEST(Fill, EveryPointHasTheRegionOfADirectSpectrum)
 {
-    const Plane plane = some_plane(128, 128);
+    const Grid grid = some_grid(128, 128);
     for (const Scene& scene : every_scene()) {
         for (const Numerics& numerics :
              {without_audit, Numerics{.method = Method::taylor, .audit = 0},
               Numerics{.tolerance = 1e-4, .resolve = true, .audit = 0}}) {
-            const FilledTile tile = filled(scene, numerics, plane);
-            EXPECT_EQ(tile.region, regions_of(integrated(scene, numerics, plane)))
+            const Problem problem = filled_problem(scene, numerics, grid);
+            const FilledTile tile = filled(problem);
+            EXPECT_EQ(tile.region, regions_of(integrated(problem)))
                 << name_of(scene.pulse) << ", " << name_of(scene.theory) << ", "
                 << name_of(numerics.method);
             // If nothing were filled, this test would compare nothing.
@@ -73,10 +85,11 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrum)
 
 TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
 {
-    const Plane plane = some_plane(128, 128);
+    const Grid grid = some_grid(128, 128);
     for (const Scene& scene : every_scene()) {
-        const FilledTile tile = filled(scene, without_audit, plane, true);
-        const TileFields direct = integrated(scene, without_audit, plane);
+        const Problem problem = filled_problem(scene, without_audit, grid, region_and_impacts);
+        const FilledTile tile = filled(problem);
+        const TileFields direct = integrated(problem);
         EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
         EXPECT_EQ(tile.impacts, std::get<std::vector<std::uint16_t>>(direct.values[1]))
             << name_of(scene.pulse);
@@ -87,15 +100,16 @@ TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
 
 TEST(Fill, EveryKernelFillsTheSamePoints)
 {
-    const Plane plane = some_plane(120, 100);
+    const Grid grid = some_grid(120, 100);
     for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
         if (!runs_here(kernel)) {
             continue;
         }
         for (const Scene& scene : every_scene()) {
-            const Numerics numerics{.audit = 0.01};
-            const FilledTile one = filled(scene, numerics, plane, true, {}, kernel);
-            const FilledTile other = filled(scene, numerics, plane, true);
+            const Problem problem =
+                filled_problem(scene, {.audit = 0.01}, grid, region_and_impacts);
+            const FilledTile one = filled(problem, {}, kernel);
+            const FilledTile other = filled(problem);
             EXPECT_EQ(one.region, other.region) << name_of(kernel);
             EXPECT_EQ(one.impacts, other.impacts) << name_of(kernel);
             EXPECT_EQ(one.evaluated, other.evaluated) << name_of(kernel);
@@ -107,44 +121,55 @@ TEST(Fill, EveryKernelFillsTheSamePoints)
 TEST(Fill, WorksOnTilesOfAnyShape)
 {
     for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 100}, {100, 1}, {2, 3}, {37, 5}}) {
-        const Plane plane = some_plane(rows, columns);
-        const FilledTile tile = filled({}, without_audit, plane);
-        EXPECT_EQ(tile.region, regions_of(integrated({}, without_audit, plane)))
+        const Problem problem = filled_problem({}, without_audit, some_grid(rows, columns));
+        EXPECT_EQ(filled(problem).region, regions_of(integrated(problem)))
             << rows << " x " << columns;
     }
+}
+
+TEST(Fill, EverySpectrumOfAGridIsFilledByItself)
+{
+    const std::vector<Given> plane{axis("amplitude", AxisRange{0.9, 12, 100}),
+                                   axis("frequency", AxisRange{0.3, 9, 60})};
+    const auto filled_regions = [&](const Given& slenderness, std::int64_t tile) {
+        std::vector<Given> given = plane;
+        given.push_back(slenderness);
+        given.push_back(number("restitution", 0.8));
+        const Problem problem = filled_problem({}, without_audit, grid_of({}, given));
+        return fill_tile(problem, tiling_of(problem)[tile], widest_kernel()).region;
+    };
+    EXPECT_EQ(filled_regions(axis("slenderness", {0.1, 0.3}), 0),
+              filled_regions(number("slenderness", 0.1), 0));
+    EXPECT_EQ(filled_regions(axis("slenderness", {0.1, 0.3}), 1),
+              filled_regions(number("slenderness", 0.3), 0));
 }
 
 /// Many low bounces precede a large motion: a strip of one row passes between nodes that agree.
 Problem hard_problem()
 {
-    Problem problem{.scene = {.pulse = PulseKind::cosine, .shape = {.cycles = 2}},
-                    .numerics = {.method = Method::taylor, .audit = 0},
-                    .plane = some_plane(128, 128)};
-    problem.plane.frequency = Axis(AxisRange{.first = 1.053725, .last = 2, .count = 128});
-    problem.plane.amplitude = Axis(AxisRange{.first = 1.01, .last = 1.50306, .count = 128});
-    problem.plane.restitution = Axis(AxisList{1});
-    problem.plane.slenderness = Axis(AxisList{0.1});
-    return problem;
+    return filled_problem({.pulse = PulseKind::cosine, .shape = {.cycles = 2}},
+                          {.method = Method::taylor, .audit = 0},
+                          grid_of_block(0.1, 1, {.first = 1.01, .last = 1.50306, .count = 128},
+                                        {.first = 1.053725, .last = 2, .count = 128}));
 }
 
 constexpr FillRule nodes_alone{.kappa = 0, .grazes = false};
 
 TEST(Fill, NodesThatAgreeAreNotEnough)
 {
-    const auto [scene, numerics, plane] = hard_problem();
-    const auto expected = regions_of(integrated(scene, numerics, plane));
-    EXPECT_EQ(filled(scene, numerics, plane).region, expected);
-    EXPECT_NE(filled(scene, numerics, plane, false, nodes_alone).region, expected);
+    const Problem problem = hard_problem();
+    const auto expected = regions_of(integrated(problem));
+    EXPECT_EQ(filled(problem).region, expected);
+    EXPECT_NE(filled(problem, nodes_alone).region, expected);
 }
 
 TEST(Fill, AuditOfAShareChecksThatShare)
 {
-    Plane plane = some_plane(128, 128);
-    plane.frequency = Axis(AxisRange{.first = 8, .last = 9, .count = 128}); // S everywhere
-    plane.amplitude = Axis(AxisRange{.first = 0.1, .last = 0.9, .count = 128});
+    const Grid grid = grid_of_block(0.2, 0.9, {.first = 0.1, .last = 0.9, .count = 128},
+                                    {.first = 8, .last = 9, .count = 128}); // S everywhere
+    const FilledTile unchecked = filled(filled_problem({}, without_audit, grid));
     for (const double share : {1e-3, 0.01, 0.3, 1.0}) {
-        const FilledTile tile = filled({}, {.audit = share}, plane);
-        const FilledTile unchecked = filled({}, without_audit, plane);
+        const FilledTile tile = filled(filled_problem({}, {.audit = share}, grid));
         const double expected = share * double(count(unchecked.evaluated, point_origin::filled));
         // At most one point in a block is chosen: the variance is at most the Poisson one. A wrong
         // share would be off by a factor of two.
@@ -153,30 +178,28 @@ TEST(Fill, AuditOfAShareChecksThatShare)
         EXPECT_EQ(count(tile.evaluated, point_origin::integrated),
                   count(unchecked.evaluated, point_origin::integrated) + tile.audit.checked);
     }
-    EXPECT_EQ(filled({}, without_audit, plane).audit.checked, 0);
+    EXPECT_EQ(unchecked.audit.checked, 0);
 }
 
 TEST(Fill, EveryPointIsIntegratedIfTheAuditFindsAWrongOne)
 {
-    auto [scene, numerics, plane] = hard_problem();
-    numerics.audit = 1;
-    const FilledTile tile = filled(scene, numerics, plane, false, nodes_alone);
+    Problem problem = hard_problem();
+    problem.numerics.audit = 1;
+    const FilledTile tile = filled(problem, nodes_alone);
     EXPECT_GT(tile.audit.wrong, 0);
-    EXPECT_EQ(tile.region, regions_of(integrated(scene, numerics, plane)));
+    EXPECT_EQ(tile.region, regions_of(integrated(problem)));
     EXPECT_EQ(count(tile.evaluated, point_origin::filled), 0);
 }
 
-TEST(Fill, SweepsStoreWhichPointsWereIntegrated)
+TEST(Fill, TilesStoreWhichPointsWereIntegrated)
 {
-    const Plane plane = some_plane(128, 128);
-    const Numerics numerics{.fill = true};
-    const TileFields fields =
-        sweep_tile({}, numerics, plane, filled_tiling(plane)[0],
-                   {Field::evaluated, Field::impacts, Field::region}, widest_kernel());
-    const FilledTile tile = filled({}, numerics, plane, true);
-    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[0]), tile.evaluated);
-    EXPECT_EQ(std::get<std::vector<std::uint16_t>>(fields.values[1]), tile.impacts);
-    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2]), tile.region);
+    const Problem problem = filled_problem({}, {}, some_grid(128, 128),
+                                           {Field::impacts, Field::region, Field::evaluated});
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
+    const FilledTile tile = filled(problem);
+    EXPECT_EQ(std::get<std::vector<std::uint16_t>>(fields.values[0]), tile.impacts);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[1]), tile.region);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2]), tile.evaluated);
     EXPECT_EQ(fields.audit.checked, tile.audit.checked);
     EXPECT_GT(fields.audit.checked, 0);
 }

@@ -1,7 +1,8 @@
 #include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/history.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
 #include "support/every_scene.hpp"
+#include "support/given_values.hpp"
 #include "support/random_point.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +12,17 @@
 namespace overturn {
 namespace {
 
-const PlanePoint safe_point{
+const Point safe_point{
     .slenderness = 0.1745716, .restitution = 0.9, .amplitude = 1.3, .frequency = 3};
+
+/// The fields of one point.
+TileFields fields_of(const Scene& scene, const Point& point, const Numerics& numerics,
+                     const std::vector<Field>& fields)
+{
+    const Problem problem{
+        .scene = scene, .grid = grid_of_point(point), .numerics = numerics, .fields = fields};
+    return compute_tile(problem, tiling_of(problem)[0], widest_kernel());
+}
 
 /// Calls check(scene, point) for some points under every pulse and theory.
 template <class Check>
@@ -21,9 +31,9 @@ void for_random_points(const Check& check)
     std::mt19937_64 generator(33);
     for (const Scene& scene : every_scene()) {
         for (int i = 0; i < 12; ++i) {
-            const Point<double> point = random_point(generator);
-            check(scene, PlanePoint{point.slenderness, point.restitution, point.amplitude,
-                                    point.frequency});
+            const PulsePoint<double> point = random_point(generator);
+            check(scene,
+                  Point{point.slenderness, point.restitution, point.amplitude, point.frequency});
         }
     }
 }
@@ -38,11 +48,10 @@ int count(const History& history, EventKind kind, double until)
 
 TEST(History, HasTheEndStateOfTheSpectrum)
 {
-    for_random_points([](const Scene& scene, const PlanePoint& point) {
-        const Plane plane = plane_of(point);
-        const TileFields fields = sweep_tile(
-            scene, {Method::taylor, 1e-12}, plane, Tiling(plane)[0],
-            {Field::region, Field::margin, Field::error, Field::impacts}, widest_kernel());
+    for_random_points([](const Scene& scene, const Point& point) {
+        const TileFields fields =
+            fields_of(scene, point, {Method::taylor, 1e-12},
+                      {Field::region, Field::margin, Field::error, Field::impacts});
         const auto region = Region(std::get<std::vector<std::uint8_t>>(fields.values[0])[0]);
         const double margin = std::get<std::vector<double>>(fields.values[1])[0];
         const double error = std::get<std::vector<double>>(fields.values[2])[0];
@@ -60,8 +69,7 @@ TEST(History, HasTheEndStateOfTheSpectrum)
 
 TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
 {
-    for_random_points([](const Scene& scene, const PlanePoint& point) {
-        const Plane plane = plane_of(point);
+    for_random_points([](const Scene& scene, const Point& point) {
         HistoryView view;
         view.samples = 8000;
         const History history = history_of(scene, point, view);
@@ -72,8 +80,7 @@ TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
         for (const Numerics& numerics :
              {Numerics{Method::rk45, 1e-9}, {Method::taylor, 1e-9}, {Method::rk45, 1e-9, true}}) {
             const TileFields fields =
-                sweep_tile(scene, numerics, plane, Tiling(plane)[0],
-                           {Field::peak, Field::fall_time, Field::error}, widest_kernel());
+                fields_of(scene, point, numerics, {Field::peak, Field::fall_time, Field::error});
             const double found = std::get<std::vector<double>>(fields.values[0])[0];
             const double fall = std::get<std::vector<double>>(fields.values[1])[0];
             if (is_safe(history.region)) {
@@ -95,7 +102,7 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
 {
     // By Simpson's rule over pairs of intervals of the evenly spaced times: h^5 / 90 times a fourth
     // derivative, which is at most that of the pulse, Omega^4 (Ricker: 30 Omega^4), and round-off.
-    for_random_points([](const Scene& scene, const PlanePoint& point) {
+    for_random_points([](const Scene& scene, const Point& point) {
         HistoryView view;
         view.until = 3;
         view.samples = 6001;
@@ -130,7 +137,7 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
 
 TEST(History, LosesSpeedOnlyAtImpacts)
 {
-    for_random_points([](const Scene& scene, const PlanePoint& point) {
+    for_random_points([](const Scene& scene, const Point& point) {
         const History history = history_of(scene, point);
         for (const HistoryEvent& event : history.events) {
             EXPECT_NEAR(event.before.angle, event.after.angle, 1e-15);
@@ -171,7 +178,7 @@ TEST(History, ContinuesUntilTheBlockIsAtRest)
 
 TEST(History, EndsWhenTheBlockOverturns)
 {
-    PlanePoint point = safe_point;
+    Point point = safe_point;
     point.amplitude = 2;
     const History free = history_of({}, point);
     EXPECT_EQ(free.events.back().kind, EventKind::fall);
@@ -187,7 +194,7 @@ TEST(History, EndsWhenTheBlockOverturns)
 
 TEST(History, IsThatOfABlockAtRestIfNothingLiftsIt)
 {
-    PlanePoint point = safe_point;
+    Point point = safe_point;
     point.amplitude = 0.5;
     const History history = history_of({}, point);
     ASSERT_EQ(history.events.size(), 1u);
@@ -203,7 +210,7 @@ TEST(History, IsThatOfABlockAtRestIfNothingLiftsIt)
 TEST(History, ContainsRestAndAnotherUplift)
 {
     // A slow pulse: bounces die out before the second lobe.
-    PlanePoint point = safe_point;
+    Point point = safe_point;
     point.frequency = 0.05;
     point.amplitude = 1.00001;
     point.restitution = 0.3;
@@ -216,7 +223,7 @@ TEST(History, ContainsRestAndAnotherUplift)
 
 TEST(History, OfABlockWithoutLossTerminates)
 {
-    PlanePoint point = safe_point;
+    Point point = safe_point;
     point.restitution = 1;
     const History history = history_of({}, point);
     EXPECT_TRUE(std::isinf(history.time_of_rest));

@@ -1,7 +1,7 @@
 // Uncertain verdicts, and only those, are settled with more digits.
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "point_run.hpp"
-#include "support/every_scene.hpp"
+#include "support/given_values.hpp"
 #include "support/one_point.hpp"
 #include "support/random_record.hpp"
 
@@ -18,12 +18,12 @@ struct Found {
     std::uint8_t flags;
 };
 
-Found compute(const Numerics& numerics, const Point<double>& point)
+Found compute(const Numerics& numerics, const PulsePoint<double>& point)
 {
-    const Plane plane = plane_of(point);
-    const TileFields fields =
-        sweep_tile({}, numerics, plane, Tiling(plane)[0],
-                   {Field::region, Field::margin, Field::error, Field::status}, widest_kernel());
+    const Problem problem{.grid = grid_of_point(point),
+                          .numerics = numerics,
+                          .fields = {Field::region, Field::margin, Field::error, Field::status}};
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
     return {Region(std::get<std::vector<std::uint8_t>>(fields.values[0])[0]),
             std::get<std::vector<double>>(fields.values[1])[0],
             std::get<std::vector<double>>(fields.values[2])[0],
@@ -33,7 +33,7 @@ Found compute(const Numerics& numerics, const Point<double>& point)
 constexpr Numerics resolved_rk45{Method::rk45, 1e-4, true};
 constexpr Numerics resolved_taylor{Method::taylor, 1e-4, true};
 
-Digits50 true_margin(const Point<double>& point)
+Digits50 true_margin(const PulsePoint<double>& point)
 {
     return margin_of<Theory::nonlinear>(
         forced_end<Theory::nonlinear>(PulseKind::one_sine, in_digits(point), 1e-28),
@@ -42,7 +42,7 @@ Digits50 true_margin(const Point<double>& point)
 
 /// The last amplitude below 1.5 at which the paper's block is safe, and the first at which it is
 /// not: neighbouring doubles.
-std::pair<double, double> neighbours_at_the_flip(Point<double> point)
+std::pair<double, double> neighbours_at_the_flip(PulsePoint<double> point)
 {
     double safe = 1.2;
     double unsafe = 1.5;
@@ -56,7 +56,7 @@ std::pair<double, double> neighbours_at_the_flip(Point<double> point)
 TEST(ResolvedVerdicts, AreRightToTheLastBitOfTheAmplitude)
 {
     const double slenderness = papers_slenderness();
-    Point<double> point{slenderness, largest_restitution(slenderness), 3, 0};
+    PulsePoint<double> point{slenderness, largest_restitution(slenderness), 3, 0};
     const auto [safe, unsafe] = neighbours_at_the_flip(point);
     for (const Numerics& numerics : {resolved_rk45, resolved_taylor}) {
         point.amplitude = safe;
@@ -74,7 +74,7 @@ TEST(ResolvedVerdicts, AreRightToTheLastBitOfTheAmplitude)
 
 TEST(ResolvedVerdicts, AreThoseOfTheFirstPassWhereItIsCertain)
 {
-    const Point<double> point{0.2, 0.8, 3, 4};
+    const PulsePoint<double> point{0.2, 0.8, 3, 4};
     Numerics plain = resolved_taylor;
     plain.resolve = false;
     const Found once = compute(plain, point);
@@ -102,8 +102,8 @@ TEST(ResolvedVerdicts, AreThoseOfAtMost32PointsUnderARecordIn50Digits)
     Scene scene;
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
     const auto resolved = [&](std::size_t count) {
-        const PlanePoint block{point.block.slenderness, 1, point.scale, point.frequency};
-        const std::vector<PlanePoint> points(count, block);
+        const Point block{point.block.slenderness, 1, point.scale, point.frequency};
+        const std::vector<Point> points(count, block);
         return ends_of(PointRun(scene, points, widest_kernel()), resolved_taylor, {.region = true});
     };
     EXPECT_EQ(resolved(1).flags[0], 0);
@@ -114,14 +114,22 @@ TEST(ResolvedVerdicts, AreThoseOfAtMost32PointsUnderARecordIn50Digits)
     }
 }
 
+/// All points of a block of slenderness 0.2 at these amplitudes and at frequencies from 0.3 to 8.
+std::vector<Point> points_of_block(double restitution, const AxisRange& amplitudes)
+{
+    const Grid grid =
+        grid_of({}, {number("slenderness", 0.2), number("restitution", restitution),
+                     axis("amplitude", amplitudes),
+                     axis("frequency", AxisRange{0.3, 8, amplitudes.count, Spacing::log})});
+    return Coordinates({}, grid).points();
+}
+
 TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
 {
     // Without loss, from hardly lifted to overturned.
-    Plane plane = plane_of(Point<double>{0.2, 1, 0, 0});
-    plane.frequency = Axis(AxisRange{0.3, 8, 24, Spacing::log});
-    plane.amplitude = Axis(AxisRange{1.001, 6, 24, Spacing::log});
+    const std::vector<Point> points = points_of_block(1, {1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
-        const PointRun run({}, points_of({}, plane, Tiling(plane)[0]), widest_kernel());
+        const PointRun run({}, points, widest_kernel());
         Ends whole(std::size_t(run.size()), {.error = true, .steps = true});
         Ends ended = whole;
         run.run(numerics, whole, OnUnknownError::go_on);
@@ -149,16 +157,13 @@ TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
 
 TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
 {
-    Plane plane = plane_of(Point<double>{0.2, 0.9, 0, 0});
-    plane.frequency = Axis(AxisRange{0.3, 8, 32, Spacing::log});
-    plane.amplitude = Axis(AxisRange{1.001, 20, 32, Spacing::log});
+    const std::vector<Point> points = points_of_block(0.9, {1.001, 20, 32, Spacing::log});
     int sure = 0;
     int doubted = 0;
     int doubted_of_fallen = 0;
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            const PointRun run({.theory = theory}, points_of({}, plane, Tiling(plane)[0]),
-                               widest_kernel());
+            const PointRun run({.theory = theory}, points, widest_kernel());
             Ends ends(std::size_t(run.size()), {.error = true, .margin = true});
             run.run(numerics, ends);
             for (std::size_t i = 0; i < ends.margin.size(); ++i) {

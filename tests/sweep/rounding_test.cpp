@@ -1,6 +1,7 @@
 // The rounding mode of the processor may change the last bits, but no certain verdict.
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+#include "support/given_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,15 +26,15 @@ struct Swept {
 
 Swept sweep(const Scene& scene, const Numerics& numerics, int mode)
 {
-    Plane plane;
-    plane.frequency = Axis(AxisRange{0.3, 9.0, 64, Spacing::linear});
-    plane.amplitude = Axis(AxisRange{0.9, 12.0, 64, Spacing::linear});
-    plane.restitution = Axis(AxisList{0.8});
-    plane.slenderness = Axis(AxisList{0.1745716});
+    const Problem problem{
+        .scene = scene,
+        .grid = grid_of(scene, {number("slenderness", 0.1745716), number("restitution", 0.8),
+                                axis("amplitude", AxisRange{0.9, 12.0, 64}),
+                                axis("frequency", AxisRange{0.3, 9.0, 64})}),
+        .numerics = numerics,
+        .fields = {Field::region, Field::margin, Field::error}};
     const RoundingMode rounding(mode);
-    const TileFields fields =
-        sweep_tile(scene, numerics, plane, Tiling(plane)[0],
-                   {Field::region, Field::margin, Field::error}, widest_kernel());
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
     return {std::get<std::vector<std::uint8_t>>(fields.values[0]),
             std::get<std::vector<double>>(fields.values[1]),
             std::get<std::vector<double>>(fields.values[2])};

@@ -15,6 +15,7 @@ from tool import run_tool  # first: adds the package to the path
 import overturn
 from matplotlib import pyplot
 from overturn.plot import histories
+from overturn.result_file import open_result
 
 OVERTURN = os.environ["OVERTURN"]
 JOB = """
@@ -28,6 +29,10 @@ JOB = """
     slenderness = { values = [0.2] }
     """
 IMPACT = 1  # as numbered in the file
+
+
+def open_history(path):
+    return open_result(path, "rocking history", "a history")
 
 
 class TestAHistoryUnderARecord(unittest.TestCase):
@@ -44,9 +49,12 @@ class TestAHistoryUnderARecord(unittest.TestCase):
 
     def under_a_record(self, **attributes):
         """Replaces the pulse of the history by a record."""
-        attributes = {"scale": 0.6, "size": 3.0, **attributes}
+        if "pga" not in attributes:
+            attributes["scale"] = 0.6
+        attributes.setdefault("size", 3.0)
+        attributes.setdefault("frequency_parameter", np.sqrt(3 * 9.81 / (4 * attributes["size"])))
         with h5py.File(self.folder / "history.h5", "a") as file:
-            for name in ("pulse", "frequency", "amplitude"):
+            for name in ("pulse", "frequency", "amplitude", "pga"):
                 del file.attrs[name]
             file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, **attributes})
 
@@ -57,7 +65,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         return (self.folder / "picture.svg").read_text("utf-8")
 
     def history(self, start=0, until=np.inf):
-        with h5py.File(self.folder / "history.h5") as file:
+        with open_history(self.folder / "history.h5") as file:
             return histories.History(file, start, until)
 
     def test_has_ticks_without_a_common_factor_and_explains_its_dashed_lines(self):
@@ -76,7 +84,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         draw = np.random.default_rng(2)
         for size in draw.uniform(1, 9, 3):
             self.under_a_record(size=size)
-            with h5py.File(self.folder / "history.h5") as file:
+            with open_history(self.folder / "history.h5") as file:
                 self.assertIn(f"$R$ = {size:.4g} m", histories.describe(file))
             (self.folder / "history.h5").unlink()
             self.compute()
@@ -94,14 +102,6 @@ class TestAHistoryUnderARecord(unittest.TestCase):
             np.testing.assert_allclose(history.impacts(), impacts / p)
         self.assertEqual(history.limits("angle"), (-1, 1))
 
-    def test_takes_the_frequency_parameter_if_the_file_has_it(self):
-        self.under_a_record()
-        with h5py.File(self.folder / "history.h5", "a") as file:
-            del file.attrs["size"]
-            file.attrs["frequency_parameter"] = 2.0
-            last = file["time"][-1]
-        self.assertAlmostEqual(self.history().time[-1], last / 2)
-
     def test_shows_ground_and_tilt_with_their_events(self):
         self.under_a_record()
         picture = self.picture()
@@ -113,14 +113,14 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         self.assertNotIn("velocity", picture)
 
     def test_states_the_point_and_the_outcome(self):
-        for strength, words in (({"scale": 0.6}, "scale = 0.6"), ({"pga": 0.5}, "PGA = 0.5 g")):
-            with h5py.File("point", "w", driver="core", backing_store=False) as file:
-                file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, "size": 3.0,
-                                   "theory": "nonlinear", "slenderness": 0.2, "restitution": 0.9,
-                                   "region": 8, **strength})
+        for strength, words in (({}, "scale = 0.6"), ({"pga": 0.5}, "PGA = 0.5 g")):
+            self.under_a_record(region=8, restitution=0.9, **strength)
+            with open_history(self.folder / "history.h5") as file:
                 self.assertEqual(histories.describe(file),
                                  rf"a_\$1\$.AT2, {words}, $R$ = 3 m, $\alpha$ = 0.2 rad, "
                                  "$r$ = 0.9: falls during the record (F−)")
+            (self.folder / "history.h5").unlink()
+            self.compute()
 
     def test_without_a_title_is_titled_by_its_record(self):
         self.under_a_record(title="")
@@ -136,10 +136,10 @@ class TestAHistoryUnderARecord(unittest.TestCase):
         self.assertEqual(run.returncode, 74)
         self.assertIn("has no data from 3 s to 2 s", run.stderr)
 
-    def test_without_a_size_is_damaged(self):
+    def test_without_the_frequency_parameter_is_damaged(self):
         self.under_a_record()
         with h5py.File(self.folder / "history.h5", "a") as file:
-            del file.attrs["size"]
+            del file.attrs["frequency_parameter"]
         run = run_tool("plot_history", "history.h5", cwd=self.folder)
         self.assertEqual(run.returncode, 74)
         self.assertIn("is damaged", run.stderr)

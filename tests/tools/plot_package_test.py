@@ -79,7 +79,7 @@ class TestPicturesFromPython(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "is not all of"):
                 overturn.plot.spectrum(dataset.isel(amplitude=slice(3)))
             with self.assertRaisesRegex(ValueError, "is not all of"):
-                overturn.plot.spectrum(dataset.isel(restitution=0))
+                overturn.plot.spectrum(dataset.isel(restitution_of_maximum=0))
 
     def test_name_regions_as_the_file_does(self):
         with h5py.File(self.path("spectrum")) as file:

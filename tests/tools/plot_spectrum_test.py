@@ -29,24 +29,21 @@ class Picture(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def spectrum(self, codes, frequency=None, amplitude=None, **attributes):
+    def spectrum(self, codes, frequency=None, amplitude=None, size=None, **attributes):
         """Writes a result file with the given codes; slenderness and restitution may be omitted.
         Each point is a tile, which has no checksum where it is not computed."""
         codes = np.array(codes, np.uint8)
         codes = codes.reshape((1,) * (4 - codes.ndim) + codes.shape)
         slendernesses, restitutions, rows, columns = codes.shape
+        axes = {"slenderness": np.linspace(0.1, 0.2, slendernesses),
+                "restitution_of_maximum": np.linspace(0.7, 1, restitutions),
+                "amplitude": np.arange(1.0, rows + 1) if amplitude is None else amplitude,
+                "frequency": np.arange(1.0, columns + 1) if frequency is None else frequency}
         with h5py.File(self.folder / "spectrum.h5", "w") as file:
-            file.attrs.update({"kind": "overturning spectrum", "title": "A title",
-                               "pulse": "one_sine", "theory": "nonlinear", **attributes})
-            add_field(file, "region", codes, NOT_COMPUTED)
-            file["slenderness"] = np.linspace(0.1, 0.2, slendernesses)
-            file["restitution"] = np.linspace(0.7, 1, restitutions)
-            file["restitution"].attrs["of"] = "maximum"
-            file["restitution_ratio"] = np.full((slendernesses, restitutions), 0.625)
-            file["frequency"] = np.arange(1.0, columns + 1) if frequency is None else frequency
-            file["amplitude"] = np.arange(1.0, rows + 1) if amplitude is None else amplitude
-            file["checksum"] = (codes != NOT_COMPUTED).astype(np.uint64).ravel()
-            file["checksum"].attrs.update({"tile_shape": [1, 1, 1, 1]})
+            file.attrs.update({"title": "A title", "pulse": "one_sine", "theory": "nonlinear", **attributes})
+            write_result(file, axes, codes, codes != NOT_COMPUTED)
+            if size is not None:
+                add_coordinate(file, "size", size)
 
     def plot(self, *arguments):
         return run_tool("plot_spectrum", *arguments, cwd=self.folder)
@@ -62,8 +59,32 @@ class Picture(unittest.TestCase):
         return re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
 
 
+def write_result(file, axes, codes, computed):
+    """Writes a spectrum over these axes, in which each point is a tile."""
+    file.attrs.update({"kind": "overturning spectrum", "format_version": 4})
+    for name, values in axes.items():
+        file[name] = values
+        file[name].make_scale()
+    file["run/checksum"] = np.broadcast_to(computed, codes.shape).astype(np.uint64).ravel()
+    file["run/checksum"].attrs.update({"tile_shape": [1] * codes.ndim, "dimensions": " ".join(axes)})
+    add_field(file, "region", codes, NOT_COMPUTED)
+    add_coordinate(file, "restitution", np.full(codes.shape[-4:-2], 0.625), "slenderness", "restitution_of_maximum")
+
+
+def attach(data, *dimensions):
+    for axis, name in enumerate(dimensions):
+        data.dims[axis].attach_scale(data.file[name])
+
+
+def add_coordinate(file, name, values, *dimensions):
+    file[name] = values
+    attach(file[name], *dimensions)
+    file["region"].attrs["coordinates"] = file["region"].attrs.get("coordinates", "") + " " + name
+
+
 def add_field(file, name, values, fill):
     file.create_dataset(name, data=values, fillvalue=fill)
+    attach(file[name], *file["run/checksum"].attrs["dimensions"].split())
 
 
 def where(picture, code):
@@ -193,7 +214,7 @@ class TestTheWords(Picture):
         settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
         settings += "\noutput.fields=[\"region\"]\noutput = {}"
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["job_overrides"] = np.frombuffer(settings.encode(), np.uint8)
+            file["run/job_overrides"] = np.frombuffer(settings.encode(), np.uint8)
         self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",
                       [word.replace("&quot;", '"') for word in self.words()])
 
@@ -206,17 +227,39 @@ class TestTheWords(Picture):
 
 class TestSeveralSpectra(Picture):
     def test_each_has_its_own_panel(self):
-        self.spectrum([[[[S]], [[F_MINUS]], [[U0_PLUS]]], [[[S]], [[U0_PLUS]], [[U0_PLUS]]]])
+        codes = np.array([[S, F_MINUS, U0_PLUS], [S, U0_PLUS, U0_PLUS]])
+        self.spectrum(np.tile(codes[..., None, None], (2, 2)))
         self.assertEqual(len([word for word in self.words() if word.startswith("α = ")]), 6)
         np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_PLUS]),
                                    np.array([2, 1, 3]) / 6, atol=0.01)
 
     def test_an_index_selects_one(self):
         self.spectrum([[[[S]], [[F_MINUS]]], [[[U0_PLUS]], [[U0_MINUS]]]])
-        picture = self.picture("--slenderness", "1", "--restitution", "0")
-        self.assertGreater(np.count_nonzero(where(picture, U0_PLUS)), 900_000)
-        self.assertEqual([np.count_nonzero(where(picture, code))
-                          for code in (S, F_MINUS, U0_MINUS)], [0, 0, 0])
+        for index in (("--slenderness", "1", "--restitution", "0"),
+                      ("--index", "slenderness=1", "--index", "restitution_of_maximum=0")):
+            self.assert_only(U0_PLUS, self.picture(*index))
+
+    def assert_only(self, code, picture):
+        self.assertGreater(np.count_nonzero(where(picture, code)), 900_000)
+        for other in {S, F_MINUS, U0_PLUS, U0_MINUS} - {code}:
+            self.assertEqual(np.count_nonzero(where(picture, other)), 0)
+
+    def test_any_two_dimensions_are_axes(self):
+        # Slenderness and amplitude; the strength of the motion is vertical.
+        self.spectrum([[[[S], [F_MINUS]]], [[[F_MINUS], [F_MINUS]]]])
+        picture, words = self.picture("--index", "frequency=0"), self.words("--index", "frequency=0")
+        np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [0.25, 0.75], atol=0.01)
+        middle = np.median(np.argwhere(where(picture, S)), axis=0)
+        self.assertGreater(middle[0], picture.shape[0] / 2)  # rows are counted downward
+        self.assertLess(middle[1], 600)
+        self.assertIn("one-sine pulse,  ω_p/p = 1,  r = 0.7 r_max", words)
+
+    def test_a_single_dimension_is_no_map(self):
+        self.spectrum([[S]])
+        run = self.plot("spectrum.h5", *(f"--index={name}=0" for name in (
+            "slenderness", "restitution_of_maximum", "amplitude")))
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("has frequency only. Give more axes in the job, or use tools/to_csv", run.stderr)
 
     def test_too_many_are_refused_with_the_choices(self):
         self.spectrum(np.zeros((1, 13, 2, 2)))
@@ -281,6 +324,14 @@ class TestARefusal(Picture):
         with h5py.File(self.folder / "other.h5", "w") as file:
             file["region"] = [1]
         self.refuses(74, "not a spectrum written by overturn run", "other.h5")
+
+    def test_of_another_format(self):
+        self.spectrum([[S]])
+        for version, words in ((2, "the overturn that wrote it"), (5, "a newer overturn")):
+            with h5py.File(self.folder / "spectrum.h5", "a") as file:
+                file.attrs["format_version"] = version
+            self.refuses(74, f"has format version {version}; this tool reads versions 3 and 4. Use the tools of "
+                         f"{words}", "spectrum.h5")
 
     def test_of_a_truncated_file(self):
         self.spectrum(np.zeros((50, 50)))

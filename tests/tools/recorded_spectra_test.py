@@ -1,4 +1,4 @@
-"""Spectra under recorded ground motions in plot_spectrum, plot_landing, to_csv and to_xdmf.
+"""Spectra under recorded ground motions in plot_spectrum, plot_landing and to_csv.
 
 Requires OVERTURN (the binary) in the environment.
 """
@@ -11,9 +11,10 @@ import unittest
 import h5py
 import numpy as np
 from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_PLUS, UNDECIDED,
-                                Picture, add_field, shares, where)
-from to_xdmf_test import Described, follow
+                                Picture, add_coordinate, add_field, shares, where,
+                                write_result)
 from tool import TOOLS, run_tool  # first: adds the package to the path
+from overturn.spectrum_file import Plane, open_spectrum
 from overturn.units import name_axes
 
 FREE_FALL = 16
@@ -28,24 +29,21 @@ class Recorded(Picture):
         codes = codes.reshape((1,) * (5 - codes.ndim) + codes.shape)
         count, slendernesses, restitutions, rows, columns = codes.shape
         computed = codes != NOT_COMPUTED if computed is None else computed
+        values = {"motion": np.arange(1.0, count + 1), "slenderness": np.linspace(0.1, 0.2, slendernesses),
+                  "restitution_of_maximum": np.linspace(0.7, 1, restitutions),
+                  up: axes.get(up, np.arange(1.0, rows + 1)), across: axes.get(across, np.arange(1.0, columns + 1))}
         with h5py.File(self.folder / "spectrum.h5", "w") as file:
-            file.attrs.update({"kind": "overturning spectrum", "title": "", "record": "a.AT2",
-                               "gravity": 9.81, "theory": "nonlinear", "format_version": 2})
-            add_field(file, "region", codes, NOT_COMPUTED)
-            file["motion"] = np.arange(1.0, count + 1)
+            file.attrs.update({"title": "", "record": "a.AT2", "gravity": 9.81, "theory": "nonlinear"})
+            write_result(file, values, codes, computed)
             longest = max(len(name.encode()) for name in motions)
-            file["motion_name"] = np.array([list(name.encode().ljust(longest, b"\0"))
-                                            for name in motions], np.uint8).view("S1")
-            file["pga" if up == "scale" else "record_pga"] = 0.4 + 0.1 * np.arange(count)
-            file["slenderness"] = np.linspace(0.1, 0.2, slendernesses)
-            file["restitution"] = np.linspace(0.7, 1, restitutions)
-            file["restitution"].attrs["of"] = "maximum"
-            file["restitution_ratio"] = np.full((slendernesses, restitutions), 0.625)
-            file[across] = axes.get(across, np.arange(1.0, columns + 1))
-            file[up] = axes.get(up, np.arange(1.0, rows + 1))
-            file["checksum"] = np.broadcast_to(computed, codes.shape).astype(np.uint64).ravel()
-            file["checksum"].attrs["tile_shape"] = [1] * 5
-            file["checksum"].attrs["dimensions"] = f"motion slenderness restitution {up} {across}"
+            file["motion_name_length"] = np.zeros(longest, ">f4")
+            file["motion_name_length"].make_scale("This is a netCDF dimension but not a netCDF variable.")
+            add_coordinate(file, "motion_name", np.array([list(name.encode().ljust(longest, b"\0"))
+                                                          for name in motions], np.uint8).view("S1"),
+                           "motion", "motion_name_length")
+            add_coordinate(file, "record_pga", 0.4 + 0.1 * np.arange(count), "motion")
+            if up == "scale":
+                add_coordinate(file, "pga", np.outer(0.4 + 0.1 * np.arange(count), values[up]), "motion", "scale")
 
     def add(self, name, values, fill=np.nan):
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
@@ -88,8 +86,8 @@ class TestThePlane(Recorded):
                 ("scale", "size", (r"size  $R$ [m]", "scale of the record")),
                 ("pga", "frequency_parameter", (r"$p$ [1/s]", "PGA [g]"))):
             self.recorded([[S, F_MINUS], [S, S]], up=up, across=across)
-            with h5py.File(self.folder / "spectrum.h5") as file:
-                self.assertEqual(name_axes(file), labels)
+            with open_spectrum(self.folder / "spectrum.h5") as file:
+                self.assertEqual(name_axes(Plane(file, {}, across, up)), labels)
             self.assertIn(labels[1], self.words())
 
     def test_grows_upward_in_scale_and_to_the_right_in_size(self):
@@ -155,7 +153,7 @@ class TestThePlane(Recorded):
     def test_refuses_a_boundary_under_a_pulse(self):
         self.recorded([[S]])
         with h5py.File(self.folder / "boundary.h5", "w") as file:
-            file.attrs["kind"] = "overturning boundary"
+            file.attrs.update({"kind": "overturning boundary", "format_version": 4})
         self.refuses(74, "Omit --boundary", "--boundary", "boundary.h5")
 
 
@@ -169,7 +167,7 @@ class TestASuite(Recorded):
         np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS]), 0.5, atol=0.01)
 
     def test_names_record_and_block_where_both_differ(self):
-        self.recorded(np.zeros((2, 1, 2, 1, 1)), ["a.AT2", "b.AT2"], up="pga")
+        self.recorded(np.zeros((2, 1, 2, 2, 2)), ["a.AT2", "b.AT2"], up="pga")
         words = self.words()
         self.assertEqual((words.count("a.AT2"), words.count("b.AT2")), (2, 2))
         self.assertEqual(len([word for word in words if word.startswith("α = 0.1 rad")]), 4)
@@ -226,45 +224,20 @@ class TestOtherTools(Recorded):
 
     def test_to_csv_has_columns_named_as_the_axes(self):
         self.compute()
-        self.refuses(2, "choose with --motion (0 to 1)", tool="to_csv")
         run = run_tool("to_csv", "spectrum.h5", *self.CHOICE, cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
             header, *rows = csv.reader(text)
-        self.assertEqual(header, ["size", "pga", "angle", "impacts", "margin", "peak", "region",
-                                  "status", "velocity"])
+        self.assertEqual(header, ["size", "pga", "restitution_of_maximum", "slenderness", "motion",
+                                  "angle", "impacts", "margin", "peak", "region", "status", "velocity"])
         with h5py.File(self.folder / "spectrum.h5") as file:
             np.testing.assert_array_equal([float(row[0]) for row in rows],
                                           np.tile(file["size"][:], 30))
             np.testing.assert_array_equal([float(row[1]) for row in rows],
                                           np.repeat(file["pga"][:], 20))
-            for column, name in enumerate(header[2:], 2):
+            for column, name in enumerate(header[5:], 5):
                 np.testing.assert_array_equal([float(row[column]) for row in rows],
                                               file[name][1, 0, 1].ravel(), name)
-
-
-class TestASuiteInXdmf(Recorded, Described):
-    def compute(self):
-        Recorded.compute(self)
-
-    def test_has_a_step_for_each_record_slenderness_and_restitution(self):
-        self.compute()
-        steps = self.described("spectrum.h5")
-        self.assertEqual(len(steps), 8)
-        self.assert_values_of("spectrum.h5", steps)
-        self.assertEqual(steps[6].get("Name"),
-                         "synthetic_vertical.AT2,  α = 0.25 rad,  r = 0.9 r_max = 0.7423")
-        with h5py.File(self.folder / "spectrum.h5") as file:
-            for step, (motion, i, j) in zip(steps, np.ndindex(2, 2, 2)):
-                stated = {field.get("Name"): follow(self.folder, field[0])
-                          for field in step.findall("Attribute") if field.get("Center") == "Grid"}
-                self.assertEqual(stated, {"motion": motion + 1,
-                                          "slenderness": file["slenderness"][i],
-                                          "restitution": file["restitution"][j],
-                                          "restitution_ratio": file["restitution_ratio"][i, j]})
-                across, up, _ = (follow(self.folder, item) for item in step.find("Geometry"))
-                np.testing.assert_array_equal(across, file["size"][:])
-                np.testing.assert_array_equal(up, file["pga"][:])
 
 
 if __name__ == "__main__":

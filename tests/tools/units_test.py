@@ -4,7 +4,6 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
-import json
 import subprocess
 import unittest
 
@@ -12,18 +11,17 @@ import h5py
 import numpy as np
 import xarray
 from matplotlib import colors, image, pyplot
-from PIL import Image
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_MINUS, shares,
-                                where)
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_MINUS, add_coordinate,
+                                shares, where)
 from recorded_spectra_test import Recorded
-from to_xdmf_test import Described, follow
 from tool import TOOLS, run_tool  # first: adds the package to the path
 import overturn
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot import boundaries, histories
-from overturn.result_file import PANELS
-from overturn.spectrum_file import Axis
-from overturn.units import quantities
+from overturn.choice import axes_of
+from overturn.plot import spectra
+from overturn.result_file import open_result
+from overturn.spectrum_file import Axis, Plane, open_spectrum
 
 P = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 0.9)))  # [1/s]
 PHYSICAL = ("--units", "physical")
@@ -49,12 +47,23 @@ DIMENSIONLESS = ("plane.frequency={first=1.2, last=7.5, count=7}",
 SIZELESS = ("block={}", "plane.slenderness=0.3217505543966422", *DIMENSIONLESS)
 
 
+def plane_of(file):
+    """Returns the first plane of a file."""
+    axes = axes_of(file, {})
+    return Plane(file, {name: 0 for name in file.dimensions if name not in axes}, *axes)
+
+
+def open_history(path):
+    return open_result(path, "rocking history", "a history")
+
+
 class Sized(Recorded):
     def sized(self, codes, pulse_period, pga, **axes):
         """Writes a spectrum over frequency and amplitude for blocks of known size."""
-        self.spectrum(codes, half_diagonal=0.95, **axes)
+        self.spectrum(codes, size=0.95, **axes)
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["pulse_period"], file["pga"] = pulse_period, pga
+            add_coordinate(file, "pulse_period", pulse_period, "frequency")
+            add_coordinate(file, "pga", pga, *["slenderness"] * (np.ndim(pga) - 1), "amplitude")
 
     def overturn(self, command, name, *settings, job=JOB):
         (self.folder / "job.toml").write_text(job)
@@ -94,15 +103,13 @@ class TestAPlaneInPhysicalUnits(Sized):
         self.assertNotIn("pulse period [s]", self.words())
 
     def test_has_a_vertical_axis_for_each_slenderness(self):
-        self.sized([[[[S], [S]]], [[[S], [S]]]], [2.5], [[0.1, 0.3], [0.2, 0.6]])
-        self.picture(*PHYSICAL)
-        panels = json.loads(Image.open(self.folder / "picture.png").text[PANELS])
-        np.testing.assert_allclose([panel["up"]["limits"] for panel in panels],
-                                   [[0, 0.4], [0, 0.8]], atol=1e-15)
+        self.sized(np.zeros((2, 1, 2, 2)), [2.5, 2.0], [[0.1, 0.3], [0.2, 0.6]])
+        panels = spectra.spectrum(self.folder / "spectrum.h5", units="physical")
+        np.testing.assert_allclose([panel.get_ylim() for panel in panels], [[0, 0.4], [0, 0.8]],
+                                   atol=1e-15)
 
     def test_under_a_record_is_over_the_peak_acceleration(self):
         self.recorded([[S], [F_MINUS], [F_MINUS]])
-        self.change(lambda file: file.create_dataset("scaled_pga", data=[[0.4, 0.8, 1.2]]))
         words = self.words(*PHYSICAL)
         self.assertIn("PGA [g]", words)
         self.assertIn("a.AT2,  α = 5.73°,  r = 0.7 r_max = 0.625", words)  # not PGA 0.4 g
@@ -136,7 +143,9 @@ class TestAPhysicalBoundary(Sized):
         with h5py.File(self.folder / "boundary.h5") as file:
             for name in ("flip_amplitude", "flip_pga"):
                 self.assertGreater(np.isfinite(file[name][:]).sum(), 9)
-            return boundaries.Lines(file, (0, 0), "physical"), file["flip_amplitude"][0, 0]
+            flips = file["flip_amplitude"][0]
+        with open_result(self.folder / "boundary.h5", "overturning boundary", "") as file:
+            return boundaries.Lines(plane_of(file), "physical"), flips
 
     def test_has_its_flips_and_its_scan_in_g(self):
         for theory, threshold in (("nonlinear", 1 / 3), ("linear", np.arctan(1 / 3))):
@@ -183,10 +192,9 @@ class TestAnOverlaidBoundary(Sized):
     def dots(self, units="job"):
         """Returns the drawn points, in ascending order."""
         figure, panel = pyplot.subplots()
-        with h5py.File(self.folder / "spectrum.h5") as spectrum, \
-                open_boundary(self.folder / "boundary.h5", spectrum, units) as boundary:
-            draw_boundary(panel, boundary, (0,) * (spectrum["region"].ndim - 2),
-                          quantities(spectrum, units))
+        with open_spectrum(self.folder / "spectrum.h5") as spectrum, \
+                open_boundary(self.folder / "boundary.h5", plane_of(spectrum), units) as boundary:
+            draw_boundary(panel, boundary, plane_of(spectrum), units)
         points = np.transpose(panel.lines[-1].get_data())
         pyplot.close(figure)
         points = points[np.isfinite(points[:, 1])]
@@ -200,9 +208,9 @@ class TestAnOverlaidBoundary(Sized):
         self.overturn("run", "spectrum.h5", *spectrum)
         self.overturn("boundary", "boundary.h5", *boundary)
         with h5py.File(self.folder / "boundary.h5") as file:
-            settled = (file["region_below"][0, 0] <= 8) & (file["region_above"][0, 0] <= 8)
+            settled = (file["region_below"][0] <= 8) & (file["region_above"][0] <= 8)
             points = np.transpose([np.broadcast_to(across, settled.shape)[settled],
-                                   file[flips][0, 0][settled]])
+                                   file[flips][0][settled]])
         np.testing.assert_allclose(self.dots(units), points[np.lexsort(points.T)], rtol=1e-13)
 
     def test_is_converted_to_the_axes_of_the_spectrum(self):
@@ -226,7 +234,7 @@ class TestAnOverlaidBoundary(Sized):
         self.overturn("boundary", "boundary.h5", *sized)
         self.overturn("run", "spectrum.h5", *DIMENSIONLESS)
         self.assertGreater(len(self.dots()), 5)
-        self.refuses(74, "has half_diagonal 2.0, but the spectrum has 0.948", "--boundary",
+        self.refuses(74, "has different blocks from the spectrum: size differs", "--boundary",
                      "boundary.h5", *PHYSICAL)
 
     def test_covers_some_of_the_spectrum(self):
@@ -255,7 +263,7 @@ class TestAPhysicalHistory(Sized):
 
     def test_is_in_seconds_and_degrees(self):
         self.overturn("history", "history.h5", *self.AT)
-        with h5py.File(self.folder / "history.h5") as file:
+        with open_history(self.folder / "history.h5") as file:
             history = histories.History(file, 0, np.inf, "physical")
             np.testing.assert_allclose(history.time, file["time"][:] / P)
             for name, power in (("angle", 0), ("velocity", 1), ("acceleration", 2)):
@@ -277,7 +285,7 @@ class TestAPhysicalHistory(Sized):
                          "plane.amplitude.values=[2.7]")
         for settings in (self.AT, dimensionless):
             self.overturn("history", "history.h5", *settings)
-            with h5py.File(self.folder / "history.h5") as file:
+            with open_history(self.folder / "history.h5") as file:
                 self.assertTrue(histories.describe(file, "physical").startswith(
                     "period = 0.5 s, PGA = 0.9 g, $p$ = 2.785 1/s, α = 18.43°, $r$ = 0.7225: "))
                 words = histories.describe(file)
@@ -291,25 +299,20 @@ class TestAPhysicalHistory(Sized):
         self.assertIn("Add [block] with width and height", run.stderr)
 
 
-class TestPhysicalAxesInOtherTools(Sized, Described):
-    def test_are_columns_of_a_table_axes_of_a_grid_and_dimensions(self):
+class TestPhysicalAxesInOtherTools(Sized):
+    def test_are_columns_of_a_table_and_dimensions(self):
         self.overturn("run", "spectrum.h5")
         self.assertEqual(run_tool("to_csv", "spectrum.h5", cwd=self.folder).returncode, 0)
         with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
             header, *rows = csv.reader(text)
         self.assertEqual(header[:2], ["pulse_period", "pga"])
         self.assertEqual(len(rows), 63)
-        step, = self.described("spectrum.h5")
-        across, up, _ = (follow(self.folder, item) for item in step.find("Geometry"))
-        np.testing.assert_allclose(across, np.linspace(0.3, 2.0, 7), rtol=1e-15)
-        np.testing.assert_allclose(up, np.linspace(0.2, 3.0, 9), rtol=1e-15)
         column = header.index("region")
         with xarray.open_dataset(self.folder / "spectrum.h5") as data:
             for row in rows:
                 point = data.region.sel(pulse_period=float(row[0]), pga=float(row[1]))
                 self.assertEqual(point.item(), int(row[column]))
             self.assertGreater(len(np.unique(data.region)), 2)
-            np.testing.assert_array_equal(self.values(step)["region"][0], data.region[0, 0])
 
 
 if __name__ == "__main__":

@@ -9,19 +9,18 @@ import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import h5py
 import numpy as np
 from matplotlib import colors, image
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from plot_spectrum_test import Picture
+from tool import run_tool  # first: adds the package to the path
 from overturn.fields import read_field
 from overturn.regions import NOT_COMPUTED, REGIONS
-
-sys.path.insert(0, str(TOOLS / "paper"))
-from packed_spectrum import FIELDS, PackedSpectrum  # noqa: E402
+from overturn.result_file import open_result
+from overturn.spectrum_file import open_spectrum
 
 OVERTURN = os.environ["OVERTURN"]
 SAFE = 0
@@ -33,8 +32,8 @@ pulse = "one_sine"
 [plane]
 frequency = {{ first = 0.5, last = 1.5, count = {COLUMNS} }}
 amplitude = {{ first = 8.0, last = 12.0, count = {ROWS} }}
-restitution = {{ values = [0.9] }}
-slenderness = {{ values = [0.1745716] }}
+restitution = 0.9
+slenderness = 0.1745716
 [output]
 fields = ["region", "angle", "velocity", "margin", "impacts", "steps", "status"]
 """
@@ -58,8 +57,8 @@ class TestATileWithoutAMark(unittest.TestCase):
             self.assertNotIn(SAFE, file["region"][...])
             file["run/checksum"][4] = 0
             for data in file.values():
-                if getattr(data, "ndim", 0) == 4:
-                    data[0, 0, UNMARKED[0], UNMARKED[1]] = 0
+                if getattr(data, "ndim", 0) == 2:
+                    data[UNMARKED] = 0
 
     def run_tool(self, *arguments):
         run = run_tool(*arguments, cwd=self.folder)
@@ -76,13 +75,13 @@ class TestATileWithoutAMark(unittest.TestCase):
         unmarked = np.zeros((ROWS, COLUMNS), bool)
         unmarked[UNMARKED] = True
         fills = {"region": 255, "status": 255, "impacts": 65534, "steps": 4294967295}
-        with h5py.File(self.folder / "spectrum.h5") as file:
+        with open_spectrum(self.folder / "spectrum.h5") as file:
             for name in ("region", "angle", "velocity", "margin", "impacts", "steps", "status"):
-                values = read_field(file, name, (0, 0))
+                values = read_field(file, name)
                 np.testing.assert_array_equal(values[unmarked], fills.get(name, np.nan), name)
-                np.testing.assert_array_equal(values[~unmarked], file[name][0, 0][~unmarked], name)
+                np.testing.assert_array_equal(values[~unmarked], file[name][:][~unmarked], name)
                 # Ranges of rows that begin and end within tiles.
-                np.testing.assert_array_equal(read_field(file, name, (0, 0), slice(10, 70)),
+                np.testing.assert_array_equal(read_field(file, name, (slice(10, 70),)),
                                               values[10:70], name)
 
     def test_is_hatched_in_the_map(self):
@@ -101,7 +100,7 @@ class TestATileWithoutAMark(unittest.TestCase):
         self.assertGreater(self.count("0.8"), 1000)  # the colour of points not computed
         with_zeros = image.imread(self.folder / "picture.png")
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["region"][0, 0, UNMARKED[0], UNMARKED[1]] = NOT_COMPUTED
+            file["region"][UNMARKED] = NOT_COMPUTED
         self.run_tool("plot_landing", "spectrum.h5", "-o", "picture.png")
         np.testing.assert_array_equal(image.imread(self.folder / "picture.png"), with_zeros)
 
@@ -116,28 +115,6 @@ class TestATileWithoutAMark(unittest.TestCase):
             self.assertEqual((row["region"] == "255", row["margin"] == "nan",
                               row["steps"] == "4294967295"), (within,) * 3, i)
 
-    def test_has_no_points_on_the_page(self):
-        self.compute()
-        with_zeros = PackedSpectrum(self.folder / "spectrum.h5").text
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            for name in ("region", *FIELDS):
-                file[name][0, 0, UNMARKED[0], UNMARKED[1]] = file[name].fillvalue
-        self.assertEqual(PackedSpectrum(self.folder / "spectrum.h5").text, with_zeros)
-
-    def test_stops_a_description_for_paraview(self):
-        self.compute()
-        run = run_tool("to_xdmf", "spectrum.h5", cwd=self.folder)
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("has values of region in tiles that are not marked as computed", run.stderr)
-        self.assertFalse((self.folder / "spectrum.xdmf2").exists())
-
-    def test_stops_a_join(self):
-        self.compute()
-        run = run_tool("join_spectra", "spectrum.h5", "-o", "joined.h5", "--overturn", OVERTURN,
-                       cwd=self.folder)
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("unfinished: 1 of 6 tiles", run.stderr)
-
     def test_has_no_flips(self):
         self.overturn("boundary", "job.toml", "-o", "boundary.h5", "--set=plane.frequency.count=20",
                       "--set=plane.frequency.first=3", "--set=plane.frequency.last=8",
@@ -147,8 +124,9 @@ class TestATileWithoutAMark(unittest.TestCase):
             file["run/checksum"][7] = 0
             file["region_below"][..., 7] = file["region_above"][..., 7] = 0
             file["flip_amplitude"][..., 7] = 5.0
-            self.assertTrue(np.isnan(read_field(file, "flip_amplitude", (0, 0))[:, 7]).all())
-            self.assertEqual(set(read_field(file, "region_above", (0, 0))[:, 7]), {NOT_COMPUTED})
+        with open_result(self.folder / "boundary.h5", "overturning boundary", "a boundary") as file:
+            self.assertTrue(np.isnan(read_field(file, "flip_amplitude")[:, 7]).all())
+            self.assertEqual(set(read_field(file, "region_above")[:, 7]), {NOT_COMPUTED})
         self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.png")
         with_zeros = image.imread(self.folder / "picture.png")
         with h5py.File(self.folder / "boundary.h5", "a") as file:
@@ -160,14 +138,15 @@ class TestATileWithoutAMark(unittest.TestCase):
         self.assertIn(">not computed yet<", (self.folder / "picture.svg").read_text("utf-8"))
 
 
-class TestAFileWhoseTilesDoNotMatch(unittest.TestCase):
+class TestAFileWhoseTilesDoNotMatch(Picture):
     def test_is_damaged(self):
-        with h5py.File("damaged", "w", driver="core", backing_store=False) as file:
-            file.create_dataset("region", data=np.zeros((1, 1, 2, 2), np.uint8), fillvalue=255)
-            file["checksum"] = np.ones(3, np.uint64)
-            file["checksum"].attrs["tile_shape"] = [1, 1]
-            with self.assertRaisesRegex(Exception, "3 checksums"):
-                read_field(file, "region", (0, 0))
+        self.spectrum(np.zeros((2, 2)))
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            del file["run/checksum"].attrs["tile_shape"]
+            file["run/checksum"].attrs["tile_shape"] = [1, 1, 2, 1]
+        run = self.plot("spectrum.h5")
+        self.assertEqual(run.returncode, 74)
+        self.assertIn("is damaged: it has 4 checksums", run.stderr)
 
 
 if __name__ == "__main__":

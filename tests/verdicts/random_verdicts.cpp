@@ -2,12 +2,12 @@
 // every pulse and theory, compared with a reference: the tightest run in doubles, and 50 digits if
 // its margin is below 1e-9. Prints a table and every point with a wrong verdict or an exceeded
 // bound. Exit code 1 if a verdict is wrong, or bounds are exceeded too often.
-#include "verdicts/random_planes.hpp"
+#include "verdicts/random_grids.hpp"
 
 #include "point_run.hpp"
 
 #include "overturn/number/digits50.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -31,7 +31,7 @@ constexpr double most_exceeded = 1e-5;
 constexpr double most_overestimated = 30;
 constexpr double most_unresolved[] = {1e-6, 1e-3}; // with and without loss
 
-/// The reference for a plane.
+/// The reference for a grid.
 struct Truth {
     std::vector<double> margin; ///< NaN where it is unknown
     std::vector<double> error;  ///< of the margin
@@ -53,17 +53,25 @@ struct Resolving {
     std::int64_t points[2] = {};
     std::int64_t unresolved[2] = {};
     double seconds[2] = {};
-    double plain_seconds[2] = {}; ///< of the same planes at a tolerance of 1e-6
+    double plain_seconds[2] = {}; ///< of the same grids at a tolerance of 1e-6
 };
 
-Tile whole(const Plane& plane)
+PointRun run_of(const Scene& scene, const Grid& grid, Kernel kernel)
 {
-    return Tiling(plane)[0];
+    return {scene, Coordinates(scene, grid).points(), kernel};
 }
 
-Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
+/// The fields of all points, in one tile.
+TileFields computed(const Scene& scene, const Grid& grid, const Numerics& numerics,
+                    const std::vector<Field>& fields, Kernel kernel)
 {
-    const PointRun run(scene, points_of(scene, plane, whole(plane)), kernel);
+    const Problem problem{.scene = scene, .grid = grid, .numerics = numerics, .fields = fields};
+    return compute_tile(problem, tiling_of(problem)[0], kernel);
+}
+
+Truth truth_of(const Scene& scene, const Grid& grid, Kernel kernel)
+{
+    const PointRun run = run_of(scene, grid, kernel);
     Ends ends = ends_of(run, tightest, {.error = true, .margin = true});
     for (int point = 0; point < ends.size(); ++point) {
         // Half a million impacts in 50 digits would take hours.
@@ -81,10 +89,10 @@ Truth truth_of(const Scene& scene, const Plane& plane, Kernel kernel)
 }
 
 /// Prints all parameters needed to recompute a point.
-void name_point(const char* what, const Scene& scene, const Numerics& numerics, const Plane& plane,
-                int point, double found, double bound, const Truth& truth)
+void name_point(const char* what, const Scene& scene, const Numerics& numerics, const Grid& grid,
+                int number, double found, double bound, const Truth& truth)
 {
-    const auto columns = int(plane.frequency.size());
+    const Point point = Coordinates(scene, grid).points()[std::size_t(number)];
     std::printf("  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
                 "r %.17g, Omega %.17g, a %.17g: margin "
                 "%.6g, "
@@ -93,15 +101,15 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 std::string(name_of(scene.theory)).c_str(),
                 std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
                 numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-                scene.shape.gamma, scene.shape.nu, plane.slenderness[0], plane.restitution[0],
-                plane.frequency[point % columns], plane.amplitude[point / columns], found, bound,
-                truth.margin[point], std::abs(found - truth.margin[point]));
+                scene.shape.gamma, scene.shape.nu, point.slenderness, point.restitution,
+                point.frequency, point.amplitude, found, bound, truth.margin[number],
+                std::abs(found - truth.margin[number]));
 }
 
-void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, const Truth& truth,
+void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const Truth& truth,
                   Kernel kernel)
 {
-    const PointRun run(scene, points_of(scene, plane, whole(plane)), kernel);
+    const PointRun run = run_of(scene, grid, kernel);
     const Ends ends = ends_of(run, check.numerics, {.error = true, .margin = true});
     const std::vector<double>& margins = ends.margin;
     for (int point = 0; point < ends.size(); ++point) {
@@ -119,7 +127,7 @@ void check_bounds(BoundCheck& check, const Scene& scene, const Plane& plane, con
             ++check.unbounded;
         } else if (error > ends.error[point] + truth.error[point]) {
             ++check.exceeded;
-            name_point("bound exceeded", scene, check.numerics, plane, point, margins[point],
+            name_point("bound exceeded", scene, check.numerics, grid, point, margins[point],
                        ends.error[point], truth);
         } else if (error > 2 * truth.error[point]) {
             check.ratios.push_back(ends.error[point] / error);
@@ -135,38 +143,41 @@ double seconds(const Work& work)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void time(Resolving& resolving, const Scene& scene, const Plane& plane, Kernel kernel)
+bool is_without_loss(const Grid& grid)
 {
-    const auto sweep = [&](const Numerics& numerics) {
-        return seconds(
-            [&] { sweep_tile(scene, numerics, plane, whole(plane), {Field::region}, kernel); });
-    };
-    const bool without_loss = plane.restitution[0] == 1;
-    resolving.plain_seconds[without_loss] += sweep({resolving.method, 1e-6});
-    resolving.seconds[without_loss] += sweep({resolving.method, loosest, true});
+    return grid.find("restitution")->values.first() == 1;
 }
 
-void resolve(Resolving& resolving, const Scene& scene, const Plane& plane, const Truth& truth,
+void time(Resolving& resolving, const Scene& scene, const Grid& grid, Kernel kernel)
+{
+    const auto seconds_of = [&](const Numerics& numerics) {
+        return seconds([&] { computed(scene, grid, numerics, {Field::region}, kernel); });
+    };
+    const bool without_loss = is_without_loss(grid);
+    resolving.plain_seconds[without_loss] += seconds_of({resolving.method, 1e-6});
+    resolving.seconds[without_loss] += seconds_of({resolving.method, loosest, true});
+}
+
+void resolve(Resolving& resolving, const Scene& scene, const Grid& grid, const Truth& truth,
              Kernel kernel)
 {
     const Numerics resolved{resolving.method, loosest, true};
-    const Tile tile = whole(plane);
-    const TileFields fields = sweep_tile(scene, resolved, plane, tile,
-                                         {Field::region, Field::status, Field::margin}, kernel);
+    const TileFields fields =
+        computed(scene, grid, resolved, {Field::region, Field::status, Field::margin}, kernel);
     const auto& region = std::get<std::vector<std::uint8_t>>(fields.values[0]);
     const auto& flags = std::get<std::vector<std::uint8_t>>(fields.values[1]);
-    const bool without_loss = plane.restitution[0] == 1;
+    const bool without_loss = is_without_loss(grid);
     for (std::size_t point = 0; point < region.size(); ++point) {
         ++resolving.points[without_loss];
         const bool decided = !(flags[point] & status::unresolved);
         const bool known = truth.error[point] < std::abs(truth.margin[point]);
         if (!decided) {
             ++resolving.unresolved[without_loss];
-            name_point("unresolved", scene, resolved, plane, int(point),
+            name_point("unresolved", scene, resolved, grid, int(point),
                        std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
         } else if (known && is_safe(Region(region[point])) != (truth.margin[point] > 0)) {
             ++resolving.wrong;
-            name_point("WRONG", scene, resolved, plane, int(point),
+            name_point("WRONG", scene, resolved, grid, int(point),
                        std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
         }
     }
@@ -185,7 +196,7 @@ double median(std::vector<double>& values)
 std::string ratio_of_times(const Resolving& resolving, int without_loss)
 {
     if (resolving.plain_seconds[without_loss] == 0) {
-        return "-"; // there is no such plane
+        return "-"; // there is no such grid
     }
     char text[16];
     std::snprintf(text, sizeof text, "%.2f",
@@ -204,26 +215,27 @@ std::vector<BoundCheck> all_bound_checks()
     return checks;
 }
 
-/// Resolves both methods on random planes of one scene; returns true if no verdict is wrong.
+/// Resolves both methods on random grids of one scene; returns true if no verdict is wrong.
 bool study_scene(const Scene& kind, std::int64_t points, std::mt19937_64& generator,
                  std::vector<BoundCheck>& checks)
 {
     const Kernel kernel = widest_kernel();
     std::vector<Resolving> resolvings{{.method = Method::rk45}, {.method = Method::taylor}};
-    RandomPlanes planes(kind, kernel, generator);
+    RandomGrids grids(kind, kernel, generator);
     for (std::int64_t done = 0; done < points;) {
-        const auto [scene, plane, beside_boundary] = planes.next();
-        const Truth truth = truth_of(scene, plane, kernel);
+        const auto [scene, block, beside_boundary] = grids.next();
+        const Grid grid = block.grid();
+        const Truth truth = truth_of(scene, grid, kernel);
         for (Resolving& resolving : resolvings) {
-            resolve(resolving, scene, plane, truth, kernel);
+            resolve(resolving, scene, grid, truth, kernel);
             if (!beside_boundary) {
-                time(resolving, scene, plane, kernel);
+                time(resolving, scene, grid, kernel);
             }
         }
         for (BoundCheck& check : checks) {
-            check_bounds(check, scene, plane, truth, kernel);
+            check_bounds(check, scene, grid, truth, kernel);
         }
-        done += plane.points();
+        done += grid.points();
     }
     bool right = true;
     for (const Resolving& resolving : resolvings) {

@@ -1,11 +1,12 @@
 // bench_blocks COUNT: reads five columns of COUNT doubles from stdin (width, height,
 // restitution_of_maximum, pga, pulse_period) and prints the seconds that all blocks take under
-// one-sine pulses, with the method taylor at 1e-9: in the kernel, and in sweep_tile(). `tools/bench
-// python` compares them with overturn.evaluate().
+// one-sine pulses, with the method taylor at 1e-9: in the kernel, and in compute_tile().
+// `tools/bench python` compares them with overturn.evaluate().
 #include "point_run.hpp"
 
-#include "overturn/sweep/block_list.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/given.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -19,16 +20,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int rounds = 5;
 
-Columns read_columns(std::size_t count)
+std::vector<Given> read_columns(std::size_t count)
 {
-    Columns columns;
+    std::vector<Given> columns;
     for (const char* name : {"width", "height", "restitution_of_maximum", "pga", "pulse_period"}) {
-        std::vector<double>& column = columns[name];
-        column.resize(count);
-        if (std::fread(column.data(), sizeof(double), count, stdin) != count) {
+        AxisList values(count);
+        if (std::fread(values.data(), sizeof(double), count, stdin) != count) {
             std::fputs("bench_blocks: stdin ended too early\n", stderr);
             std::exit(2);
         }
+        columns.push_back({&quantity(name), name, Axis(std::move(values)), GivenAs::column});
     }
     return columns;
 }
@@ -52,28 +53,27 @@ double shortest(const Tiling& tiling, const SecondsOf& seconds_of)
 
 int main(int count, char** words)
 {
-    const Scene scene;
-    const Numerics numerics{.method = Method::taylor};
+    const Problem problem{
+        .grid = grid_of({}, read_columns(std::size_t(count > 1 ? std::atoll(words[1]) : 0))),
+        .numerics = {.method = Method::taylor},
+        .fields = {Field::region, Field::status, Field::peak, Field::margin}};
     const Kernel kernel = widest_kernel();
-    Plane plane;
-    plane.list = std::make_shared<const BlockList>(
-        block_list(scene, read_columns(std::size_t(count > 1 ? std::atoll(words[1]) : 0))));
-    const Tiling tiling(plane);
+    const Tiling tiling = tiling_of(problem);
     const auto since = [](Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
     };
     const double in_kernel = shortest(tiling, [&](const Tile& tile) {
-        const PointRun points(scene, points_of(scene, plane, tile), kernel);
+        const PointRun points(problem.scene,
+                              Coordinates(problem.scene, problem.grid, tile).points(), kernel);
         Ends ends(std::size_t(tile.points()), {.peak = true, .region = true, .margin = true});
         const auto start = Clock::now();
-        points.run(numerics, ends);
+        points.run(problem.numerics, ends);
         return since(start);
     });
-    const double in_sweep = shortest(tiling, [&](const Tile& tile) {
+    const double in_tiles = shortest(tiling, [&](const Tile& tile) {
         const auto start = Clock::now();
-        sweep_tile(scene, numerics, plane, tile,
-                   {Field::region, Field::status, Field::peak, Field::margin}, kernel);
+        compute_tile(problem, tile, kernel);
         return since(start);
     });
-    std::printf("%.6f %.6f\n", in_kernel, in_sweep);
+    std::printf("%.6f %.6f\n", in_kernel, in_tiles);
 }

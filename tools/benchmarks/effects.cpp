@@ -1,8 +1,10 @@
-// bench_effects: sweeps one tile within measured(), so that a profiler can count the instructions
+// bench_effects: computes one tile within measured(), so that a profiler can count the instructions
 // of that call only. Prints the number of points and the bytes that the call allocated on the heap.
 #include "point_run.hpp"
 
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/given.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +14,7 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -41,33 +44,31 @@ enum class ByHand { nothing, region, impacts };
 constexpr std::array<std::string_view, 3> by_hand_names{"nothing", "region", "impacts"};
 
 struct Work {
-    Scene scene;
-    Numerics numerics;
-    Plane plane;
+    Problem problem;
     Tile tile;
-    std::vector<Field> fields;
     Kernel kernel = Kernel::avx2;
     std::optional<ByHand> by_hand;
 };
 
 /// The paper's block, b = 1 m and h = 5.67 m, with its largest restitution.
-Plane plane_of(std::int64_t side)
+Grid grid_of_side(std::int64_t side)
 {
-    Plane plane;
-    plane.frequency = Axis(AxisRange{.first = 0.5, .last = 8, .count = side});
-    plane.amplitude = Axis(AxisRange{.first = 1.2, .last = 12, .count = side});
-    plane.slenderness = Axis(AxisList{std::atan(1 / 5.67)});
-    plane.restitution = Axis(AxisList{1});
-    plane.restitution_of = RestitutionOf::maximum;
-    return plane;
+    const auto given = [](const char* name, const Axis& values, GivenAs as) {
+        return Given{&quantity(name), name, values, as};
+    };
+    return grid_of({}, {given("slenderness", Axis(AxisList{std::atan(1 / 5.67)}), GivenAs::number),
+                        given("restitution_of_maximum", Axis(AxisList{1}), GivenAs::number),
+                        given("amplitude", Axis(AxisRange{1.2, 12, side}), GivenAs::axis),
+                        given("frequency", Axis(AxisRange{0.5, 8, side}), GivenAs::axis)});
 }
 
 /// The minimum work for a scene: its points, the kernel, and the regions if requested.
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
-    const GroundMotion<double> motion = ground_motion<double>(work.scene.pulse, work.scene.shape);
-    const std::vector<PlanePoint> points = points_of(work.scene, work.plane, work.tile);
-    const Pushes pushes(motion, work.scene.theory, points);
+    const auto& [scene, grid, numerics, product, fields] = work.problem;
+    const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
+    const std::vector<Point> points = Coordinates(scene, grid, work.tile).points();
+    const Pushes pushes(motion, scene.theory, points);
     const std::size_t count = points.size();
     const Records records{.impacts = requested == ByHand::impacts,
                           .region = requested == ByHand::region};
@@ -76,7 +77,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                           .points = points.data(),
                           .push_of_point = pushes.of_point.data(),
                           .pushes = pushes.pushes.data(),
-                          .tolerance = work.numerics.tolerance,
+                          .tolerance = numerics.tolerance,
                           .records = records,
                           .on_unknown_error = OnUnknownError::go_on,
                           .chosen = nullptr,
@@ -104,7 +105,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                          .softest_impact = nullptr,
                          .last_impact = nullptr};
     const Integrator integrator =
-        work.numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
+        numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
     sweep_kernel(work.kernel, integrator, Theory::nonlinear, records, false)(task, ends);
     return regions;
 }
@@ -119,7 +120,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
         result.values.emplace_back(sweep_by_hand(work, *work.by_hand));
         return result;
     }
-    return sweep_tile(work.scene, work.numerics, work.plane, work.tile, work.fields, work.kernel);
+    return compute_tile(work.problem, work.tile, work.kernel);
 }
 
 namespace {
@@ -135,10 +136,10 @@ Number number_from(std::string_view text)
     return number;
 }
 
-template <class Kind, std::size_t count>
-Kind kind_from(std::string_view text, const std::array<std::string_view, count>& names)
+template <class Kind>
+Kind kind_from(std::string_view text, std::span<const std::string_view> names)
 {
-    const auto* const found = std::find(names.begin(), names.end(), text);
+    const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) {
         std::string known;
         for (const std::string_view name : names) {
@@ -156,26 +157,27 @@ Work work_from(const std::vector<std::string>& words)
         throw UsageError("invalid arguments");
     }
     Work work;
-    work.numerics.method = kind_from<Method>(words[1], method_names);
+    auto& [scene, grid, numerics, product, fields] = work.problem;
+    numerics.method = kind_from<Method>(words[1], method_names);
     const std::size_t sizes = by_hand ? 2 : 5;
     const int side = number_from<int>(words[sizes]);
-    work.numerics.tolerance = number_from<double>(words[sizes + 1]);
+    numerics.tolerance = number_from<double>(words[sizes + 1]);
     if (by_hand) {
         work.by_hand = kind_from<ByHand>(words[4], by_hand_names);
     } else {
-        work.scene.pulse = kind_from<PulseKind>(words[2], pulse_names);
-        work.scene.theory = kind_from<Theory>(words[3], theory_names);
+        scene.pulse = kind_from<PulseKind>(words[2], pulse_names);
+        scene.theory = kind_from<Theory>(words[3], theory_names);
         work.kernel = kind_from<Kernel>(words[4], kernel_names);
         for (std::size_t i = 7; i < words.size(); ++i) {
-            work.fields.push_back(kind_from<Field>(words[i], field_names));
+            fields.push_back(kind_from<Field>(words[i], field_names()));
         }
     }
     if (!runs_here(work.kernel)) {
         throw UsageError("this processor cannot run the kernel " +
                          std::string(name_of(work.kernel)));
     }
-    work.plane = plane_of(side);
-    work.tile = Tiling(shape_of(work.plane), {side, side})[0];
+    grid = grid_of_side(side);
+    work.tile = Tiling(grid.shape(), {side, side})[0];
     return work;
 }
 

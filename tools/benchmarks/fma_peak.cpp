@@ -2,7 +2,7 @@
 // the width of the widest kernel.
 #include "peer.hpp"
 
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <algorithm>
 #include <array>

@@ -27,7 +27,7 @@ using EvolveHandle = std::unique_ptr<gsl_odeiv2_evolve, decltype(&gsl_odeiv2_evo
 } // namespace
 
 template <Sines sines>
-std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double tolerance)
+std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const PeerProblem& problem, double tolerance)
 {
     gsl_set_error_handler_off();
     const StepHandle step(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2), gsl_odeiv2_step_free);
@@ -74,7 +74,9 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double t
     return run_points<double, sines>(problem, fly);
 }
 
-template std::vector<PeerEnd<double>> solve_by_gsl_rk8pd<Sines::library>(const Problem&, double);
-template std::vector<PeerEnd<double>> solve_by_gsl_rk8pd<Sines::overturn>(const Problem&, double);
+template std::vector<PeerEnd<double>> solve_by_gsl_rk8pd<Sines::library>(const PeerProblem&,
+                                                                         double);
+template std::vector<PeerEnd<double>> solve_by_gsl_rk8pd<Sines::overturn>(const PeerProblem&,
+                                                                          double);
 
 } // namespace overturn::benchmarks

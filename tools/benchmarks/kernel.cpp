@@ -2,7 +2,7 @@
 // three tolerances. `tools/bench kernel` builds and runs it, and compares the kernels.
 #include "peer.hpp"
 
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
@@ -13,13 +13,14 @@ namespace {
 
 constexpr int side = 64; // points of each axis; one tile
 
-void sweep_one_tile(benchmark::State& state, const Numerics& numerics, Kernel kernel)
+void compute_one_tile(benchmark::State& state, const Numerics& numerics, Kernel kernel)
 {
-    const Problem problem = paper_block_problem(side);
-    const Tile tile = Tiling(problem.plane)[0];
+    const PeerProblem paper = paper_block_problem(side);
+    const Problem problem{
+        .scene = paper.scene, .grid = paper.grid, .numerics = numerics, .fields = {Field::region}};
+    const Tile tile = tiling_of(problem)[0];
     for ([[maybe_unused]] const auto round : state) {
-        benchmark::DoNotOptimize(
-            sweep_tile(problem.scene, numerics, problem.plane, tile, {Field::region}, kernel));
+        benchmark::DoNotOptimize(compute_tile(problem, tile, kernel));
     }
     using benchmark::Counter;
     state.counters["seconds_per_point"] =
@@ -37,7 +38,7 @@ void register_all()
                 const Numerics numerics{.method = Method(method), .tolerance = tolerance};
                 const std::string name =
                     fmt::format("{}/{:.0e}/{}", method_names[method], tolerance, name_of(kernel));
-                benchmark::RegisterBenchmark(name.c_str(), sweep_one_tile, numerics, kernel)
+                benchmark::RegisterBenchmark(name.c_str(), compute_one_tile, numerics, kernel)
                     ->Unit(benchmark::kMillisecond);
             }
         }

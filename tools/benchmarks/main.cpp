@@ -4,7 +4,7 @@
 #include "measured.hpp"
 #include "operation_count.hpp"
 
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <boost/version.hpp>
 #include <fmt/core.h>
@@ -54,7 +54,7 @@ Number number_from(std::string_view text)
     return number;
 }
 
-Problem problem_of(const std::string& ground, int points)
+PeerProblem problem_of(const std::string& ground, int points)
 {
     return ground == pulse_name ? paper_block_problem(points) : record_problem(ground, points);
 }
@@ -70,7 +70,7 @@ int about(const std::string& ground)
     }
     std::string samples; // [g]
     if (recorded) {
-        const Problem problem = record_problem(ground, 2);
+        const PeerProblem problem = record_problem(ground, 2);
         samples =
             fmt::format("{:.17g}", fmt::join(problem.scene.records.front()->horizontal(), ", "));
     }
@@ -86,12 +86,12 @@ int about(const std::string& ground)
 using Ends = std::vector<ReferenceEnd>;
 
 /// Writes one line per point, in the order of the problem, for later measurements.
-void write_reference(const std::string& path, const Problem& problem, const Ends& ends)
+void write_reference(const std::string& path, const PeerProblem& problem, const Ends& ends)
 {
     std::ofstream file(path);
     file << "slenderness restitution amplitude frequency angle velocity region compared\n";
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        const PlanePoint& point = problem.points[i];
+        const Point& point = problem.points[i];
         file << fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.21Lg} {:.21Lg} {} {}\n",
                             point.slenderness, point.restitution, point.amplitude, point.frequency,
                             ends[i].angle, ends[i].velocity, int(ends[i].region),
@@ -123,7 +123,7 @@ Ends read_reference(const std::string& path, std::size_t points)
     return ends;
 }
 
-int reference(const Problem& problem, double tolerance, double check_tolerance,
+int reference(const PeerProblem& problem, double tolerance, double check_tolerance,
               const std::string& path)
 {
     const bool recorded = problem.scene.is_recorded();
@@ -151,7 +151,7 @@ int reference(const Problem& problem, double tolerance, double check_tolerance,
 
 /// Error and time of one solver: one run to measure the error and to warm up, then as many runs as
 /// fit into `seconds`. Measures processor time, which depends less on other programs.
-int measure(const Problem& problem, const std::string& path, std::string_view name,
+int measure(const PeerProblem& problem, const std::string& path, std::string_view name,
             double tolerance, double seconds)
 {
     const Ends truth = read_reference(path, problem.points.size());
@@ -188,7 +188,7 @@ int operations(int points, std::string_view method, double tolerance)
         if (method_names[i] != method) {
             continue;
         }
-        const Problem problem = paper_block_problem(points);
+        const PeerProblem problem = paper_block_problem(points);
         const OperationCount count =
             count_operations(problem, {.method = Method(i), .tolerance = tolerance});
         const auto per_point = [&](std::int64_t number) {

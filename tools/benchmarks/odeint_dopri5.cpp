@@ -25,14 +25,14 @@ double first_step(double tolerance, double fastest)
     return std::pow(tolerance, 0.2) / fastest;
 }
 
-double allowed_error(double tolerance, const Problem& problem)
+double allowed_error(double tolerance, const PeerProblem& problem)
 {
     return tolerance * problem.points.front().slenderness;
 }
 
 } // namespace
 
-std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, double tolerance)
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const PeerProblem& problem, double tolerance)
 {
     auto dense = odeint::make_dense_output<Stepper>(allowed_error(tolerance, problem), tolerance);
     double h = 0; // the next step; kept from flight to flight
@@ -76,7 +76,7 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, doub
 }
 
 template <Sines sines>
-std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& problem,
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const PeerProblem& problem,
                                                                double tolerance)
 {
     auto controlled =
@@ -133,8 +133,8 @@ std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& pr
 }
 
 template std::vector<PeerEnd<double>>
-solve_by_odeint_dopri5_restepping<Sines::library>(const Problem&, double);
+solve_by_odeint_dopri5_restepping<Sines::library>(const PeerProblem&, double);
 template std::vector<PeerEnd<double>>
-solve_by_odeint_dopri5_restepping<Sines::overturn>(const Problem&, double);
+solve_by_odeint_dopri5_restepping<Sines::overturn>(const PeerProblem&, double);
 
 } // namespace overturn::benchmarks

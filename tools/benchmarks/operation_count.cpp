@@ -3,7 +3,7 @@
 
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
-#include "overturn/sweep/scene.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <bit>
 
@@ -94,7 +94,7 @@ namespace overturn::benchmarks {
 namespace {
 
 /// The same excitation as in the kernel.
-Excitation<Counted> excitation_of(const PlanePoint& point)
+Excitation<Counted> excitation_of(const Point& point)
 {
     const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
         ground_motion<double>(PulseKind::one_sine), point.slenderness, point.amplitude,
@@ -110,7 +110,7 @@ Excitation<Counted> excitation_of(const PlanePoint& point)
 }
 
 template <class Method>
-PeerEnd<double> end_of_point(const PlanePoint& point, double tolerance)
+PeerEnd<double> end_of_point(const Point& point, double tolerance)
 {
     const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
     const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Records{}>(
@@ -128,7 +128,7 @@ PeerEnd<double> end_of_point(const PlanePoint& point, double tolerance)
             end.fell ? fallen : Region(int(code))};
 }
 
-PeerEnd<double> end_of_point(const PlanePoint& point, const Numerics& numerics)
+PeerEnd<double> end_of_point(const Point& point, const Numerics& numerics)
 {
     switch (integrator_of({}, numerics)) {
     case Integrator::taylor_14: return end_of_point<Taylor<14>>(point, numerics.tolerance);
@@ -146,7 +146,7 @@ bool differ(double x, double y)
 
 } // namespace
 
-OperationCount count_operations(const Problem& problem, const Numerics& numerics)
+OperationCount count_operations(const PeerProblem& problem, const Numerics& numerics)
 {
     const std::vector<PeerEnd<double>> products = solve_by_overturn(problem, numerics);
     counted = {};

@@ -19,6 +19,6 @@ struct OperationCount {
     int ends_that_differ;  ///< in any bit from the ends computed by the kernel
 };
 
-OperationCount count_operations(const Problem& problem, const Numerics& numerics);
+OperationCount count_operations(const PeerProblem& problem, const Numerics& numerics);
 
 } // namespace overturn::benchmarks

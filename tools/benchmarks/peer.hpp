@@ -3,8 +3,9 @@
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
+#include "overturn/problem/grid.hpp"
+#include "overturn/problem/point.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <functional>
 #include <string>
@@ -20,24 +21,25 @@ struct PeerEnd {
     Region region; ///< undecided if the solver failed
 };
 
-/// A plane under a ground motion, and the list of its points, frequency fastest.
-struct Problem {
+/// The points of a grid under a ground motion, frequency or size fastest.
+struct PeerProblem {
     Scene scene;
-    Plane plane;
+    Grid grid;         ///< two axes
     double error_unit; ///< of the errors of angle and velocity [rad]
-    std::vector<PlanePoint> points;
+    std::vector<Point> points;
 };
 
 /// The paper's block under a one-sine pulse, nonlinear theory, r = r_max: count x count points.
 /// Errors are in radians.
-Problem paper_block_problem(int count);
+PeerProblem paper_block_problem(int count);
 
 /// Blocks of different sizes under a record in g, multiplied by a scale, nonlinear theory, r =
-/// r_max: count x count points. Errors are over the slenderness. Throws RecordError.
-Problem record_problem(const std::string& path, int count);
+/// r_max: count x count points. Errors are over the slenderness. Throws Error.
+PeerProblem record_problem(const std::string& path, int count);
 
 /// Computes the ends of all points; tolerance: local error per step over the slenderness [1].
-using Solve = std::function<std::vector<PeerEnd<double>>(const Problem& problem, double tolerance)>;
+using Solve =
+    std::function<std::vector<PeerEnd<double>>(const PeerProblem& problem, double tolerance)>;
 
 struct Solver {
     std::string name;
@@ -48,30 +50,31 @@ struct Solver {
 std::vector<Solver> all_solvers(bool recorded);
 
 std::vector<Solver> overturn_solvers(bool recorded);
-std::vector<PeerEnd<double>> solve_by_overturn(const Problem& problem, const Numerics& numerics);
+std::vector<PeerEnd<double>> solve_by_overturn(const PeerProblem& problem,
+                                               const Numerics& numerics);
 
 /// What overturn knows about its solution of a point.
 struct PointEffort {
     double error; ///< bound on the error of the margin [1]
     double steps;
 };
-std::vector<PointEffort> efforts_of_overturn(const Problem& problem, const Numerics& numerics);
+std::vector<PointEffort> efforts_of_overturn(const PeerProblem& problem, const Numerics& numerics);
 
 /// The sine and cosine that a peer uses in the equation of motion: those of the C library, or
 /// overturn's polynomials.
 enum class Sines { library, overturn };
 
-std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const Problem& problem, double tolerance);
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5(const PeerProblem& problem, double tolerance);
 template <Sines sines>
-std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const Problem& problem,
+std::vector<PeerEnd<double>> solve_by_odeint_dopri5_restepping(const PeerProblem& problem,
                                                                double tolerance);
 template <Sines sines>
-std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const Problem& problem, double tolerance);
-std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tolerance);
-std::vector<PeerEnd<double>> solve_by_cvode_adams(const Problem& problem, double tolerance);
+std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const PeerProblem& problem, double tolerance);
+std::vector<PeerEnd<double>> solve_by_arkode(const PeerProblem& problem, double tolerance);
+std::vector<PeerEnd<double>> solve_by_cvode_adams(const PeerProblem& problem, double tolerance);
 
 /// The reference solution: in long double, by a third-party method and implementation.
-std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double tolerance);
+std::vector<PeerEnd<long double>> solve_reference(const PeerProblem& problem, double tolerance);
 
 /// The best of several samples of the fused multiply-adds per second of this core at full width,
 /// vectors times lanes [1/s].

@@ -54,7 +54,7 @@ def run(options):
     if not kernel > 0:
         fail("the time of the kernel is too short to measure; give more blocks")
     print(f"{options.blocks} blocks: {'seconds':>20}{'over kernel':>13}")
-    for name, seconds in (("kernel", kernel), ("sweep_tile()", sweep), ("evaluate()", one),
+    for name, seconds in (("kernel", kernel), ("compute_tile()", sweep), ("evaluate()", one),
                           ("evaluate(), two threads", two)):
         print(f"  {name:26}{seconds:>13.3f}{seconds / kernel:>13.2f}")
     print(f"Two threads take {two / one:.2f} of the time of one.")

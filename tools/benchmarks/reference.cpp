@@ -10,7 +10,7 @@
 
 namespace overturn::benchmarks {
 
-std::vector<PeerEnd<long double>> solve_reference(const Problem& problem, double tolerance)
+std::vector<PeerEnd<long double>> solve_reference(const PeerProblem& problem, double tolerance)
 {
     namespace odeint = boost::numeric::odeint;
     using S = long double;

@@ -190,7 +190,7 @@ PeerEnd<S> run_point(const Block<S>& block, const GroundOf& excitation, Fly&& fl
 
 /// Calls visit(excitation) for one point of a problem.
 template <class S, class Visitor>
-auto with_excitation(const Scene& scene, const PlanePoint& point, const Visitor& visit)
+auto with_excitation(const Scene& scene, const Point& point, const Visitor& visit)
 {
     const S slenderness(point.slenderness);
     if (scene.is_recorded()) {
@@ -207,11 +207,11 @@ auto with_excitation(const Scene& scene, const PlanePoint& point, const Visitor&
 
 /// The forced stage of every point; see run_point().
 template <class S, Sines sines = Sines::library, class Fly>
-std::vector<PeerEnd<S>> run_points(const Problem& problem, Fly&& fly)
+std::vector<PeerEnd<S>> run_points(const PeerProblem& problem, Fly&& fly)
 {
     std::vector<PeerEnd<S>> ends;
     ends.reserve(problem.points.size());
-    for (const PlanePoint& point : problem.points) {
+    for (const Point& point : problem.points) {
         const Block<S> block{S(point.slenderness), S(point.restitution)};
         ends.push_back(with_excitation<S>(problem.scene, point, [&](const auto& excitation) {
             return run_point<S, sines>(block, excitation, fly);

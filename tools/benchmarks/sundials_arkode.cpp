@@ -10,7 +10,7 @@
 
 namespace overturn::benchmarks {
 
-std::vector<PeerEnd<double>> solve_by_arkode(const Problem& problem, double tolerance)
+std::vector<PeerEnd<double>> solve_by_arkode(const PeerProblem& problem, double tolerance)
 {
     SundialsState state;
     const void* current = nullptr;

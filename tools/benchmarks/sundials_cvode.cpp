@@ -9,7 +9,7 @@
 
 namespace overturn::benchmarks {
 
-std::vector<PeerEnd<double>> solve_by_cvode_adams(const Problem& problem, double tolerance)
+std::vector<PeerEnd<double>> solve_by_cvode_adams(const PeerProblem& problem, double tolerance)
 {
     SundialsState state;
     const void* current = nullptr;

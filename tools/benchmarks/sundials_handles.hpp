@@ -55,7 +55,7 @@ int rocking_derivative(double time, N_Vector state, N_Vector derivative, void* r
 }
 
 /// The right-hand side for the ground motion of a problem.
-inline auto* rocking_derivative_of(const Problem& problem)
+inline auto* rocking_derivative_of(const PeerProblem& problem)
 {
     return problem.scene.is_recorded()
                ? rocking_derivative<

@@ -1,22 +1,28 @@
-"""Words in pictures: ground motion, block, title. An index `outer` is that of one spectrum."""
+"""Words in pictures: ground motion, block, title."""
 
 import functools
 import math
 import pathlib
 
-from overturn.fields import count_tiles, dimensions_of, slenderness_and_restitution
-from overturn.result_file import escaped, text_attribute, title_of
+import numpy as np
+from overturn.fields import count_tiles
+from overturn.result_file import escaped, title_of
+from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet",
           "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse"}
 PULSE_NUMBERS = ("window", "cycles", "gamma", "nu")
-JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
+SIZES = ("size", "frequency_parameter")
+# Quantity, symbol and unit of a value.
+SYMBOLS = {"frequency": "ω_p/p", "pulse_period": "period", "pulse_frequency": "frequency", "pga": "PGA", "size": "R",
+           "frequency_parameter": "p"}
+UNITS = {"pga": "g", "s-1": "1/s", "1": ""}  # of a quantity, or instead of those of the file
 MOST_LETTERS = 32  # of the name of a record beside other words
 
 
 def is_linear(file):
-    return text_attribute(file, "theory") == "linear"
+    return file.text("theory") == "linear"
 
 
 def is_recorded(file):
@@ -27,11 +33,6 @@ def ground_word(file):
     return "record" if is_recorded(file) else "pulse"
 
 
-def scales_records(file):
-    """Returns whether an axis is the scale of records, not their peak acceleration."""
-    return is_recorded(file) and "record_pga" not in file
-
-
 def file_name(path):
     return pathlib.PurePosixPath(path).name
 
@@ -39,23 +40,20 @@ def file_name(path):
 def ground_text(file):
     """Returns the pulse, or the file of the record."""
     if is_recorded(file):
-        return file_name(text_attribute(file, "record"))
-    return text_attribute(file, "pulse").replace("_", "-")
+        return file_name(file.text("record"))
+    return file.text("pulse").replace("_", "-")
 
 
 @functools.cache
 def motion_names(file):
-    """Returns the name of each record without its folder; with it if several would be equal. The index
-    is added only in files of version 1.0.0 whose motions have equal names."""
-    paths = [row.tobytes().decode(errors="replace").rstrip("\0") for row in file["motion_name"][:]]
+    """Returns the name of each record without its folder; with it if several would be equal."""
+    paths = list(np.atleast_1d(file["motion_name"][:]))
     names = [file_name(path) for path in paths]
-    if len(set(names)) == len(names):
-        return names
-    return paths if len(set(paths)) == len(paths) else [f"{path} (motion {i})" for i, path in enumerate(paths)]
+    return names if len(set(names)) == len(names) else paths
 
 
 def value_text(file, name, place):
-    """Returns the value of an outer dimension at an index."""
+    """Returns the value of a dimension at an index."""
     return motion_names(file)[place] if name == "motion" else f"{file[name][place]:g}"
 
 
@@ -64,49 +62,71 @@ def slenderness_text(alpha, units):
     return f"α = {math.degrees(alpha):.4g}°" if units == PHYSICAL else f"α = {alpha:.4g} rad"
 
 
-def block_text(file, outer, units):
-    alpha, r = slenderness_and_restitution(file, outer)
-    share = ""
-    if text_attribute(file["restitution"], "of") == "maximum":
-        value = file["restitution"][outer[dimensions_of(file).index("restitution")]]
-        share = " = r_max" if value == 1 else f" = {value:g} r_max"
-    return f"{slenderness_text(alpha, units)},  r{share} = {r:.4g}"
+def quantity_text(file, name, value):
+    """Returns a quantity and its value."""
+    units = file[name].attrs.get("units", "1")
+    units = UNITS.get(name, UNITS.get(units, units))
+    return f"{SYMBOLS.get(name, name)} = {value:.4g} {units}".rstrip()
 
 
-def motion_text(file, outer, units):
+def block_text(plane, units):
+    """Returns the slenderness and the restitution, unless they vary in the plane."""
+    alpha, r, share = map(plane.value, ("slenderness", "restitution", "restitution_of_maximum"))
+    words = [] if alpha is None else [slenderness_text(alpha, units)]
+    if share is not None:
+        of = "r_max" if share == 1 else f"{share:g} r_max"
+        words.append(f"r = {of}" + (f" = {r:.4g}" if r is not None else ""))
+    elif r is not None:
+        words.append(f"r = {r:.4g}")
+    return ",  ".join(words)
+
+
+def motion_text(plane, units):
     """Returns the record and, if the picture shows its scale, its peak acceleration."""
-    names = dimensions_of(file)
-    motion = outer[names.index("motion")]
-    name = motion_names(file)[motion]
+    number = plane.value("motion_number") or plane.value("motion")
+    if number is None:
+        return ""
+    name = motion_names(plane.file)[int(number) - 1]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
-    shows_scale = scales_records(file) and units == JOB
-    return name + (f", PGA {file['pga'][motion]:.3g} g" if shows_scale else "")
+    return name + (f", PGA {plane.value('record_pga'):.3g} g" if "scale" in plane.quantities(units) else "")
 
 
-def spectrum_words(file, outer, units=JOB):
+def other_words(plane, units):
+    """Returns the values of other dimensions, and of a strength, rate and size that no axis shows."""
+    file, shown = plane.file, {plane.across, plane.quantities()[1]}
+    elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum")
+    names = [name for name in plane.index if name not in elsewhere]
+    for kind in (STRENGTHS, SIZES if is_recorded(file) else RATES):
+        if not {*shown, *names} & {*kind}:
+            known = [name for name in file.coordinates if name in kind and plane.value(name) is not None]
+            physical = [name for name in known if name in ("pga", "pulse_period")] if units == PHYSICAL else []
+            names += (physical or known)[:1]
+    return [quantity_text(file, name, plane.value(name)) for name in names]
+
+
+def spectrum_words(plane, units=JOB):
     """Returns what distinguishes a spectrum from others: its record, if any, and its block."""
-    motion = [motion_text(file, outer, units)] if is_recorded(file) else []
-    return [*motion, block_text(file, outer, units)]
+    motion = [motion_text(plane, units)] if is_recorded(plane.file) else []
+    return [word for word in (*motion, *other_words(plane, units), block_text(plane, units)) if word]
 
 
-def panel_titles(file, spectra, units=JOB):
+def panel_titles(planes, units=JOB):
     """Returns what differs among the spectra, for each of them."""
-    words = [spectrum_words(file, outer, units) for outer in spectra]
+    words = [spectrum_words(plane, units) for plane in planes]
     differs = [len(set(column)) > 1 for column in zip(*words)]
-    return [escaped("\n".join(word for word, shown in zip(each, differs) if shown))
-            for each in words]
+    return [escaped("\n".join(word for word, shown in zip(each, differs) if shown)) for each in words]
 
 
-def subtitle(file, spectra, units=JOB):
+def subtitle(planes, units=JOB):
     """Returns pulse, theory, what all spectra have in common, and a note on missing tiles."""
-    words = []
+    file, words = planes[0].file, []
     if not is_recorded(file):
-        words.append(PULSES.get(text_attribute(file, "pulse"), ground_text(file) + " pulse"))
+        words.append(PULSES.get(file.text("pulse"), ground_text(file) + " pulse"))
     words += [f"{name} {float(file.attrs[name]):g}" for name in PULSE_NUMBERS if name in file.attrs]
     if is_linear(file):
         words.append("linear theory")
-    for column in zip(*(spectrum_words(file, outer, units) for outer in spectra)):
+    for column in zip(*(spectrum_words(plane, units) for plane in planes)):
         if len(set(column)) == 1:
             words.append(escaped(column[0]))
     done, tiles = count_tiles(file)
@@ -115,11 +135,13 @@ def subtitle(file, spectra, units=JOB):
     return ",  ".join(words)
 
 
-def heading(file, spectra):
+def heading(planes):
     """Returns the job's title; under records without a title, the name of the record."""
+    file = planes[0].file
     title = title_of(file)
     if title or not is_recorded(file):
         return title
-    motion = dimensions_of(file).index("motion")
-    shown = {outer[motion] for outer in spectra}
-    return motion_names(file)[shown.pop()] if len(shown) == 1 else f"{len(shown)} records"
+    shown = {plane.value("motion") for plane in planes}
+    if len(shown) == 1 and None not in shown:
+        return motion_names(file)[int(shown.pop()) - 1]
+    return f"{len(motion_names(file)) if None in shown else len(shown)} records"

@@ -1,13 +1,21 @@
-"""Choice of spectra in a file: an option per outer dimension gives an index."""
+"""Choice of the planes of a file to show: an option per dimension gives an index."""
 
+import argparse
 import itertools
 import math
 
 from overturn.captions import value_text
-from overturn.fields import dimensions_of
 from overturn.result_file import USAGE, PlotError
+from overturn.spectrum_file import STRENGTHS, Plane
 
 OPTIONS = ("motion", "slenderness", "restitution")
+
+
+def dimension_and_index(words):
+    name, _, number = words.partition("=")
+    if not name or not number.removeprefix("-").isdigit():
+        raise argparse.ArgumentTypeError(f"\"{words}\" is not of the form height=0")
+    return name, int(number)
 
 
 def add_choice_arguments(parser):
@@ -15,38 +23,64 @@ def add_choice_arguments(parser):
         only = " (files of records only)" if name == "motion" else ""
         parser.add_argument(f"--{name}", type=int, metavar="INDEX",
                             help=f"use only the {name} with this index, counted from 0{only}")
+    parser.add_argument("--index", type=dimension_and_index, action="append", default=[], metavar="DIMENSION=INDEX",
+                        help="the same for any dimension of the file, such as height=0; repeatable")
 
 
-def indices(file, name, index):
-    """Returns the indices to use along one dimension: the requested one, or all."""
-    count = len(file[name])
-    if index is None:
-        return list(range(count))
-    if not 0 <= index < count:
-        first, last = value_text(file, name, 0), value_text(file, name, count - 1)
-        raise PlotError(f"--{name} {index} is out of range; this file has 0 to {count - 1} "
-                        f"({name} {first} to {last}).", USAGE)
-    return [index]
+def option_of(dimension):
+    name = dimension.removesuffix("_of_maximum")
+    return f"--{name}" if name in OPTIONS else f"--index {dimension}=INDEX"
 
 
-def chosen(file, arguments, most=1):
-    """Returns the indices to use along each outer dimension. Raises an error if these are more
-    than `most` spectra."""
-    names = dimensions_of(file)[:-2]
-    for name in OPTIONS:
-        if getattr(arguments, name) is not None and name not in names:
-            raise PlotError(f"--{name}: \"{file.filename}\" has no dimension {name}, only "
-                            f"{', '.join(names)}.", USAGE)
-    choices = {name: indices(file, name, getattr(arguments, name, None)) for name in names}
-    count = math.prod(map(len, choices.values()))
+def chosen(file, arguments):
+    """Returns the chosen index of each dimension that has one."""
+    options = [(f"--{name}", name, getattr(arguments, name)) for name in OPTIONS
+               if getattr(arguments, name, None) is not None]
+    options += [(f"--index {name}", name, index) for name, index in arguments.index]
+    choices = {}
+    for option, name, index in options:
+        if name == "restitution" and name not in file.dimensions:
+            name = "restitution_of_maximum"
+        if name not in file.dimensions or name == "crossing":
+            raise PlotError(f"{option}: \"{file.filename}\" has no dimension {name}, only "
+                            f"{', '.join(file.dimensions) or 'a single point'}.", USAGE)
+        count = file.sizes[name]
+        if not 0 <= index < count:
+            first, last = value_text(file, name, 0), value_text(file, name, count - 1)
+            raise PlotError(f"{option} {index} is out of range; this file has 0 to {count - 1} "
+                            f"({name} {first} to {last}).", USAGE)
+        choices[name] = index
+    return choices
+
+
+def axes_of(file, choices):
+    """Returns the dimensions along the horizontal and the vertical axis: the last two of several values without a
+    chosen index. If there are too few, they are of one value, or numbers of motions."""
+    free = [name for name in file.dimensions if name not in choices and name != "crossing"]
+    axes = sorted(free, key=lambda name: (file.sizes[name] > 1 and name != "motion", free.index(name)))
+    if "crossing" in file.dimensions:
+        return axes[-1] if axes else None, "crossing"
+    if len(axes) < 2:
+        raise PlotError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has "
+                        f"{axes[0] if axes else 'none'}{' only' * bool(axes)}. Give more axes in the job, or use "
+                        "tools/to_csv or overturn.open() in Python.", USAGE)
+    up, across = sorted(axes[-2:], key=free.index)
+    return (up, across) if across in STRENGTHS else (across, up)
+
+
+def planes_of(file, arguments, most=1):
+    """Returns the chosen planes in the order of their panels, and the number of columns: the last dimension of several
+    values if there are two or more, otherwise nearly a square. Raises an error if these are more than `most`."""
+    choices = chosen(file, arguments)
+    axes = axes_of(file, choices)
+    others = {name: [choices[name]] if name in choices else range(file.sizes[name])
+              for name in file.dimensions if name not in axes}
+    several = {name: len(places) for name, places in others.items() if len(places) > 1}
+    count = math.prod(several.values())
     if count > most:
-        several = [f"--{name} (0 to {places[-1]})" for name, places in choices.items()
-                   if len(places) > 1]
+        options = [f"{option_of(name)} (0 to {size - 1})" for name, size in several.items()]
         raise PlotError(f"there are {count} spectra, but the output is limited to {most}; choose "
-                        f"with {' or '.join(several)}.", USAGE)
-    return list(choices.values())
-
-
-def chosen_one(file, arguments):
-    """Returns the index of the only chosen spectrum."""
-    return next(itertools.product(*chosen(file, arguments)))
+                        f"with {' or '.join(options)}.", USAGE)
+    planes = [Plane(file, dict(zip(others, places)), *axes) for places in itertools.product(*others.values())]
+    lengths = list(several.values())
+    return planes, lengths[-1] if len(lengths) > 1 and lengths[-1] <= 4 else math.ceil(math.sqrt(count))

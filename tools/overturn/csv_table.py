@@ -1,14 +1,17 @@
-"""Writes one spectrum of a result file as CSV, one row per point, for use without HDF5."""
+"""Writes a spectrum as CSV, one row per point, for use without HDF5."""
 
 import argparse
 import csv
+import itertools
 import pathlib
 
-from overturn.choice import add_choice_arguments, chosen_one
-from overturn.fields import dimensions_of, fields_of, read_field
+import numpy as np
+
+from overturn.choice import add_choice_arguments, chosen
+from overturn.fields import read_field
 from overturn.output_file import new_file
 from overturn.result_file import damage_reported
-from overturn.spectrum_file import open_spectrum, rows_of_tiles
+from overturn.spectrum_file import open_spectrum
 from overturn.units import LABELS
 
 EXAMPLE = """\
@@ -16,36 +19,51 @@ example:
   overturn run jobs/smoke.toml                   # writes smoke.h5
   tools/to_csv smoke.h5                          # writes smoke.csv
 
-Columns: the axes of the plane, with their names in the file (such as frequency and amplitude), and
-every field of the file, with the codes of docs/results.md. Rows: the first column varies fastest.
+Columns: the dimensions, with their names in the file (such as frequency and amplitude), and every
+field of the file, with the codes of docs/results.md. Rows: the first column varies fastest.
 Numbers have enough digits to be read back exactly.
-For a file of several spectra (records, slendernesses, restitutions) choose one:
+To write a part of the points only, choose an index along some dimensions:
   tools/to_csv four_axes.h5 --slenderness 0 --restitution 2 -o third.csv"""
 
+REGION = "region"  # a column of every table
+# The names of all columns that a table may have; see docs/results.md.
+FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps", "status", "evaluated"}
+COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block"}
 
-def rows_of(file, outer):
-    names = fields_of(file)
-    *_, up, across = dimensions_of(file)
-    yield [across, up, *names]
-    for rows in rows_of_tiles(file[names[0]]):
+
+def parts_of(file, choices):
+    """Yields indices of all points, part by part, because they may not fit in memory."""
+    steps = [1 for _ in file.dimensions]
+    if steps:
+        steps[-1] = file.sizes[file.dimensions[-1]]
+    if len(steps) > 1:
+        steps[-2] = file[REGION].rows_of_chunk(file.dimensions[-2])
+    yield from itertools.product(*(
+        [slice(choices[name], choices[name] + 1)] if name in choices
+        else [slice(first, first + step) for first in range(0, file.sizes[name], step)]
+        for name, step in zip(file.dimensions, steps)))
+
+
+def rows_of(file, choices):
+    names = file.fields()
+    yield [*reversed(file.dimensions), *names]
+    for part in parts_of(file, choices):
         with damage_reported(file.filename):
-            tiles = [read_field(file, name, outer, rows) for name in names]
-        for i, row in enumerate(file[up][rows].tolist()):
-            columns = (tile[i].tolist() for tile in tiles)
-            for values in zip(file[across][:].tolist(), *columns):
-                yield [values[0], row, *values[1:]]
+            axes = np.meshgrid(*(file[name][each] for name, each in zip(file.dimensions, part)), indexing="ij")
+            columns = [*reversed(axes), *(read_field(file, name, part) for name in names)]
+        yield from zip(*(column.ravel().tolist() for column in columns))
 
 
 def is_own(beginning):
-    """Whether a file begins with the names of two axes, as its tables do."""
-    across, up, *_ = [*beginning.split(b"\n")[0].split(b","), b"", b""]
-    return {across, up} <= {name.encode() for name in LABELS}
+    """Whether a file begins with the names of such columns, and no others."""
+    names = beginning.split(b"\n")[0].decode(errors="replace").strip().split(",")
+    return REGION in names and COLUMNS.issuperset(names) and names[-1] in FIELDS
 
 
-def write(file, outer, path):
+def write(file, choices, path):
     with new_file(path, "a table of tools/to_csv", is_own) as part, \
             open(part, "w", newline="", encoding="ascii") as text:
-        csv.writer(text, lineterminator="\n").writerows(rows_of(file, outer))
+        csv.writer(text, lineterminator="\n").writerows(rows_of(file, choices))
     print(path)
 
 
@@ -66,5 +84,5 @@ def main(argv=None):
     arguments = read_arguments(argv)
     with open_spectrum(arguments.file) as file:
         with damage_reported(arguments.file):
-            outer = chosen_one(file, arguments)
-        write(file, outer, arguments.output)
+            choices = chosen(file, arguments)
+        write(file, choices, arguments.output)

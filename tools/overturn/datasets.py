@@ -18,52 +18,26 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
     Raises ValueError if the file was not written by overturn, OSError if it cannot be read.
     """
     try:
+        import h5py
         import xarray
     except ImportError as error:
-        raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5netcdf (Debian: "
-                          "python3-xarray and python3-h5netcdf, for /usr/bin/python3).") from error
-    os.stat(path)  # xarray reports a missing file as an unknown format
-    file = xarray.open_dataset(path)
-    if "program_version" not in file.attrs:
+        raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5py (Debian: "
+                          "python3-xarray and python3-h5py, for /usr/bin/python3).") from error
+    from overturn.lazy_variables import variable
+    from overturn.result_file import FORMATS, Result
+    file = h5py.File(path)
+    try:
+        if "program_version" not in file.attrs:
+            raise ValueError(f"\"{path}\" was not written by overturn.")
+        if (version := file.attrs.get("format_version", 1)) not in FORMATS:
+            raise ValueError(f"\"{path}\" has format version {version}; this version of overturn reads 3 and 4.")
+        result = Result(file)
+        variables = {name: variable(result, name) for name in result}
+    except Exception:
         file.close()
-        raise ValueError(f"\"{path}\" was not written by overturn.")
-    # Before format 3, texts, checksums and the scan of a boundary were in the root group.
-    # Attributes are read through attrs, because file.kind is a column if a table of blocks has one of that name.
-    has_tiles = file.attrs["kind"] in ("overturning spectrum", "overturning boundary")
-    dataset = _without_unmarked_tiles(file, path) if has_tiles else file
-    strangers = [name for name, variable in dataset.variables.items()
-                 if not variable.dims or name in ("checksum", "tile") or name.startswith("scan_")]
-    dataset = dataset.drop_vars(strangers)
-    dataset = dataset.set_coords([name for name in ("motion_name",) if name in dataset])
+        raise
+    coordinates = {name: variables.pop(name) for name in result.coordinates}
+    dataset = xarray.Dataset(variables, coordinates, result.attrs)
     dataset.encoding["source"] = os.path.abspath(path)
-    dataset.set_close(file.close)
+    dataset.set_close(result.close)
     return dataset
-
-
-def _without_unmarked_tiles(dataset, path):
-    """Replaces the values of tiles that have no checksum: they are not computed, whatever is stored."""
-    import h5py
-    import numpy as np
-    import xarray
-
-    from overturn.fields import checksums_of, dimensions_of, fill_value, tile_shape
-    with h5py.File(path) as file:
-        marks = checksums_of(file)[:] != 0
-        if marks.all():
-            return dataset
-        dimensions = dimensions_of(file)
-        shape = [dataset.sizes[dimension] for dimension in dimensions]
-        # Of the first format: tiles of the last two dimensions.
-        tile = checksums_of(file).attrs.get("tile_shape", [1, 1, *tile_shape(file)])
-        fills = {name: fill_value(file[name]) for name, field in dataset.data_vars.items()
-                 if dimensions[-1] in field.dims and set(field.dims) <= set(dimensions)}
-    marks = marks.reshape([-(-extent // side) for extent, side in zip(shape, tile)])
-    for axis, (extent, side) in enumerate(zip(shape, tile)):
-        marks = np.take(np.repeat(marks, side, axis), range(extent), axis)
-    computed = xarray.DataArray(marks, dims=dimensions)
-    masked = {}
-    for name, fill in fills.items():
-        field = dataset[name]
-        lacking = {dimension: 0 for dimension in dimensions if dimension not in field.dims}
-        masked[name] = field.where(computed.isel(lacking), fill)
-    return dataset.assign(masked)

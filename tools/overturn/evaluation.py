@@ -178,7 +178,7 @@ def _evaluated(scene, numerics, columns):
     flat = {name: np.broadcast_to(array, shape).ravel() for name, array in arrays.items()}
     try:
         computed = core.evaluate(scene, numerics, flat)
-    except core.ListError as error:
+    except core.GivenError as error:
         raise _error_of(*error.args, shape) from None
     if warning := computed.pop("warning"):
         warnings.warn(f"{warning}.", stacklevel=3)
@@ -186,9 +186,9 @@ def _evaluated(scene, numerics, columns):
     return Outcome(verdict=np.asarray(_VERDICT_OF_REGION[fields["region"]]), **fields)
 
 
-def _error_of(row, column, message, shape):
-    """Returns the error of a list with the names of the arguments and the index of the point."""
+def _error_of(row, quantity, message, shape):
+    """Returns the error of a quantity with the index of the point."""
     if row < 0:
-        return ArgumentError(f"{column} {message}".lstrip())
+        return ArgumentError(quantity + message)
     index = tuple(map(int, np.unravel_index(row, shape)))
-    return ValueError(f"at index {index}: {message}" if shape else message)
+    return ValueError(f"at index {index}: {quantity}{message}" if shape else quantity + message)

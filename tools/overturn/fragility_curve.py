@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 # How a measure grows with the scale of the motion: as scale^power.
 POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
+_NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
 VALUES_OF_CURVE = 100
 
 
@@ -134,16 +135,14 @@ def expect_records(dataset):
 def _measure(dataset, im):
     """Returns the intensity measure of every motion at every scale."""
     expect_records(dataset)
-    unscaled = "record_pga" if im == "pga" and "record_pga" in dataset else im
+    unscaled = _NAMES.get(im, im)
     if not _is_measure(dataset, unscaled):
-        known = [name for name in POWERS if name in dataset]
+        known = [name for name in POWERS if _NAMES.get(name, name) in dataset]
         raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}; "
                          "another one must be a variable of numbers over the dimension motion.")
     measure = dataset[unscaled]
     if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
         measure = measure.sel(motion=dataset["motion_number"])
-    elif "motion" in measure.dims and "motion" not in dataset["region"].dims:
-        measure = measure.isel(motion=0)
     return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
 
 
@@ -152,7 +151,7 @@ def _is_measure(dataset, name):
     isel(), only the known measures can be told from properties of the block."""
     if name not in dataset or name == "motion" or dataset[name].dtype.kind not in "fiu":
         return False
-    return dataset[name].dims == ("motion",) or (not dataset[name].dims and name in (*POWERS, "record_pga"))
+    return dataset[name].dims == ("motion",) or (not dataset[name].dims and name in {*POWERS, *_NAMES.values()})
 
 
 def _blocks(region):

@@ -4,10 +4,10 @@ import re
 
 import numpy as np
 from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
-from overturn.fields import read_field
-from overturn.result_file import PlotError, job_text, open_result, text_attribute
-from overturn.units import (NEEDING_A_SIZE, PHYSICAL, RECIPROCALS, axis_of, expect_size,
-                            name_of_flips, quantities, values_of)
+from overturn.choice import axes_of
+from overturn.result_file import PlotError, job_text, open_result
+from overturn.spectrum_file import PHYSICAL, RECIPROCALS, Plane
+from overturn.units import NEEDING_A_SIZE, axis_of, expect_size, name_of_flips
 
 
 def checksums_of_records(file):
@@ -22,48 +22,61 @@ def expect_same_motion(file, spectrum):
         raise PlotError(f"\"{file.filename}\" was computed under different records from the spectrum.")
 
 
-def expect_same_settings(file, spectrum, names):
-    for name in names:
-        here, there = (text_attribute(each, name) or "none" for each in (file, spectrum))
-        if here != there:
-            raise PlotError(f"\"{file.filename}\" has {name} {here}, but the spectrum has {there}.")
+def expect_equal(file, spectrum, name, here, there):
+    if here != there:
+        raise PlotError(f"\"{file.filename}\" has {name} {here or 'none'}, but the spectrum has {there or 'none'}.")
 
 
-def expect_overlap(file, spectrum, across):
-    values = values_of(file, across, ())
-    first, last = axis_of(spectrum, across, ()).limits()
+def expect_overlap(boundary, plane, across):
+    values = boundary.values(across, boundary.across)
+    first, last = axis_of(plane, across, plane.across).limits()
     if not ((values >= first) & (values <= last)).any():
-        raise PlotError(f"\"{file.filename}\" covers {across} from {values.min():g} to "
+        raise PlotError(f"\"{boundary.file.filename}\" covers {across} from {values.min():g} to "
                         f"{values.max():g}, the spectrum only from {first:g} to {last:g}.")
 
 
-def open_boundary(path, spectrum, units):
-    """Opens the boundary file if it has the same blocks and ground motion as the spectrum. Its axes may differ:
-    its flips are converted to the quantities on the axes of the spectrum."""
+def open_boundary(path, plane, units):
+    """Opens the boundary file if it has the same ground motion as the spectrum. Its axes may differ: its flips are
+    converted to the quantities on the axes of the spectrum."""
+    spectrum = plane.file
     file = open_result(path, "overturning boundary", "a boundary written by overturn boundary")
     expect_same_motion(file, spectrum)
-    shown = quantities(spectrum, units)
-    if NEEDING_A_SIZE.intersection(shown):
+    if NEEDING_A_SIZE.intersection(plane.quantities(units)):
         expect_size(file, PHYSICAL)
-    # Over the frequency, boundaries of small and large blocks are the same; in s and Hz they are not.
-    sizes = ("half_diagonal", "gravity") if shown[0] in RECIPROCALS else ()
-    gravity = ("gravity",) if is_recorded(file) else ()
-    expect_same_settings(file, spectrum, ("pulse", "theory", *PULSE_NUMBERS, *sizes, *gravity))
-    for name in ("slenderness", "restitution_ratio"):
-        if not np.array_equal(file[name][:], spectrum[name][:]):
-            raise PlotError(f"\"{path}\" has different blocks from the spectrum: {name} differs.")
-    expect_overlap(file, spectrum, shown[0])
+    for name in ("pulse", "theory", *PULSE_NUMBERS):
+        expect_equal(file, spectrum, name, file.text(name), spectrum.text(name))
+    if is_recorded(file) or plane.quantities(units)[0] in RECIPROCALS:
+        expect_equal(file, spectrum, "gravity", file.text("gravity"), spectrum.text("gravity"))
     return file
 
 
-def draw_boundary(panel, boundary, outer, shown):
-    """Draws a dot per flip with a halo, visible on light and dark; `shown` are the quantities on the
-    axes. Changes next to an undecided region are not drawn."""
-    across, up = shown
-    sides = [read_field(boundary, name, outer) for name in ("region_below", "region_above")]
+def boundary_on(file, plane, units):
+    """Returns the plane of the boundary of the same block as a plane of a spectrum."""
+    across = axes_of(file, plane.index)[0]
+    missing = {name for name, size in file.sizes.items() if name in file.dimensions and size > 1} - {
+        across, "crossing", *plane.index}
+    if missing or across is None:
+        raise PlotError(f"\"{file.filename}\" is not along the axes of the spectrum.")
+    boundary = Plane(file, {name: plane.index.get(name, 0) for name in file.dimensions
+                            if name not in (across, "crossing")}, across, "crossing")
+    # Over the frequency, boundaries of small and large blocks are the same; in s and Hz they are not.
+    shown = plane.quantities(units)[0]
+    for name in ("slenderness", "restitution", *["size"] * (shown in RECIPROCALS)):
+        if boundary.value(name) != plane.value(name):
+            raise PlotError(f"\"{file.filename}\" has different blocks from the spectrum: {name} differs.")
+    expect_overlap(boundary, plane, shown)
+    return boundary
+
+
+def draw_boundary(panel, file, plane, units):
+    """Draws a dot per flip with a halo, visible on light and dark. Changes next to an undecided region are not
+    drawn."""
+    boundary = boundary_on(file, plane, units)
+    across, up = plane.quantities(units)
+    sides = [boundary.read(name) for name in ("region_below", "region_above")]
     settled = (np.maximum(*sides) <= 8)  # F-
-    flips = np.where(settled, read_field(boundary, name_of_flips(up), outer), np.nan)
-    columns = np.broadcast_to(values_of(boundary, across, outer), flips.shape)
+    flips = np.where(settled, boundary.read(name_of_flips(up)), np.nan)
+    columns = np.broadcast_to(boundary.values(across, boundary.across), flips.shape)
     for size, colour in ((2.6, "white"), (1.2, "black")):
         panel.plot(columns.ravel(), flips.ravel(), linestyle="none", marker="o",
                    markeredgewidth=0, markersize=size, color=colour)

@@ -5,9 +5,7 @@ import numpy as np
 from matplotlib import colors
 from matplotlib.patches import Patch
 from overturn.captions import spectrum_words
-from overturn.fields import read_field
 from overturn.regions import LAST_SAFE
-from overturn.spectrum_file import rows_of_tiles
 
 COLOUR = "#1f5fe0"
 
@@ -17,11 +15,11 @@ def came_back(region, peak):
     return (region <= LAST_SAFE) & (peak >= 1)
 
 
-def count(file, outer):
+def count(plane):
     """Returns the number of blocks that came back and of all safe blocks of a spectrum."""
     wrong = safe = 0
-    for rows in rows_of_tiles(file["region"]):
-        region, peak = (read_field(file, name, outer, rows) for name in ("region", "peak"))
+    for rows in plane.tiles("region"):
+        region, peak = (plane.read(name, rows) for name in ("region", "peak"))
         wrong += np.count_nonzero(came_back(region, peak))
         safe += np.count_nonzero(region <= LAST_SAFE)
     return wrong, safe
@@ -35,9 +33,9 @@ def share_text(wrong, safe):
 class Misjudged:
     """The blocks of some spectra that came back, counted."""
 
-    def __init__(self, file, spectra):
-        self.names = [",  ".join(spectrum_words(file, outer)) for outer in spectra]
-        self.counts = [count(file, outer) for outer in spectra]
+    def __init__(self, planes):
+        self.names = [",  ".join(spectrum_words(plane)) for plane in planes]
+        self.counts = [count(plane) for plane in planes]
         self.total = share_text(*map(sum, zip(*self.counts)))
 
     def report(self):

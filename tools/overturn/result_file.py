@@ -1,19 +1,18 @@
 """Reading of result files by the tools, and their error messages."""
 
 import contextlib
-import json
 import os
 import pathlib
 import sys
 
 import h5py
+from overturn.file_variables import Result, text_of
 from overturn.output_file import FILE, OutputError, new_file
 
 USAGE = 2  # exit code, equal to that of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-NEWEST_FORMAT = 3
+FORMATS = (3, 4)
 PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
-PANELS = "overturn:panels"  # the PNG text chunk with the positions of the panels
 
 
 class PlotError(Exception):
@@ -24,30 +23,9 @@ class PlotError(Exception):
         self.code = code
 
 
-def text_attribute(holder, name):
-    value = holder.attrs.get(name, "")
-    return value.decode() if isinstance(value, bytes) else str(value)
-
-
-def run_data(file):
-    """Returns the group of what is neither a coordinate nor a field: checksums, the job and the scan of a
-    boundary. Before format 3, it was the root group."""
-    return file["run"] if "run" in file else file
-
-
 def job_text(file, name):
     """Returns a text about the job; empty if there is none."""
-    texts = run_data(file)
-    return texts[name][:].tobytes().decode(errors="replace") if name in texts else ""
-
-
-def events_of(file):
-    """Returns the variables of the events of a history, by name. Before format 3, their names began
-    with event_."""
-    if "events" in file:
-        return file["events"]
-    return {name.removeprefix("event_"): values for name, values in file.items()
-            if name.startswith("event_")}
+    return file.run[name][:].tobytes().decode(errors="replace") if name in file.run else ""
 
 
 def shortened(text, width):
@@ -60,7 +38,7 @@ def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
     title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows
     elsewhere."""
-    title = text_attribute(file, "title")
+    title = file.text("title")
     if title:
         overrides = job_text(file, "job_overrides").splitlines()
         others = [shortened(words, 48) for words in overrides
@@ -89,13 +67,14 @@ def open_result(path, kind, wanted):
         file = h5py.File(path, "r")
     except OSError as error:
         raise PlotError(f"cannot read \"{path}\": {error.strerror or error}.") from error
-    if text_attribute(file, "kind") != kind:
+    if text_of(file, "kind") != kind:
         raise PlotError(f"\"{path}\" is not {wanted}.")
     version = file.attrs.get("format_version", 1)
-    if version > NEWEST_FORMAT:
-        raise PlotError(f"\"{path}\" has format version {version}; this tool reads versions up to "
-                        f"{NEWEST_FORMAT}. Use the tools of a newer overturn.")
-    return file
+    if version not in FORMATS:
+        raise PlotError(f"\"{path}\" has format version {version}; this tool reads versions 3 and 4. Use the tools of "
+                        f"{'a newer overturn' if version > FORMATS[-1] else 'the overturn that wrote it'}.")
+    with damage_reported(path):
+        return Result(file)
 
 
 def path_of(result):
@@ -106,12 +85,9 @@ def path_of(result):
     path = result.encoding.get("source")
     if path is None:
         raise ValueError("the data set was not made by overturn.open(). Pass the path of the file.")
-    with h5py.File(path) as file:
-        dimensions = {name: len(data) for name, data in file.items() if isinstance(data, h5py.Dataset)
-                      and h5py.h5ds.is_scale(data.id) and not name.endswith("_length")}
-        if dimensions != dict(result.sizes):
-            raise ValueError(f"the data set is not all of \"{path}\". Pass the path of the file, and select "
-                             "with motion, slenderness and restitution.")
+    with Result(h5py.File(path)) as file:
+        if file.sizes != dict(result.sizes):
+            raise ValueError(f"the data set is not all of \"{path}\". Pass the path of the file, and select by index.")
     return path
 
 
@@ -137,16 +113,6 @@ def name_picture(parser, arguments, default=None):
         parser.error(f"\"{arguments.output}\" must end in .png, .pdf or .svg")
 
 
-def place_of(panel, shows):
-    """Returns the position of a panel, as fractions of the picture from the top left, and the
-    limits of its axes, from which others can compute the value at a pixel or vice versa."""
-    box = panel.get_position()
-    return {"shows": shows, "left": box.x0, "right": box.x1, "top": 1 - box.y1,
-            "bottom": 1 - box.y0,
-            "across": {"limits": list(map(float, panel.get_xlim())), "scale": panel.get_xscale()},
-            "up": {"limits": list(map(float, panel.get_ylim())), "scale": panel.get_yscale()}}
-
-
 def write_picture(figure, path, **how):
     """Writes a figure in the format that the suffix of the path names."""
     import matplotlib
@@ -157,11 +123,9 @@ def write_picture(figure, path, **how):
         figure.savefig(part, format=suffix[1:] or "png", **how)
 
 
-def save(figure, path, places=(), **how):
-    """Saves and closes a figure; a PNG includes the positions of its panels."""
+def save(figure, path, **how):
+    """Saves and closes a figure."""
     from matplotlib import pyplot
-    if places and pathlib.Path(path).suffix == ".png":
-        how["metadata"] = {PANELS: json.dumps(places)}
     write_picture(figure, path, **how)
     pyplot.close(figure)
     print(path)

@@ -1,21 +1,90 @@
-"""Reading of overturning spectra by the tools: the planes of a file, cell by cell."""
+"""Reading of overturning spectra by the tools: their planes, cell by cell."""
 
 import numpy as np
 
 from overturn.fields import read_field
-from overturn.result_file import PlotError, open_result
+from overturn.result_file import USAGE, PlotError, open_result
+
+STRENGTHS = ("amplitude", "scale", "pga")
+RATES = ("frequency", "pulse_period", "pulse_frequency")
+JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
+EQUIVALENTS = {"frequency": "pulse_period", "amplitude": "pga", "scale": "pga"}  # in physical units
+RECIPROCALS = {"pulse_period": "pulse_frequency", "pulse_frequency": "pulse_period"}
 
 
 def open_spectrum(path, fields=("region",)):
     """Opens a spectrum that has the given fields."""
     file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
-    if "block" in file:
-        raise PlotError(f"\"{path}\" contains a list of blocks, not a plane. Read it with "
-                        "xarray.open_dataset().")
     for field in fields:
         if field not in file:
             raise PlotError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
     return file
+
+
+class Plane:
+    """What a picture shows of a spectrum or a boundary: the dimensions along the horizontal and the vertical axis, and
+    an index of each of the others. A boundary of one frequency or size has no horizontal dimension."""
+
+    def __init__(self, file, index, across, up):
+        self.file, self.index, self.across, self.up = file, index, across, up
+        self.height = file.sizes[up]
+
+    def read(self, name, rows=slice(None)):
+        """Reads some rows of a field."""
+        index = {**self.index, self.up: rows}
+        dimensions = self.file[name].dimensions
+        values = read_field(self.file, name, tuple(index.get(each, slice(None)) for each in dimensions))
+        if self.across is None:
+            return values[:, None]
+        return values.T if dimensions.index(self.across) < dimensions.index(self.up) else values
+
+    def tiles(self, name):
+        """Returns slices of rows to be read one at a time, because a plane may not fit in memory."""
+        height = self.file[name].rows_of_chunk(self.up)
+        return [slice(first, first + height) for first in range(0, self.height, height)]
+
+    def read_cells(self, name, rows, columns):
+        """Reads a field at given rows and columns."""
+        values = np.empty((len(rows), len(columns)), self.file[name].dtype)
+        for tiles in self.tiles(name):
+            wanted = (rows >= tiles.start) & (rows < tiles.stop)
+            if wanted.any():
+                values[wanted] = self.read(name, tiles)[np.ix_(rows[wanted] - tiles.start, columns)]
+        return values
+
+    def knows(self, name, along=()):
+        """Whether a coordinate is stored and varies in this plane along the given dimensions at most."""
+        return name in self.file and {*self.file[name].dimensions} <= {*self.index, *along}
+
+    def values(self, name, dimension):
+        """Returns the values of a coordinate along one dimension."""
+        if name in RECIPROCALS and name not in self.file:
+            return 1 / self.values(RECIPROCALS[name], dimension)
+        if not self.knows(name, [dimension]):
+            raise PlotError(f"\"{self.file.filename}\" has no {name} along {dimension} alone. Draw it in the units of "
+                            "the job, or choose other axes.", USAGE)
+        coordinate = self.file[name]
+        values = coordinate[tuple(self.index.get(each, slice(None)) for each in coordinate.dimensions)]
+        return np.broadcast_to(values, self.file.sizes[dimension])
+
+    def value(self, name):
+        """Returns the only value of a coordinate in this plane, or None."""
+        if not self.knows(name):
+            return None
+        coordinate = self.file[name]
+        return coordinate[tuple(self.index[each] for each in coordinate.dimensions)].item()
+
+    def quantities(self, units=JOB):
+        """Returns the quantities on the horizontal and the vertical axis; vertical ones of a boundary are those of
+        its flips."""
+        shown = EQUIVALENTS if units == PHYSICAL else {}
+        names = self.across, scanned_quantity(self.file) if self.up == "crossing" else self.up
+        return tuple(shown.get(name, name) for name in names)
+
+
+def scanned_quantity(file):
+    """Returns the quantity of the job along which a boundary was scanned."""
+    return next(name for name in STRENGTHS if f"scan_{name}" in file.run)
 
 
 def are_geometric(values):
@@ -38,8 +107,8 @@ class Axis:
         self.descends = values[-1] < values[0]
         if self.descends:
             values = values[::-1]
-        self.scale = scale or ("log" if are_geometric(values) else "linear")
         self.only_value = values[0] if len(values) == 1 else None
+        self.scale = scale or ("log" if are_geometric(values) else "linear")
         shown = self.shown(values)
         inner = (shown[1:] + shown[:-1]) / 2
         if len(values) == 1:
@@ -65,20 +134,3 @@ class Axis:
         middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
         cells = np.searchsorted(self.edges[1:-1], middles)
         return len(self.edges) - 2 - cells if self.descends else cells
-
-
-def rows_of_tiles(field):
-    """Returns slices of rows to be read one at a time, because a plane may not fit in memory."""
-    height = field.chunks[-2] if field.chunks else 64
-    return [slice(first, first + height) for first in range(0, field.shape[-2], height)]
-
-
-def read_cells(file, name, outer, rows, columns):
-    """Reads a field at given rows and columns."""
-    values = np.empty((len(rows), len(columns)), file[name].dtype)
-    for tiles in rows_of_tiles(file[name]):
-        wanted = (rows >= tiles.start) & (rows < tiles.stop)
-        if wanted.any():
-            block = read_field(file, name, outer, tiles)
-            values[wanted] = block[np.ix_(rows[wanted] - tiles.start, columns)]
-    return values

@@ -4,7 +4,6 @@
 
 #include <mpi.h>
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,16 +12,10 @@ namespace overturn {
 /// The rank that a launcher gave this process, without initialising MPI; 0 without a launcher.
 int launched_rank();
 
-/// The ranks cannot work together, because of how they were started.
-class LaunchError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
 /// Initialises and finalises MPI, unless MPI is initialised already.
 class MpiSession {
 public:
-    /// Throws LaunchError.
+    /// Throws Error.
     MpiSession();
     ~MpiSession() { leave(); }
     MpiSession(const MpiSession&) = delete;
@@ -67,6 +60,11 @@ private:
     int rank_ = 0;
     int size_ = 1;
 };
+
+/// Ends all ranks with the exit code. For signal handlers after a crash: if MPI fails or takes
+/// longer than 5 s, this process ends, and the launcher ends the others. Without MPI it ends this
+/// process.
+[[noreturn]] void end_all_ranks(int exit_code);
 
 /// The MPI library's name and version, such as "Open MPI v4.1.4".
 std::string mpi_library();

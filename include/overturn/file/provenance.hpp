@@ -2,8 +2,6 @@
 // the result file; what varies from run to run is stored next to it, in the sidecar OUT.h5.json.
 #pragma once
 
-#include "overturn/file/file_error.hpp"
-
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -43,12 +41,12 @@ struct RunInfo {
     std::vector<RankInfo> ranks; ///< by rank number
 };
 
-/// Throws FileError if the sidecar cannot be written, because another kind of file has its name or
+/// Throws Error if the sidecar cannot be written, because another kind of file has its name or
 /// the name is too long. To be called before the computation.
 void demand_place_for_sidecar(const std::string& spectrum_path);
 
 /// Writes the sidecar file spectrum_path + ".json", together with the compiler and the versions of
-/// HDF5 and MPI. Replaces an older sidecar atomically. Throws FileError.
+/// HDF5 and MPI. Replaces an older sidecar atomically. Throws Error.
 void write_sidecar(const std::string& spectrum_path, const RunInfo& run);
 
 } // namespace overturn

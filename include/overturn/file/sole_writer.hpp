@@ -2,8 +2,6 @@
 // twice.
 #pragma once
 
-#include "overturn/file/file_error.hpp"
-
 #include <string>
 
 namespace overturn {
@@ -13,11 +11,14 @@ namespace overturn {
 /// process ends, even if it is killed.
 class SoleWriter {
 public:
-    /// Throws FileError if another run holds the lock. Does nothing where files cannot be locked.
+    /// Throws Error if another run holds the lock. Does nothing where files cannot be locked.
     explicit SoleWriter(const std::string& path);
     ~SoleWriter();
     SoleWriter(const SoleWriter&) = delete;
     SoleWriter& operator=(const SoleWriter&) = delete;
+
+    /// The path of the locked file; empty if there is none.
+    std::string lock() const { return descriptor_ >= 0 ? lock_ : ""; }
 
 private:
     std::string lock_;

@@ -4,9 +4,9 @@
 // done.
 #pragma once
 
-#include "overturn/file/file_error.hpp"
+#include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <mpi.h>
 
@@ -23,12 +23,9 @@ namespace overturn {
 /// and crashes on a file that is incomplete because the disk was full.
 void start_hdf5();
 
-/// The state of the output file before a run.
-enum class Existing { nothing, unfinished, complete };
-
-/// Whether the job starts, resumes or is complete. Throws FileError if the path exists and is not a
-/// result file of this program version, job and tiling. Serial.
-Existing examine(const std::string& path, const Job& job, const Tiling& tiling);
+/// The file at the path, or nullopt if there is none. Throws Error if the path exists and is not a
+/// result file of this program version and job. Serial.
+std::optional<StoredResult> existing_result(const std::string& path, const Job& job);
 
 /// Clears the mark that says that a file is open for writing. HDF5 clears it on closing the file,
 /// so a run that is killed after its last tile leaves it set. A file that cannot be written is left
@@ -37,24 +34,23 @@ void clear_open_mark(const std::string& path);
 
 /// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
 /// smaller. In floating point, which cannot overflow here.
-long double spectrum_file_bytes(const Job& job, const Tiling& tiling);
+long double spectrum_file_bytes(const Job& job);
 
 /// Called between tiles; an exception from it stops the work.
 using BetweenTiles = std::function<void()>;
 
 /// Creates the file, with no tile computed, under a temporary name, and renames it once it is
-/// synced to the disk. To be called by one rank. Throws FileError, and leaves no file behind, if
+/// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if
 /// the folder is missing or not writable, or if there is not enough space.
 void create_spectrum_file(
-    const std::string& path, const Job& job, const Tiling& tiling,
-    const BetweenTiles& between_tiles = [] {});
+    const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
 
-/// Throws FileError if MPI cannot open files of this absolute path.
+/// Throws Error if MPI cannot open files of this absolute path.
 void demand_path_for_mpi(const std::string& path);
 
 /// The first rank on which the path names a different file than on rank 0, or nullopt; returned on
 /// all ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, all
-/// ranks read it, and rank 0 resets it to 0. Throws FileError on rank 0 if that fails.
+/// ranks read it, and rank 0 resets it to 0. Throws Error on rank 0 if that fails.
 std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator);
 
 /// When a tile is marked as done: once its values are written, so that they survive if a process is
@@ -68,8 +64,8 @@ enum class Durability { written, on_disk };
 /// ranks.
 class SpectrumFile {
 public:
-    /// The file must have been examined or created for the same job. Throws FileError.
-    SpectrumFile(const std::string& path, MPI_Comm communicator, const Job& job,
+    /// The file must be one of this problem. Throws Error.
+    SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
                  Durability durability = Durability::written);
     ~SpectrumFile();
     SpectrumFile(const SpectrumFile&) = delete;

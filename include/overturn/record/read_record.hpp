@@ -5,19 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace overturn {
-
-/// An error in a file of a recorded motion. The message names the file, the line if there is one,
-/// what was found, what is allowed and what to do.
-class RecordError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 enum class AccelerationUnit { g, m_per_s2, cm_per_s2, mm_per_s2, gal };
 
@@ -73,11 +65,11 @@ inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [b
 ///         each differs from first + i * step by at most half a unit of its last printed digit; the
 ///         step is the number with the fewest decimal digits for which they are.
 ///
-/// Throws RecordError.
+/// Throws Error.
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options = {});
 
-/// The same for a file. Throws RecordError.
+/// The same for a file. Throws Error.
 RecordFile read_record(const std::string& path, const RecordOptions& options = {});
 
 } // namespace overturn

@@ -3,19 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace overturn {
-
-/// An error in a table. The message names the file and the line, as FILE:LINE or FILE:LINE:COLUMN
-/// (both counted from 1), what was found, what is allowed and what to do.
-class TableError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 /// A column holds numbers if each of its values is one, or empty, which is read as NaN.
 struct TableColumn {
@@ -39,7 +31,7 @@ inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [by
 
 /// Reads the text of a file, in UTF-8; `name` replaces the path in messages. The first line names
 /// the columns. Lines end with LF or CR LF; empty ones at the end are skipped. text_column: a
-/// column whose values are texts even if they look like numbers. Throws TableError.
+/// column whose values are texts even if they look like numbers. Throws Error.
 Table read_table(std::string_view text, const std::string& name, std::string_view text_column = "");
 
 } // namespace overturn

@@ -1,12 +1,9 @@
-// The cost of accuracy: every method at every tolerance on a sample of a plane. End states are
+// The cost of accuracy: every method at every tolerance on a sample of a grid. End states are
 // compared with 50 digits, verdicts with settled verdicts.
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/kernel.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <array>
 #include <cstdint>
@@ -49,7 +46,7 @@ struct AccuracyRow {
 
 /// The points on which methods are compared.
 struct AccuracySample {
-    Plane plane;                ///< an even sample of the plane of the job
+    Grid grid;                  ///< an even sample of that of the job
     std::int64_t in_digits = 0; ///< points that are also computed in 50 digits
     std::int64_t settled = 0;   ///< points with a settled verdict
     std::array<std::int64_t, decided_regions> by_region{};
@@ -59,9 +56,9 @@ struct AccuracySample {
 /// A comparison of methods: first the sample and its reference values, then row by row.
 class AccuracyStudy {
 public:
-    /// Samples at most `points` points of the plane, and computes about `in_digits` in 50 digits.
-    AccuracyStudy(const Scene& scene, const Plane& plane, std::int64_t points,
-                  std::int64_t in_digits, Kernel kernel);
+    /// Samples at most `points` points of the grid, and computes about `in_digits` in 50 digits.
+    AccuracyStudy(const Scene& scene, const Grid& grid, std::int64_t points, std::int64_t in_digits,
+                  Kernel kernel);
 
     const AccuracySample& sample() const { return sample_; }
 
@@ -79,6 +76,8 @@ private:
         double angle, velocity, margin;
     };
 
+    /// The problem of the sample with these numerics and fields.
+    Problem problem(const Numerics& numerics, std::vector<Field> fields) const;
     void settle_verdicts();
     void compute_in_digits(std::int64_t wanted);
 

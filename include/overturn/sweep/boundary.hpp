@@ -3,10 +3,9 @@
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/problem/scene.hpp"
+#include "overturn/problem/tile.hpp"
 #include "overturn/sweep/kernel.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
-#include "overturn/sweep/sweep_tile.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -53,9 +52,9 @@ inline SearchResolution search_resolution(const Scene& scene)
 struct BoundaryLine {
     double slenderness;      ///< [rad]
     double restitution;      ///< r [1]
-    double frequency;        ///< see PlanePoint
+    double frequency;        ///< see Point
     std::int64_t motion = 0; ///< the number of the record, if there are any
-    double unit = 1;         ///< of the amplitudes, see amplitude_unit()
+    double unit = 1;         ///< the strength at Point::amplitude = 1
 };
 
 /// A part of a line that was searched in steps wider than the finest ones, although the margins
@@ -94,20 +93,5 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
                      DropRequested drop_requested = nullptr,
                      std::optional<SearchResolution> resolution = std::nullopt);
-
-/// Value of region_below and region_above, in addition to the region codes, if there is no flip.
-inline constexpr std::uint8_t no_flip = 253;
-
-/// The fields of a boundary: flip_amplitude, region_below, region_above; flip_pga if the peak
-/// ground acceleration is known; and those of a line under a record.
-std::vector<Field> boundary_fields(const Scene& scene, const Plane& plane);
-
-/// The boundaries of a tile whose rows are the flips of a line in ascending order and whose columns
-/// are frequencies. Values in the order of boundary_fields(); NaN and no_flip after the last flip,
-/// except that region_below of a line without flips is the region at the first amplitude. If there
-/// are more flips than rows, the last region_above is undecided.
-TileFields boundary_tile(const Scene& scene, const Plane& plane,
-                         const std::vector<double>& amplitudes, const Tile& tile, Kernel kernel,
-                         DropRequested drop_requested = nullptr);
 
 } // namespace overturn

@@ -3,11 +3,7 @@
 // numerical evidence, not on a proof. See docs/filling.md.
 #pragma once
 
-#include "overturn/sweep/fields.hpp"
-#include "overturn/sweep/kernel.hpp"
-#include "overturn/sweep/plane.hpp"
-#include "overturn/sweep/scene.hpp"
-#include "overturn/sweep/tile.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -27,12 +23,6 @@ struct FillRule {
     bool grazes = true; ///< whether impacts that could appear or vanish are considered
 };
 
-/// Filled points that were integrated as well.
-struct AuditCount {
-    std::int64_t checked = 0;
-    std::int64_t wrong = 0;
-};
-
 struct FilledTile {
     std::vector<std::uint8_t> region;
     std::vector<std::uint16_t> impacts;  ///< only if requested
@@ -40,10 +30,10 @@ struct FilledTile {
     AuditCount audit;
 };
 
-/// Fills a tile of a plane under a pulse. If the audit finds a wrong point, every point is
-/// integrated. The result depends on the plane and the tile, not on the kernel.
-FilledTile fill_tile(const Scene& scene, const Numerics& numerics, const Plane& plane,
-                     const Tile& tile, bool with_impacts, Kernel kernel,
+/// Fills a tile of a spectrum under a pulse, along its strengths and rates; the tile has one value
+/// of every other coordinate. If the audit finds a wrong point, every point is integrated. The
+/// result depends on the problem and the tile, not on the kernel.
+FilledTile fill_tile(const Problem& problem, const Tile& tile, Kernel kernel,
                      DropRequested drop_requested = nullptr, const FillRule& rule = {});
 
 } // namespace overturn

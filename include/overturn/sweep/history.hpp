@@ -4,7 +4,8 @@
 
 #include "overturn/integrate/event.hpp"
 #include "overturn/mechanics/region.hpp"
-#include "overturn/sweep/plane.hpp"
+#include "overturn/problem/point.hpp"
+#include "overturn/problem/scene.hpp"
 
 #include <limits>
 #include <vector>
@@ -55,6 +56,6 @@ struct History {
 
 /// The history of a point under a pulse, or under the first record of the scene. The forced stage
 /// does not depend on the method and tolerance of a job.
-History history_of(const Scene& scene, const PlanePoint& point, const HistoryView& view = {});
+History history_of(const Scene& scene, const Point& point, const HistoryView& view = {});
 
 } // namespace overturn

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <stdexcept>
 #include <string_view>
 
 namespace overturn {
@@ -26,13 +25,7 @@ bool processor_runs(Kernel kernel);
 /// is_compiled() and processor_runs().
 bool runs_here(Kernel kernel);
 
-/// Thrown if this processor cannot run any kernel of this build.
-class ProcessorError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-/// The widest kernel that runs here. Throws ProcessorError.
+/// The widest kernel that runs here. Throws Error.
 Kernel widest_kernel();
 
 } // namespace overturn

@@ -35,13 +35,12 @@ class Curve:
         quantile = int(np.argmin(np.abs(file["quantile"][:] - QUANTILE)))
 
         def column(values):
-            return np.asarray(values)[chosen][order]
+            return values[chosen][order]
 
-        self.tolerance = column(file["tolerance"])
-        self.time = column(file["seconds_per_point"]) * 1e6
+        self.tolerance = column(file["tolerance"][:])
+        self.time = column(file["seconds_per_point"][:]) * 1e6
         self.error = column(file["margin_error"][:, quantile])
-        wrong = "wrong_verdicts" if "wrong_verdicts" in file else "flips"  # the name in older files
-        self.wrong = column(file[wrong]) / file.attrs["points_settled"]
+        self.wrong = column(file["wrong_verdicts"][:]) / file.attrs["points_settled"]
 
     @property
     def label(self):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import textwrap
+from collections.abc import Mapping
 from types import SimpleNamespace
 
 import matplotlib
@@ -14,16 +15,14 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
-from overturn.choice import add_choice_arguments, chosen
-from overturn.fields import read_field
-from overturn.plot.sheet import MOST_PANELS, Sheet, layout
+from overturn.choice import add_choice_arguments, planes_of
+from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.regions import REGIONS
 from overturn.result_file import (add_picture_argument, damage_reported, name_picture, open_result,
                                   path_of, plain, save)
 from overturn.spectrum_file import Axis
 from overturn.ticks import set_axes
-from overturn.units import (add_units_argument, axis_of, expect_size, name_axes,
-                            name_of_flips, quantities, scan_of, values_of)
+from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 
 EXAMPLE = """\
 example:
@@ -43,7 +42,7 @@ VERDICTS[0:3], VERDICTS[3:9], VERDICTS[255] = SAFE, UNSAFE, NOT_COMPUTED
 # Safe and unsafe have about the same lightness as in spectra.
 SHADES = {SAFE: REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9"}
 FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", REGIONS[254][2]
-CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
+CODE_OF_UNDECIDED = 254
 ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
 WORDS = {"amplitude": "amplitude", "scale": "scale", "pga": "PGA"}  # for what is scanned
@@ -52,17 +51,15 @@ WORDS = {"amplitude": "amplitude", "scale": "scale", "pga": "PGA"}  # for what i
 class Lines:
     """The flips of one block, a column per frequency, and the range of amplitudes scanned."""
 
-    def __init__(self, file, outer, units):
-        across, up = quantities(file, units)
-        self.frequency = values_of(file, across, outer)
-        self.across, self.up = axis_of(file, across, outer), Axis(scan_of(file, up, outer))
-        self.ground, self.word = ground_word(file), WORDS[up]
-        self.is_column = self.across.only_value is not None
-        self.flips = read_field(file, name_of_flips(up), outer)
-        codes = np.stack([read_field(file, name, outer) for name in ("region_below", "region_above")])
-        # In older files a line without flips has no region, and an undecided line lacks flips.
-        lacks_flips = ((codes[1] == CODE_OF_UNDECIDED) & np.isnan(self.flips)).any(axis=0)
-        codes[:, :, lacks_flips | (codes[0, 0] == CODE_OF_NO_FLIP)] = CODE_OF_UNDECIDED
+    def __init__(self, plane, units):
+        across, up = plane.quantities(units)
+        self.frequency = np.zeros(1) if across is None else plane.values(across, plane.across)
+        self.across = Axis(self.frequency) if across is None else axis_of(plane, across, plane.across)
+        self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
+        self.up = Axis(scan_of(plane, up))
+        self.ground, self.word = ground_word(plane.file), WORDS[up]
+        self.flips = plane.read(name_of_flips(up))
+        codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
         self.below, self.above = VERDICTS[codes]
         self.has_undecided = (codes == CODE_OF_UNDECIDED).any(axis=(0, 1))
         self.overturns_at_once = self.below[0] == UNSAFE
@@ -144,57 +141,58 @@ def draw_panel(panel, lines):
     shade(panel, lines)
     if lines.is_column:  # its width has no meaning
         panel.set_box_aspect(COLUMN)
+    if lines.is_along_nothing:
+        panel.set_xticks([])
     draw_flips(panel, lines)
 
 
-def note_on_strips(file, lines):
-    step = float(file["flip_amplitude"].attrs["finest_step"])
+def note_on_strips(plane, lines):
+    step = float(plane.file["flip_amplitude"].attrs["finest_step"])
     return (f"Scanned in steps of {100 * step:g} % of the {lines.word} or less.", "There are narrower strips, "
             "which are not drawn.")
 
 
-def draw_sheet(file, spectra, columns, units):
+def draw_sheet(planes, columns, units):
     """Draws several boundaries and returns their axes."""
-    all_lines = [Lines(file, outer, units) for outer in spectra]
+    all_lines = [Lines(plane, units) for plane in planes]
     shares = all(np.array_equal(lines.up.edges, all_lines[0].up.edges) for lines in all_lines)
-    sheet = Sheet(panel_titles(file, spectra, units), columns, 120, shares)
+    sheet = Sheet(panel_titles(planes, units), columns, 120, shares)
     for panel, lines in zip(sheet.panels.flat, all_lines):
         draw_panel(panel, lines)
-    sheet.write(plain(heading(file, spectra)), subtitle(file, spectra, units), *name_axes(file, units))
+    sheet.write(plain(heading(planes)), subtitle(planes, units), *name_axes(planes[0], units))
     handles, labels = legend_entries(all_lines)
     labels = ["\n".join(textwrap.wrap(label, 30)) for label in labels]
     sheet.explain(handles=handles, labels=labels, handler_map={tuple: HandlerTuple(None)},
-                  title="\n".join(textwrap.wrap(" ".join(note_on_strips(file, all_lines[0])), 32))
-                  if is_recorded(file)
-                  else None)
-    return list(sheet.panels.flat[:len(spectra)])
+                  title="\n".join(textwrap.wrap(" ".join(note_on_strips(planes[0], all_lines[0])), 32))
+                  if is_recorded(planes[0].file) else None)
+    return list(sheet.panels.flat[:len(planes)])
 
 
-def draw_column(file, outer, lines, units):
+def draw_column(plane, lines, units):
     """Draws a boundary of a single size or frequency."""
     figure = pyplot.figure(figsize=(6, 6.6))
     panel = figure.add_axes((0.13, 0.085, 0.24, 0.755))
     draw_panel(panel, lines)
     panel.set_anchor("NW")
-    across, up = name_axes(file, units)
+    across, up = name_axes(plane, units)
     panel.set(xlabel=across, ylabel=up)
     handles, labels = legend_entries([lines])
-    note = "\n".join(textwrap.wrap(" ".join(note_on_strips(file, lines)), 40)) if is_recorded(file) else None
+    note = "\n".join(textwrap.wrap(" ".join(note_on_strips(plane, lines)), 40)) if is_recorded(plane.file) else None
     figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left", title=note,
                   bbox_to_anchor=(0.38, 0.855), frameon=False, fontsize=9.5, handletextpad=0.5,
                   alignment="left").get_title().set_fontsize(9.5)
-    figure.text(0.13, 0.955, plain(heading(file, [outer]), 48), fontsize=13)
-    figure.text(0.13, 0.918, subtitle(file, [outer], units), fontsize=10)
+    figure.text(0.13, 0.955, plain(heading([plane]), 48), fontsize=13)
+    figure.text(0.13, 0.918, subtitle([plane], units), fontsize=10)
     return panel
 
 
-def draw_figure(file, outer, units):
-    lines = Lines(file, outer, units)
+def draw_figure(plane, units):
+    lines = Lines(plane, units)
     if lines.is_column:
-        return draw_column(file, outer, lines, units)
+        return draw_column(plane, lines, units)
     figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
     draw_panel(panel, lines)
-    across, up = name_axes(file, units)
+    across, up = name_axes(plane, units)
     panel.set(xlabel=across, ylabel=up)
     handles, labels = legend_entries([lines])
     one_row = len(labels) <= (4 if lines.overturns_at_once.any() else 5)
@@ -202,10 +200,10 @@ def draw_figure(file, outer, units):
     figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left",
                   bbox_to_anchor=(0.075, 0.9), ncols=5 if one_row else 4, frameon=False,
                   fontsize=9.5, handletextpad=0.5, columnspacing=1.4)
-    figure.text(0.085, 0.955, plain(heading(file, [outer]), 80), fontsize=13)
-    figure.text(0.085, 0.918, subtitle(file, [outer], units), fontsize=10)
-    if is_recorded(file):
-        figure.text(0.5, 0.013, " ".join(note_on_strips(file, lines)), ha="center", fontsize=10)
+    figure.text(0.085, 0.955, plain(heading([plane]), 80), fontsize=13)
+    figure.text(0.085, 0.918, subtitle([plane], units), fontsize=10)
+    if is_recorded(plane.file):
+        figure.text(0.5, 0.013, " ".join(note_on_strips(plane, lines)), ha="center", fontsize=10)
         figure.subplots_adjust(bottom=0.115)
     return panel
 
@@ -215,28 +213,28 @@ def draw(path, arguments, ax=None):
     with open_result(path, "overturning boundary",
                      "a boundary written by overturn boundary") as file, damage_reported(path):
         expect_size(file, arguments.units)
-        spectra, columns = layout(chosen(file, arguments, 1 if ax is not None else MOST_PANELS))
+        planes, columns = planes_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         if ax is not None:
-            draw_panel(ax, Lines(file, spectra[0], arguments.units))
-            across, up = name_axes(file, arguments.units)
+            draw_panel(ax, Lines(planes[0], arguments.units))
+            across, up = name_axes(planes[0], arguments.units)
             ax.set(xlabel=across, ylabel=up)
             return ax
-        if len(spectra) > 1:
-            return draw_sheet(file, spectra, columns, arguments.units)
-        return draw_figure(file, spectra[0], arguments.units)
+        if len(planes) > 1:
+            return draw_sheet(planes, columns, arguments.units)
+        return draw_figure(planes[0], arguments.units)
 
 
 def boundary(result, *, motion: int | None = None, slenderness: int | None = None,
-             restitution: int | None = None, units: str = "job", ax=None):
+             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
     result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
-    restitution: indices, counted from 0, of one boundary of several. units: "job", or "physical" for s
-    and g. ax: axes of Matplotlib to draw into, without a legend.
+    restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
+    {"height": 0}. units: "job", or "physical" for s and g. ax: axes of Matplotlib to draw into, without a legend.
 
     Returns the axes; a list of them for several boundaries. Raises overturn.PlotError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
-                                units=units)
+                                index=index.items(), units=units)
     return draw(path_of(result), arguments, ax)
 
 

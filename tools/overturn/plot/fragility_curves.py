@@ -140,7 +140,7 @@ def read_arguments(argv):
 def compute(arguments):
     """Returns the title, and the curves of each measure, one for each group of blocks."""
     try:
-        import h5netcdf  # noqa: F401 (for overturn.open)
+        import h5py  # noqa: F401 (for overturn.open)
         import scipy  # noqa: F401 (for overturn.fragility)
         import xarray  # noqa: F401 (for overturn.open)
     except ImportError as error:

@@ -9,13 +9,14 @@ from types import SimpleNamespace
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from overturn.captions import (JOB, PHYSICAL, ground_text, ground_word, is_linear, is_recorded,
-                               slenderness_text)
+from overturn.captions import SIZES, ground_text, ground_word, is_linear, is_recorded, slenderness_text
+from overturn.file_variables import text_of
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import (PlotError, add_picture_argument, damage_reported, events_of,
-                                  name_picture, open_result, path_of, plain, save, title_of)
+from overturn.result_file import (PlotError, add_picture_argument, damage_reported, name_picture, open_result,
+                                  path_of, plain, save, title_of)
+from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
-from overturn.units import add_units_argument, expect_size, uplift_threshold
+from overturn.units import add_units_argument, expect_size
 
 EXAMPLE = """\
 example:
@@ -31,10 +32,9 @@ Grey: duration of the pulse or record. Thin lines, or ticks under a record: impa
 block that does not overturn. The curves connect the samples of the file: with too few samples,
 peaks of a record are missed."""
 
-UPLIFT, IMPACT, REST, END_OF_PULSE, FALL = range(5)  # as numbered in the file
 INK = "#1f3b57"
 LIMIT = "#c8422b"
-MARKS = {UPLIFT: ("^", "uplift"), REST: ("s", "at rest"), FALL: ("X", "fall")}
+MARKS = {"uplift": ("^", "uplift"), "rest": ("s", "at rest"), "fall": ("X", "fall")}
 MOST_IMPACT_LINES = 60
 LIMITS = {"angle": r"$|\theta| = \alpha$: balance on an edge"}  # meaning of the dashed lines
 LIMITS_OF_UPRIGHT = "limits for an upright block that does not overturn"
@@ -57,13 +57,6 @@ AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold}
         ("size", "$R$", " m"), ("frequency_parameter", "$p$", " 1/s"))
 
 
-def frequency_parameter(attributes):
-    """p [1/s] of the block of a history under a record."""
-    if "frequency_parameter" in attributes:
-        return float(attributes["frequency_parameter"])
-    return float(np.sqrt(3 * attributes["gravity"] / (4 * attributes["size"])))
-
-
 class History:
     """The contents of the file between two times. Times are in 1/p and angles in rad. Under a record, times are
     in seconds and angles are divided by alpha; in physical units, they are in seconds and degrees."""
@@ -73,7 +66,7 @@ class History:
         self.panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
         slenderness = float(file.attrs["slenderness"])
-        per_time = frequency_parameter(file.attrs) if self.is_in_seconds else 1
+        per_time = float(file.attrs["frequency_parameter"]) if self.is_in_seconds else 1
         per_angle = slenderness if self.is_recorded else 1
         if units == PHYSICAL:
             self.panels = [(name, PHYSICAL_LABELS[name], share) for name, _, share in self.panels]
@@ -89,8 +82,9 @@ class History:
         factors = {"ground": 1, "angle": 1 / per_angle, "velocity": rate,
                    "acceleration": per_time * rate, "q": rate**2}
         self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
-        events = events_of(file)
-        self.events = [(when, kind, angle)
+        events = file.file["events"]
+        kinds = text_of(events["kind"], "flag_meanings").split()
+        self.events = [(when, kinds[kind], angle)
                        for when, kind, angle in zip(events["time"][:] / per_time, events["kind"][:],
                                                     events["angle_after"][:] / per_angle)
                        if start <= when <= self.time[-1]]
@@ -99,7 +93,7 @@ class History:
         self.end_of_ground_motion = float(file.attrs["end_of_pulse"]) / per_time
 
     def impacts(self):
-        return [when for when, kind, _ in self.events if kind == IMPACT]
+        return [when for when, kind, _ in self.events if kind == "impact"]
 
     def limits(self, name):
         """Returns the values of the dashed lines."""
@@ -169,20 +163,13 @@ def mark_events(axes, history):
 
 
 def point_of(file, units):
-    """Returns the values on the axes of the job, by name; equivalents are omitted."""
-    point = {name: file.attrs[name] for name, _, _ in AXES if name in file.attrs}
-    has_time = "pulse_period" in point or "pulse_frequency" in point
-    if units == PHYSICAL and not is_recorded(file):
-        if not has_time:
-            point["pulse_period"] = 2 * np.pi / (point["frequency"] * point["frequency_parameter"])
-            has_time = True
-        threshold = uplift_threshold(file, file.attrs["slenderness"])
-        point.setdefault("pga", point["amplitude"] * threshold)
-    if has_time:
-        point.pop("frequency", None)
-    if "pga" in point:
-        point.pop("amplitude", None)
-    return point
+    """Returns the names of the quantities of the point: of each kind the first, which is the one that the job gives."""
+    kinds = (STRENGTHS, SIZES) if is_recorded(file) else (RATES, STRENGTHS)
+    given = [next(name for name in file.attrs if name in kind) for kind in kinds]
+    if is_recorded(file):
+        return given
+    return [*(EQUIVALENTS.get(name, name) if units == PHYSICAL else name for name in given),
+            *["frequency_parameter"] * ("frequency_parameter" in file.attrs)]
 
 
 def describe(file, units=JOB):
@@ -192,9 +179,9 @@ def describe(file, units=JOB):
     outcome = (f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})"
                if region in REGIONS and region != UNDECIDED else "undecided")
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
-    values = point_of(file, units)
-    point = [f"{symbol.replace('{threshold}', threshold)} = {values[name]:.4g}{unit}, "
-             for name, symbol, unit in AXES if name in values]
+    shown = point_of(file, units)
+    point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
+             for name, symbol, unit in AXES if name in shown]
     alpha = (slenderness_text(attributes["slenderness"], units) if units == PHYSICAL
              else rf"$\alpha$ = {attributes['slenderness']:.4g} rad")
     record = [plain(ground_text(file), 40) + ", "] * is_recorded(file)

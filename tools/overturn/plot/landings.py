@@ -7,15 +7,14 @@ import pathlib
 import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_linear, is_recorded, subtitle
-from overturn.choice import add_choice_arguments, chosen_one
-from overturn.fields import dimensions_of, read_field, slenderness_and_restitution
+from overturn.choice import add_choice_arguments, planes_of
 from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_libration,
                                   name_phase_axes)
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
-from overturn.result_file import (add_picture_argument, damage_reported, name_picture, place_of,
+from overturn.result_file import (USAGE, PlotError, add_picture_argument, damage_reported, name_picture,
                                   plain, save)
-from overturn.spectrum_file import open_spectrum, read_cells, rows_of_tiles
+from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
 from overturn.units import axes_of_plane, name_axes
 
@@ -38,7 +37,6 @@ PLANE_PIXELS = 1000
 LANDING_PIXELS = 360  # per side: more would leave gaps between a million points
 NEAR = 2  # half width of the near view, in slendernesses and largest velocities
 LEAST_SHARE = 0.004  # of the plane: smaller pieces of a region get no name
-SHOWN = ("plane", "state", "state")  # by the three panels
 
 
 class Landing:
@@ -76,18 +74,22 @@ class Landing:
 class Spectrum:
     """One spectrum of the file: its plane, its block, and its points at the end."""
 
-    def __init__(self, file, outer):
-        self.file, self.outer = file, outer
-        self.across, self.up = axes_of_plane(file, outer)
-        self.block = FreeBlock(*slenderness_and_restitution(file, outer), is_linear(file))
+    def __init__(self, plane):
+        self.plane = plane
+        self.across, self.up = axes_of_plane(plane)
+        block = [plane.value(name) for name in ("slenderness", "restitution")]
+        if None in block:
+            raise PlotError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
+                            "are those of one block. Choose it with --index.", USAGE)
+        self.block = FreeBlock(*block, is_linear(plane.file))
 
     def blocks(self):
         """Yields angle, velocity, red and blue of points not overturned, some rows at a time."""
-        up, across = dimensions_of(self.file)[-2:]
-        red, blue = self.across.share(self.file[across][:]), self.up.share(self.file[up][:])
-        for rows in rows_of_tiles(self.file["region"]):
-            region, angle, rate = (read_field(self.file, name, self.outer, rows)
-                                   for name in ("region", "angle", "velocity"))
+        plane = self.plane
+        red = self.across.share(plane.values(plane.across, plane.across))
+        blue = self.up.share(plane.values(plane.up, plane.up))
+        for rows in plane.tiles("region"):
+            region, angle, rate = (plane.read(name, rows) for name in ("region", "angle", "velocity"))
             standing = region <= LEFT_STANDING
             colours = np.broadcast_to(red, region.shape), np.broadcast_to(blue[rows, None],
                                                                           region.shape)
@@ -96,7 +98,7 @@ class Spectrum:
     def sample(self, pixels, *fields):
         """Returns the fields at evenly spaced pixels of the plane."""
         rows, columns = self.up.cells(pixels), self.across.cells(pixels)
-        return [read_cells(self.file, name, self.outer, rows, columns) for name in fields]
+        return [self.plane.read_cells(name, rows, columns) for name in fields]
 
 
 def land(spectrum):
@@ -133,8 +135,8 @@ def draw_plane(panel, spectrum):
     set_axes(panel, spectrum.across, spectrum.up)
     panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
                  aspect="auto", interpolation="nearest")
-    across, up = name_axes(spectrum.file)
-    title = "The record and the block" if is_recorded(spectrum.file) else "The pulse"
+    across, up = name_axes(spectrum.plane)
+    title = "The record and the block" if is_recorded(spectrum.plane.file) else "The pulse"
     panel.set(xlabel=across, ylabel=up, title=title)
 
 
@@ -184,20 +186,20 @@ def covered(pixels):
     return mask
 
 
-def draw(file, outer, title, labels):
-    spectrum = Spectrum(file, outer)
+def draw(plane, title, labels):
+    spectrum = Spectrum(plane)
     figure, panels = pyplot.subplots(1, 3, figsize=(17, 6.2))
     figure.subplots_adjust(left=0.045, right=0.99, bottom=0.1, top=0.82, wspace=0.19)
     views = land(spectrum)
     draw_plane(panels[0], spectrum)
     for panel, view, name in zip(panels[1:], views, ("near upright", "full range")):
-        title_of_view = f"State at the end of the {ground_word(file)}, {name}"
+        title_of_view = f"State at the end of the {ground_word(plane.file)}, {name}"
         draw_landing(panel, spectrum, view, title_of_view)
     write_names(panels, views, spectrum, labels)
-    title = heading(file, [outer]) if title is None else title
+    title = heading([plane]) if title is None else title
     figure.text(0.045, 0.945, plain(title), fontsize=14)
-    figure.text(0.045, 0.9, subtitle(file, [outer]), fontsize=11)
-    return figure, [place_of(panel, shows) for panel, shows in zip(panels, SHOWN)]
+    figure.text(0.045, 0.9, subtitle([plane]), fontsize=11)
+    return figure
 
 
 def read_arguments(argv):
@@ -218,6 +220,6 @@ def main(argv=None):
     arguments = read_arguments(argv)
     with open_spectrum(arguments.file, ("region", "angle", "velocity")) as file, \
             damage_reported(arguments.file):
-        outer = chosen_one(file, arguments)
-        figure, places = draw(file, outer, arguments.title, arguments.label)
-    save(figure, arguments.output, places, dpi=150)
+        (plane,), _ = planes_of(file, arguments)
+        figure = draw(plane, arguments.title, arguments.label)
+    save(figure, arguments.output, dpi=150)

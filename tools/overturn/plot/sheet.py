@@ -1,8 +1,5 @@
 """Sheets of several planes."""
 
-import itertools
-import math
-
 from matplotlib import pyplot
 
 MOST_PANELS = 12
@@ -50,13 +47,3 @@ class Sheet:
             loc="upper left", bbox_to_anchor=corner, borderaxespad=0, frameon=False, fontsize=10.5,
             handlelength=1.6, handleheight=1.2, labelspacing=0.7, alignment="left", **entries)
         legend.get_title().set_fontsize(10.5)
-
-
-def layout(choices):
-    """Returns the indices of the spectra in the order of the panels, and the number of columns: the
-    last dimension of several values if there are two or more, otherwise nearly a square."""
-    spectra = list(itertools.product(*choices))
-    several = [len(places) for places in choices if len(places) > 1]
-    if len(several) > 1 and several[-1] <= 4:
-        return spectra, several[-1]
-    return spectra, math.ceil(math.sqrt(len(spectra)))

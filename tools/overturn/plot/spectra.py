@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.lines import Line2D
 from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, subtitle
-from overturn.choice import add_choice_arguments, chosen
+from overturn.choice import add_choice_arguments, planes_of
 from overturn.overlay import draw_boundary, open_boundary
-from overturn.plot.sheet import MOST_PANELS, Sheet, layout
+from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
 from overturn.result_file import (add_picture_argument, damage_reported, name_picture, path_of,
-                                  place_of, plain, save)
-from overturn.spectrum_file import open_spectrum, read_cells
+                                  plain, save)
+from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
-from overturn.units import (add_units_argument, axes_of_plane, expect_size, name_axes,
-                            quantities)
+from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
 EXAMPLE = """\
 example:
   overturn run jobs/figure_07a.toml              # writes figure_07a.h5
   tools/plot_spectrum figure_07a.h5              # draws figure_07a.png
 
-A file of several spectra (records, slendernesses, restitutions) is plotted as a grid of up to 12
-maps:
+A file of several spectra (such as records, slendernesses, restitutions) is plotted as a grid of up
+to 12 maps:
   tools/plot_spectrum four_axes.h5 -o nine.pdf
   tools/plot_spectrum four_axes.h5 --slenderness 0 --restitution 2   # the first and the third
   tools/plot_spectrum suite.h5 --motion 0        # the first record of a suite
+
+The axes are the last two dimensions of several values; an index of one of these takes it out:
+  tools/plot_spectrum heights.h5 --index pulse_period=0   # height and PGA, of height, PGA and period
 
 A label is placed where its region is widest:
   tools/plot_spectrum figure_07a.h5 --label III=S+@10,12 --label V=S+@7,12
@@ -66,50 +69,47 @@ def write_labels(panel, codes, labels, across, up):
             write_label(panel, piece, label.text, size=13)
 
 
-def draw_panels(file, panels, pixels, spectra, axes, arguments):
+def draw_panels(panels, pixels, planes, axes, arguments):
     """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
-    boundary = (open_boundary(arguments.boundary, file, arguments.units) if arguments.boundary
-                else None)
+    boundary = open_boundary(arguments.boundary, planes[0], arguments.units) if arguments.boundary else None
     present = set()
-    for panel, outer, (across, up) in zip(panels, spectra, axes):
+    for panel, plane, (across, up) in zip(panels, planes, axes):
         rows, columns = up.cells(pixels), across.cells(pixels)
-        codes = read_cells(file, "region", outer, rows, columns)
+        codes = plane.read_cells("region", rows, columns)
         present.update(np.unique(codes))
         draw_panel(panel, codes, across, up)
         if arguments.practice:
-            cover(panel, practice.picture(codes, read_cells(file, "peak", outer, rows, columns)))
+            cover(panel, practice.picture(codes, plane.read_cells("peak", rows, columns)))
         if boundary is not None:
-            draw_boundary(panel, boundary, outer, quantities(file, arguments.units))
+            draw_boundary(panel, boundary, plane, arguments.units)
         write_labels(panel, codes, arguments.label, across, up)
     return present
 
 
-def draw_sheet(file, spectra, columns, misjudged, arguments, dpi):
-    units = arguments.units
-    titles = panel_titles(file, spectra, units)
-    axes = [axes_of_plane(file, outer, units) for outer in spectra]
+def draw_sheet(planes, columns, misjudged, arguments, dpi):
+    units, ground = arguments.units, ground_word(planes[0].file)
+    axes = [axes_of_plane(plane, units) for plane in planes]
     shares = all(np.array_equal(up.edges, axes[0][1].edges) for _, up in axes)
-    sheet = Sheet(titles, columns, dpi, shares)
-    present = draw_panels(file, sheet.panels.flat, sheet.pixels, spectra, axes, arguments)
-    title = heading(file, spectra) if arguments.title is None else arguments.title
-    sheet.write(plain(title), subtitle(file, spectra, units), *name_axes(file, units))
-    entries = legend_entries(present, ground_word(file))
+    sheet = Sheet(panel_titles(planes, units), columns, dpi, shares)
+    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments)
+    title = heading(planes) if arguments.title is None else arguments.title
+    sheet.write(plain(title), subtitle(planes, units), *name_axes(planes[0], units))
+    entries = legend_entries(present, ground)
     if misjudged:
         entries.append(misjudged.legend_entry())
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
                               label="flip of the verdict"))
-    sheet.explain(handles=entries, title=f"At the end of the {ground_word(file)}\n"
-                                         "(+ and − are the side it moves to)")
+    sheet.explain(handles=entries, title=f"At the end of the {ground}\n(+ and − are the side it moves to)")
     return sheet
 
 
-def draw_into(file, ax, outer, arguments):
+def draw_into(ax, plane, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
-    draw_panels(file, [ax], pixels, [outer], [axes_of_plane(file, outer, arguments.units)], arguments)
-    across, up = name_axes(file, arguments.units)
+    draw_panels([ax], pixels, [plane], [axes_of_plane(plane, arguments.units)], arguments)
+    across, up = name_axes(plane, arguments.units)
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
 
 
@@ -119,28 +119,28 @@ def draw(path, arguments, dpi, ax=None):
     fields = ("region", "peak") if arguments.practice else ("region",)
     with open_spectrum(path, fields) as file, damage_reported(path):
         expect_size(file, arguments.units)
-        spectra, columns = layout(chosen(file, arguments, 1 if ax is not None else MOST_PANELS))
-        misjudged = practice.Misjudged(file, spectra) if arguments.practice else None
+        planes, columns = planes_of(file, arguments, 1 if ax is not None else MOST_PANELS)
+        misjudged = practice.Misjudged(planes) if arguments.practice else None
         if ax is not None:
-            return draw_into(file, ax, spectra[0], arguments)
-        sheet = draw_sheet(file, spectra, columns, misjudged, arguments, dpi)
-        return sheet, len(spectra), misjudged
+            return draw_into(ax, planes[0], arguments)
+        sheet = draw_sheet(planes, columns, misjudged, arguments, dpi)
+        return sheet, len(planes), misjudged
 
 
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
-             restitution: int | None = None, units: str = "job", boundary=None, practice: bool = False,
-             labels: tuple[str, ...] = (), title: str | None = None, ax=None):
+             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", boundary=None,
+             practice: bool = False, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
     result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
-    restitution: indices, counted from 0, of one spectrum of several. units: "job", or "physical" for s
-    and g. boundary: the path of a boundary to draw on it. practice: mark what published practice
-    misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes of Matplotlib for one
-    spectrum without a legend.
+    restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
+    {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
+    practice: mark what published practice misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes
+    of Matplotlib for one spectrum without a legend.
 
     Returns the axes; a list of them for several spectra. Raises overturn.PlotError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
-                                units=units, boundary=boundary, practice=practice,
+                                index=index.items(), units=units, boundary=boundary, practice=practice,
                                 label=[Label(words) for words in labels], title=title)
     drawn = draw(path_of(result), arguments, 150, ax)
     if ax is not None:
@@ -172,7 +172,7 @@ def read_arguments(argv):
 def main(argv=None):
     arguments = read_arguments(argv)
     dpi = 150 if arguments.output.endswith(".png") else 300
-    sheet, count, misjudged = draw(arguments.file, arguments, dpi)
-    save(sheet.figure, arguments.output, [place_of(panel, "plane") for panel in sheet.panels.flat[:count]])
+    sheet, _, misjudged = draw(arguments.file, arguments, dpi)
+    save(sheet.figure, arguments.output)
     if misjudged:
         print(misjudged.report())

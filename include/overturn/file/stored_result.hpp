@@ -1,0 +1,105 @@
+// A result file opened for reading: what it contains, and what is damaged.
+#pragma once
+
+#include "overturn/problem/problem.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+struct Job;
+
+struct AxisSummary {
+    std::string name;
+    std::int64_t size = 0;
+    double first = 0; ///< in `units`
+    double last = 0;  ///< in `units`
+    std::string units;
+};
+
+/// The first two correspond to Product.
+enum class FileKind { spectrum, boundary, history, accuracy };
+
+/// The metadata that every kind of result file contains.
+struct FileOrigin {
+    FileKind kind = FileKind::spectrum;
+    std::int64_t format = 0; ///< version of the layout
+    std::string title;
+    std::string program_version;
+    std::string program_commit;
+    std::string resolved_job;
+    std::uint64_t bytes = 0; ///< of the file
+
+    bool has_tiles() const { return kind == FileKind::spectrum || kind == FileKind::boundary; }
+};
+
+/// The content of a spectrum or a boundary.
+struct TilesSummary {
+    std::vector<AxisSummary> axes;    ///< slowest first: the dimensions of every field
+    std::vector<AxisSummary> numbers; ///< coordinates that are equal at all points
+    std::vector<Field> fields;        ///< in the job's order
+    Shape tile_shape;                 ///< of a tile [points]
+    std::int64_t tiles = 0;
+    std::int64_t tiles_done = 0;
+    std::optional<AuditCount> audit; ///< of all tiles, if the spectrum is filled
+};
+
+/// The number of computed lines of a boundary, and of those that need a remark.
+struct BoundaryLines {
+    std::int64_t computed = 0;
+    std::int64_t unsafe_at_first = 0; ///< overturn at the first strength of the job
+    std::int64_t undecided = 0;       ///< at some strength, or beyond the last stored flip
+    bool has_shares = false;          ///< under a record
+    double unsafe_share = 0;          ///< mean of the computed lines [1]
+    double undecided_share = 0;       ///< mean of the computed lines [1]
+};
+
+/// Structure and metadata are checked when the file is opened; the values of its tiles are not.
+class StoredResult {
+public:
+    /// Throws Error if the file is missing, not a result file of overturn, or damaged.
+    explicit StoredResult(const std::string& path);
+    ~StoredResult();
+    StoredResult(StoredResult&&) noexcept;
+    StoredResult& operator=(StoredResult&&) noexcept;
+
+    const std::string& path() const;
+    const FileOrigin& origin() const;
+
+    /// The rest is for spectra and boundaries.
+    const TilesSummary& tiles() const;
+
+    /// False for files of format 3.
+    bool has_coordinate_checksums() const;
+
+    /// Names of the coordinates whose values do not match their checksums, if there are any.
+    std::vector<std::string> damaged_coordinates() const;
+
+    /// Numbers of the computed tiles whose values do not match their checksum, ascending. Reads all
+    /// data, and calls `between_tiles`, which may throw to stop it.
+    std::vector<std::int64_t> damaged_tiles(const std::function<void()>& between_tiles = [] {
+    }) const;
+
+    /// Of a boundary.
+    BoundaryLines count_lines() const;
+
+    /// Throws Error unless the file is the result of this job, by this version of the program.
+    void expect_result_of(const Job& job) const;
+
+private:
+    struct Open;
+    void read_tiles();
+    template <class Use>
+    void for_each_computed_tile(const std::vector<Field>& fields,
+                                const std::function<void()>& between_tiles, const Use& use) const;
+
+    std::unique_ptr<Open> open_;
+};
+
+} // namespace overturn

@@ -1,0 +1,55 @@
+// Ascending values of one quantity.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace overturn {
+
+enum class Spacing { linear, log };
+
+/// Names in job files, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 2> spacing_names{"linear", "log"};
+
+constexpr std::string_view name_of(Spacing spacing)
+{
+    return spacing_names[std::size_t(spacing)];
+}
+
+/// first + (last - first) i / (count - 1), or the same for the logarithms; the last value is exact.
+struct AxisRange {
+    double first = 0;
+    double last = 0;
+    std::int64_t count = 1;
+    Spacing spacing = Spacing::linear;
+};
+
+using AxisList = std::vector<double>;
+
+/// Values given as a range or as a list. They ascend strictly, except for a column of a table.
+class Axis {
+public:
+    Axis() : Axis(AxisList{0}) {}
+    explicit Axis(AxisRange range) : definition_(range) {}
+    explicit Axis(AxisList values) : definition_(std::move(values)) {}
+
+    std::int64_t size() const;
+    double operator[](std::int64_t i) const;
+    double first() const { return (*this)[0]; }
+    double last() const { return (*this)[size() - 1]; }
+
+    /// The values of [begin, end).
+    std::vector<double> values(std::int64_t begin, std::int64_t end) const;
+    std::vector<double> values() const { return values(0, size()); }
+
+    const std::variant<AxisRange, AxisList>& definition() const { return definition_; }
+    bool is_range() const { return std::holds_alternative<AxisRange>(definition_); }
+
+private:
+    std::variant<AxisRange, AxisList> definition_;
+};
+
+} // namespace overturn

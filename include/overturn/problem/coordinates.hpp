@@ -1,0 +1,91 @@
+// The coordinates of points, given or derived: the only place where p follows from R, r from r_max,
+// alpha from b and h, and the amplitude from the peak ground acceleration.
+#pragma once
+
+#include "overturn/problem/grid.hpp"
+#include "overturn/problem/point.hpp"
+#include "overturn/problem/scene.hpp"
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
+double frequency_parameter(double half_diagonal, double gravity);
+
+/// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
+double uplift_threshold(Theory theory, double slenderness);
+
+/// The largest peak ground acceleration over g at which the motion does not lift a block of this
+/// slenderness [rad] at rest; infinite if none does. motion: the number of the record, from 0.
+double lifting_pga(const Scene& scene, std::int64_t motion, double slenderness);
+
+/// The names of the coordinates that may follow from others, beside those that a job gives.
+std::span<const std::string_view> derived_coordinates(bool is_recorded);
+
+/// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
+struct CoordinateValues {
+    std::vector<std::size_t> dimensions; ///< along which it varies, slowest first
+    std::vector<double> values;          ///< row by row
+
+    double first() const { return values.front(); }
+};
+
+/// The coordinates of a box of points.
+class Coordinates {
+public:
+    /// Of all points, or of those in a tile. Both arguments must outlive this object.
+    Coordinates(const Scene& scene, const Grid& grid);
+    Coordinates(const Scene& scene, const Grid& grid, const Tile& tile);
+
+    /// Whether the grid contains a coordinate, or it follows from those that it contains.
+    bool has(std::string_view name) const;
+
+    /// The dimensions along which a coordinate varies, slowest first; has(name) must be true.
+    std::vector<std::size_t> dimensions_of(std::string_view name) const;
+
+    /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
+    ///   record_pga        the peak of the record over g, not scaled [1]
+    ///   samples_per_unit  samples of the record per time unit 1/p [1]
+    const CoordinateValues& of(std::string_view name) const;
+
+    /// All points of the box, row by row.
+    std::vector<Point> points() const;
+
+    /// The number of the record of every point, from 0; empty if all have the first one.
+    std::vector<std::int64_t> motions() const;
+
+    /// The values of a coordinate along these dimensions, which contain its own, row by row.
+    std::vector<double> along(const std::vector<std::size_t>& dimensions,
+                              std::string_view name) const;
+
+private:
+    CoordinateValues given(const Column& column, std::string_view name) const;
+    std::vector<double> spread(const CoordinateValues& coordinate,
+                               const std::vector<std::size_t>& dimensions) const;
+    template <class Function>
+    CoordinateValues combined(std::span<const CoordinateValues* const> from,
+                              std::vector<std::size_t> dimensions, const Function& of) const;
+
+    const Scene& scene_;
+    const Grid& grid_;
+    Shape begin_, count_;
+    mutable std::map<std::string, CoordinateValues, std::less<>> known_;
+};
+
+/// The smallest and the largest value of a coordinate over all points.
+struct Extent {
+    double first;
+    double last;
+
+    /// "2 m", or "1 to 2 m" if both differ. unit: begins with a blank unless it is empty.
+    std::string text(std::string_view unit) const;
+};
+Extent extent_of(const CoordinateValues& coordinate);
+
+} // namespace overturn

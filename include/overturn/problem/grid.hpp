@@ -1,0 +1,62 @@
+// The points of a problem: single values of some quantities, and the product of dimensions, along
+// each of which the values of one or more quantities vary together.
+#pragma once
+
+#include "overturn/problem/axis.hpp"
+#include "overturn/problem/quantity.hpp"
+#include "overturn/problem/tile.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+/// The values of one quantity along a dimension, or a single value.
+struct Column {
+    const Quantity* quantity;
+    Axis values;
+};
+
+/// An axis is a dimension of one column, of the same name; the rows of a table are a dimension of
+/// several columns.
+struct Dimension {
+    std::string name;
+    std::vector<Column> columns; ///< at least one, of equal length
+
+    std::int64_t size() const { return columns.front().values.size(); }
+};
+
+/// The name of the dimension along the rows of a table.
+inline constexpr std::string_view table_dimension = "block";
+
+struct Grid {
+    std::vector<Column> numbers;       ///< of one value each
+    std::vector<Dimension> dimensions; ///< slowest first
+
+    Shape shape() const;
+    std::int64_t points() const { return count_points(shape()); }
+
+    /// The values of a quantity; nullptr if the grid does not contain it.
+    const Column* find(std::string_view name) const;
+
+    /// The place of the dimension along which a quantity of this name or role varies; nullopt if
+    /// there is none.
+    std::optional<std::size_t> dimension_of(std::string_view name) const;
+    std::optional<std::size_t> dimension_of(Role role) const;
+
+    /// The first quantity of this role, other than a column of a table; nullptr if there is none.
+    const Column* axis_or_number(Role role) const;
+
+    /// The rows of a table; nullptr if there are none.
+    const Dimension* table() const;
+};
+
+/// The place of an axis among the dimensions; smaller is slower. Under records, the size of the
+/// block is the fastest.
+int order_of(std::string_view dimension, bool is_recorded);
+
+} // namespace overturn

@@ -1,0 +1,14 @@
+// A point as the kernels take it.
+#pragma once
+
+namespace overturn {
+
+/// The coordinates of a point, assumed to be exact.
+struct Point {
+    double slenderness; ///< [rad]
+    double restitution; ///< r [1]
+    double amplitude;   ///< a, or the factor on a record [1]
+    double frequency;   ///< Omega, or the samples of a record per time unit 1/p [1]
+};
+
+} // namespace overturn

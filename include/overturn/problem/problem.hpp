@@ -1,0 +1,67 @@
+// What is asked: the scene, the points, the numerics and what is to be stored.
+#pragma once
+
+#include "overturn/problem/fields.hpp"
+#include "overturn/problem/grid.hpp"
+#include "overturn/problem/scene.hpp"
+#include "overturn/problem/tile.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+/// What is computed over the points.
+enum class Product {
+    spectrum, ///< the fields of every point
+    boundary  ///< the strengths at which the verdict flips, for all other coordinates
+};
+
+struct Problem {
+    Scene scene{};
+    Grid grid{}; ///< of a boundary: its strengths are computed first
+    Numerics numerics{};
+    Product product = Product::spectrum;
+    std::vector<Field> fields{}; ///< in the job's order, without duplicates; of a filled spectrum,
+                                 ///< `evaluated` is the last one
+};
+
+/// The name of the dimension along the flips of a boundary, which replaces the strength.
+inline constexpr std::string_view crossing_dimension = "crossing";
+
+/// Maximum number of flips that are stored for a line of a boundary.
+inline std::int64_t most_crossings(const Scene& scene)
+{
+    return scene.is_recorded() ? 256 : 64;
+}
+
+/// A dimension of the stored fields.
+struct StoredDimension {
+    std::string name;
+    std::int64_t size;
+};
+
+/// Slowest first: those of the grid; of a boundary, `crossing` instead of the strength.
+std::vector<StoredDimension> stored_dimensions(const Problem& problem);
+Shape stored_shape(const Problem& problem);
+
+/// The fields of a boundary: flip_amplitude, region_below, region_above; flip_pga under a record,
+/// and if the size of the block is known or the strength is a pga; the fields of a line under a
+/// record.
+std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid);
+
+/// The division into tiles.
+Tiling tiling_of(const Problem& problem);
+
+/// What a run counts: points of a spectrum, or lines of a boundary.
+struct Items {
+    std::int64_t count;
+    const char* name; ///< plural
+};
+Items items_of(const Problem& problem);
+
+/// Why a spectrum cannot be filled, as a clause; empty if it can.
+std::string reason_not_to_fill(const Problem& problem);
+
+} // namespace overturn

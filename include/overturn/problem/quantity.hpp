@@ -1,0 +1,51 @@
+// The quantities that describe a block, its ground motion and the integration: names, units and
+// allowed values.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string_view>
+
+namespace overturn {
+
+/// What a quantity describes.
+enum class Role {
+    motion,   ///< which record
+    block,    ///< shape and size of the block
+    loss,     ///< of energy at an impact
+    strength, ///< of the motion
+    rate,     ///< of a pulse
+    setting   ///< of the pulse or of the computation; the same at all points
+};
+
+/// A quantity as it is named in job files, tables and result files.
+struct Quantity {
+    std::string_view name;
+    std::string_view units; ///< as in result files; "1" if dimensionless
+    Role role;
+    std::string_view long_name; ///< at most 40 characters: plots take it as the label of an axis
+    std::string_view interval;  ///< of the allowed values
+    bool (*is_inside)(double);  ///< for all values except NaN
+    std::string_view reason;    ///< for the interval
+
+    bool allows(double value) const { return !std::isnan(value) && is_inside(value); }
+    bool is_coordinate() const { return role != Role::setting; }
+};
+
+/// All quantities. Axes have the order of their quantities, slowest first.
+std::span<const Quantity> all_quantities();
+
+/// The quantity of this name, or nullptr.
+const Quantity* find_quantity(std::string_view name);
+
+/// The same for a name that is known to exist.
+const Quantity& quantity(std::string_view name);
+
+/// Whether the two are equal, or one follows from the other.
+bool are_equivalent(std::string_view one, std::string_view other);
+
+/// Whether a point is described by at most one of these two quantities: they are
+/// equivalent, or describe a block in different ways.
+bool exclude_each_other(std::string_view one, std::string_view other);
+
+} // namespace overturn

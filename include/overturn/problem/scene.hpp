@@ -1,0 +1,112 @@
+// The simulated scene (ground motion and theory of the block) and the numerics of its integration.
+#pragma once
+
+#include "overturn/mechanics/accelerogram.hpp"
+#include "overturn/mechanics/pulse_kind.hpp"
+#include "overturn/mechanics/theory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+enum class Method { rk45, taylor };
+
+/// Names in job files and result files, in the order of the enumerators.
+inline constexpr auto pulse_names = [] {
+    std::array<std::string_view, pulses.size()> names;
+    std::transform(pulses.begin(), pulses.end(), names.begin(),
+                   [](const PulseTraits& pulse) { return pulse.name; });
+    return names;
+}();
+inline constexpr std::array<std::string_view, 2> theory_names{"nonlinear", "linear"};
+inline constexpr std::array<std::string_view, 2> method_names{"rk45", "taylor"};
+
+constexpr std::string_view name_of(PulseKind pulse)
+{
+    return traits_of(pulse).name;
+}
+constexpr std::string_view name_of(Theory theory)
+{
+    return theory_names[std::size_t(theory)];
+}
+constexpr std::string_view name_of(Method method)
+{
+    return method_names[std::size_t(method)];
+}
+
+struct Scene {
+    PulseKind pulse = PulseKind::one_sine;
+    Theory theory = Theory::nonlinear;
+    PulseShape shape{};
+
+    /// Recorded ground motions, which replace the pulse; either all or none have a vertical motion.
+    std::vector<std::shared_ptr<const Accelerogram>> records{};
+    double gravity = 9.81; ///< g [m/s2]
+
+    bool is_recorded() const { return !records.empty(); }
+};
+
+/// The reason why this value of a number of its shape is refused for a pulse, as a text that
+/// follows the name of the number: it has no meaning for the pulse, is missing, or is not allowed.
+/// Empty if the value is allowed.
+std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value);
+
+struct Numerics {
+    Method method = Method::rk45;
+    double tolerance =
+        1e-9;             ///< local error per step, over the size of the motion, at most alpha [1]
+    bool resolve = false; ///< settle verdicts in doubt with more digits
+    /// The largest number of points of a tile under a record that are computed in 50 digits. Such a
+    /// point takes 0.4 s to 1.3 s under a record of 8192 samples. Of 256 points under the GeoNet
+    /// record WTMC, at most 5 need them if r = r_max, and 26 if r = 1.
+    int most_in_50_digits = 32;
+    bool fill = false;   ///< integrate only points near the boundaries of regions, see fill.hpp
+    double audit = 1e-3; ///< share of the filled points that are integrated as well
+};
+
+/// For answers about single points and for references.
+inline constexpr Numerics most_accurate{
+    .method = Method::taylor, .tolerance = 1e-13, .resolve = true};
+
+/// The default tolerance if verdicts are resolved: about one in a thousand needs more digits; at
+/// looser tolerances errors are not known well.
+inline constexpr double tolerance_to_resolve_from = 1e-4;
+
+/// The error estimate of longer Runge-Kutta steps is not reliable.
+inline constexpr double largest_rk45_tolerance_with_error = 1e-4;
+
+/// Whether the error of a point is bounded reliably.
+constexpr bool knows_errors(const Numerics& numerics)
+{
+    return numerics.method == Method::taylor ||
+           numerics.tolerance <= largest_rk45_tolerance_with_error;
+}
+
+/// The methods for which kernels are compiled, with the order of a Taylor series. Recorded ground
+/// motions use order 14, whose steps are as long as the interval between two samples: a lower order
+/// is hardly faster.
+enum class Integrator { runge_kutta, taylor_14, taylor_20, recorded };
+
+/// Order 14 takes less time than 20 for errors above 1e-8 under the one-sine pulse, and above 1e-10
+/// to 1e-12 under the others. For an error of 1e-9 under the one-sine pulse, order 20 needs a
+/// tolerance of 2e-7. Orders 12 and 18 save up to 5 %, but every third term is large after an
+/// uplift by a linear pulse: if the last one is not of order 3 n - 1, the error may exceed its
+/// bound.
+inline constexpr double loosest_tolerance_of_order_20 = 2e-7;
+
+inline Integrator integrator_of(const Scene& scene, const Numerics& numerics)
+{
+    return scene.is_recorded()                                  ? Integrator::recorded
+           : numerics.method == Method::rk45                    ? Integrator::runge_kutta
+           : numerics.tolerance > loosest_tolerance_of_order_20 ? Integrator::taylor_14
+                                                                : Integrator::taylor_20;
+}
+
+} // namespace overturn

@@ -1,0 +1,111 @@
+#include "guarded_reading.hpp"
+
+#include "overturn/text/quoting.hpp"
+
+#include "overturn/farm/mpi_session.hpp"
+#include "overturn/text/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace overturn {
+
+namespace {
+
+constexpr std::array ends{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPROF};
+
+/// What the handler needs, prepared because it may neither allocate nor format.
+struct LastWords {
+    std::array<std::string, ends.size()> messages; ///< in the order of `ends`
+    std::string lock;
+};
+LastWords last_words;
+
+extern "C" void end_process(int signal)
+{
+    const auto* const found = std::find(ends.begin(), ends.end(), signal);
+    const std::string& message = last_words.messages[std::size_t(found - ends.begin())];
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
+    unlink(last_words.lock.c_str());
+    end_all_ranks(exit_code::output);
+}
+
+/// The private memory of the process, as RLIMIT_DATA counts it [bytes].
+rlim_t data_in_use()
+{
+    std::ifstream pages("/proc/self/statm"); // size, resident, shared, text, 0, data and stack
+    rlim_t count = 0;
+    for (int column = 0; column < 6; ++column) {
+        pages >> count;
+    }
+    return count * rlim_t(sysconf(_SC_PAGESIZE));
+}
+
+void limit_processor_time(rlim_t seconds)
+{
+    const itimerval time{.it_interval = {}, .it_value = {.tv_sec = time_t(seconds), .tv_usec = 0}};
+    setitimer(ITIMER_PROF, &time, nullptr);
+}
+
+} // namespace
+
+struct GuardedReading::Replaced {
+    std::array<struct sigaction, ends.size()> actions{};
+    stack_t stack{};
+    rlimit data{};
+    std::array<char, std::size_t(1) << 18> new_stack{}; ///< of the handler, for stack overflows
+};
+
+GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
+    : replaced_(std::make_unique<Replaced>())
+{
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        last_words.messages[i] = fmt::format(
+            "overturn: \"{}\" is damaged: the HDF5 library {}.\n", printable(path),
+            ends[i] == SIGPROF ? "does not finish reading it in time"
+                               : fmt::format("crashes while reading it ({})", strsignal(ends[i])));
+    }
+    last_words.lock = lock;
+    const stack_t stack{.ss_sp = replaced_->new_stack.data(),
+                        .ss_flags = 0,
+                        .ss_size = replaced_->new_stack.size()};
+    sigaltstack(&stack, &replaced_->stack);
+    struct sigaction action = {};
+    action.sa_handler = end_process;
+    action.sa_flags = SA_ONSTACK | SA_NODEFER; // MPI may crash in the handler
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        sigaction(ends[i], &action, &replaced_->actions[i]);
+    }
+
+    std::error_code none;
+    const std::uintmax_t found = std::filesystem::file_size(path, none);
+    const rlim_t bytes = none ? 0 : rlim_t(found);
+    limit_processor_time(60 + 60 * (bytes >> 30));
+    getrlimit(RLIMIT_DATA, &replaced_->data);
+#ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of address space at the start
+    const rlim_t most = data_in_use() + (rlim_t(1) << 29) + 2 * bytes;
+    const rlimit data{std::min(most, replaced_->data.rlim_cur), replaced_->data.rlim_max};
+    setrlimit(RLIMIT_DATA, &data);
+#endif
+}
+
+GuardedReading::~GuardedReading()
+{
+    setrlimit(RLIMIT_DATA, &replaced_->data);
+    limit_processor_time(0);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        sigaction(ends[i], &replaced_->actions[i], nullptr);
+    }
+    sigaltstack(&replaced_->stack, nullptr);
+}
+
+} // namespace overturn

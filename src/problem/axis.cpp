@@ -1,0 +1,52 @@
+#include "overturn/problem/axis.hpp"
+
+#include <cmath>
+
+namespace overturn {
+
+namespace {
+
+double value_at(const AxisRange& range, std::int64_t i)
+{
+    if (i == 0) {
+        return range.first;
+    }
+    if (i == range.count - 1) {
+        return range.last;
+    }
+    const double share = double(i) / double(range.count - 1);
+    if (range.spacing == Spacing::log) {
+        return range.first * std::pow(range.last / range.first, share);
+    }
+    return range.first + (range.last - range.first) * double(i) / double(range.count - 1);
+}
+
+} // namespace
+
+std::int64_t Axis::size() const
+{
+    if (const auto* range = std::get_if<AxisRange>(&definition_)) {
+        return range->count;
+    }
+    return std::int64_t(std::get<AxisList>(definition_).size());
+}
+
+double Axis::operator[](std::int64_t i) const
+{
+    if (const auto* range = std::get_if<AxisRange>(&definition_)) {
+        return value_at(*range, i);
+    }
+    return std::get<AxisList>(definition_)[std::size_t(i)];
+}
+
+std::vector<double> Axis::values(std::int64_t begin, std::int64_t end) const
+{
+    std::vector<double> result;
+    result.reserve(std::size_t(end - begin));
+    for (std::int64_t i = begin; i < end; ++i) {
+        result.push_back((*this)[i]);
+    }
+    return result;
+}
+
+} // namespace overturn

@@ -1,0 +1,143 @@
+#include "overturn/problem/problem.hpp"
+
+#include "overturn/problem/coordinates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace overturn {
+
+std::vector<StoredDimension> stored_dimensions(const Problem& problem)
+{
+    std::vector<StoredDimension> dimensions;
+    for (const Dimension& dimension : problem.grid.dimensions) {
+        dimensions.push_back({dimension.name, dimension.size()});
+    }
+    if (problem.product == Product::boundary) {
+        dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(crossing_dimension),
+                                                                  most_crossings(problem.scene)};
+    }
+    return dimensions;
+}
+
+Shape stored_shape(const Problem& problem)
+{
+    Shape shape;
+    for (const StoredDimension& dimension : stored_dimensions(problem)) {
+        shape.push_back(dimension.size);
+    }
+    return shape;
+}
+
+std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
+{
+    std::vector<Field> fields{Field::flip_amplitude, Field::region_below, Field::region_above};
+    if (scene.is_recorded() || grid.find("pga") != nullptr ||
+        Coordinates(scene, grid).has("size")) {
+        fields.push_back(Field::flip_pga);
+    }
+    if (scene.is_recorded()) {
+        fields.insert(fields.end(), line_fields.begin(), line_fields.end());
+    }
+    return fields;
+}
+
+namespace {
+
+/// The extents of a tile of a spectrum: at most `side` points along each of the last two
+/// dimensions; then as many points of these and of the others as a square of this side has.
+Shape tile_of(const Grid& grid, std::int64_t side)
+{
+    const Shape shape = grid.shape();
+    Shape tile(shape.size(), 1);
+    const std::size_t first = // a tile does not extend over motions
+        grid.dimensions.empty() || grid.dimensions[0].name != "motion" ? 0 : 1;
+    const std::size_t others = shape.size() - std::min<std::size_t>(2, shape.size());
+    for (std::size_t i = std::max(first, others); i < shape.size(); ++i) {
+        tile[i] = std::min(shape[i], side);
+    }
+    for (std::size_t i = shape.size(); i-- > first;) {
+        tile[i] = std::min(shape[i], tile[i] * (side * side / count_points(tile)));
+    }
+    return tile;
+}
+
+/// The extents of a tile of a filled spectrum. Large cells need large tiles. A tile of 256 x 256
+/// points still takes only a few milliseconds, because few of its points are integrated inside the
+/// regions of fine spectra.
+Shape filled_tile_of(const Grid& grid)
+{
+    Shape tile(grid.dimensions.size(), 1);
+    std::int64_t longest = 0;
+    for (const Role role : {Role::strength, Role::rate}) {
+        if (const auto i = grid.dimension_of(role)) {
+            longest = std::max(longest, grid.dimensions[*i].size());
+        }
+    }
+    for (const Role role : {Role::strength, Role::rate}) {
+        if (const auto i = grid.dimension_of(role)) {
+            tile[*i] = longest < 1024 ? 128 : 256;
+        }
+    }
+    return tile;
+}
+
+} // namespace
+
+Tiling tiling_of(const Problem& problem)
+{
+    const Grid& grid = problem.grid;
+    if (problem.product == Product::boundary) {
+        // A line of a boundary takes longer than a tile of a spectrum: about 10 ms, and much more
+        // for slow pulses, under which blocks bounce very often.
+        const Shape shape = stored_shape(problem);
+        Shape tile(shape.size(), 1);
+        const std::size_t crossing = *grid.dimension_of(Role::strength);
+        tile[crossing] = shape[crossing];
+        return Tiling(shape, tile);
+    }
+    if (problem.numerics.fill) {
+        return Tiling(grid.shape(), filled_tile_of(grid));
+    }
+    // 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
+    // compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks.
+    // Under a record, 16 x 16 points take as long.
+    return Tiling(grid.shape(), tile_of(grid, problem.scene.is_recorded() ? 16 : 64));
+}
+
+Items items_of(const Problem& problem)
+{
+    const std::int64_t points = count_points(stored_shape(problem));
+    return problem.product == Product::boundary
+               ? Items{points / most_crossings(problem.scene), "lines"}
+               : Items{points, "points"};
+}
+
+std::string reason_not_to_fill(const Problem& problem)
+{
+    if (problem.scene.is_recorded()) {
+        return "under a record regions have no simple boundaries";
+    }
+    if (problem.grid.table() != nullptr) {
+        return "the blocks of a list have no neighbours";
+    }
+    for (const Role role : {Role::strength, Role::rate}) {
+        const Column* column = problem.grid.axis_or_number(role);
+        if (column->values.size() > 1 && !column->values.is_range()) {
+            return fmt::format("plane.{} lists its values, whose spacing is arbitrary; the axes of "
+                               "a filled spectrum need first, last and count",
+                               column->quantity->name);
+        }
+    }
+    for (const Field field : problem.fields) {
+        if (field != Field::region && field != Field::impacts) {
+            return fmt::format("the field \"{}\" is different at every point; only \"region\" and "
+                               "\"impacts\" can be filled",
+                               name_of(field));
+        }
+    }
+    return "";
+}
+
+} // namespace overturn

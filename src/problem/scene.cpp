@@ -1,0 +1,51 @@
+#include "overturn/problem/scene.hpp"
+
+#include "overturn/problem/quantity.hpp"
+
+#include <fmt/format.h>
+
+namespace overturn {
+
+namespace {
+
+/// The names of the pulses that have this number.
+std::string pulses_with(ShapeNumber number)
+{
+    std::vector<std::string_view> names;
+    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
+        if (has_number(PulseKind(kind), number)) {
+            names.push_back(pulse_names[kind]);
+        }
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string_view name_of(ShapeNumber number)
+{
+    return std::find_if(shape_numbers.begin(), shape_numbers.end(),
+                        [&](const auto& each) { return each.second == number; })
+        ->first;
+}
+
+} // namespace
+
+std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value)
+{
+    if (!has_number(pulse, number)) {
+        return value ? fmt::format(" has no meaning for the pulse \"{}\", only for {}. Remove it.",
+                                   name_of(pulse), pulses_with(number))
+                     : "";
+    }
+    const Quantity& rule = quantity(name_of(number));
+    if (!value) {
+        const bool has_default = number == &PulseShape::window;
+        return has_default ? ""
+                           : fmt::format(" is missing. Give a number in {}. {}", rule.interval,
+                                         rule.reason);
+    }
+    return rule.allows(*value)
+               ? ""
+               : fmt::format(" = {} is outside {}. {}", *value, rule.interval, rule.reason);
+}
+
+} // namespace overturn

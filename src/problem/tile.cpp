@@ -1,0 +1,49 @@
+#include "overturn/problem/tile.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <numeric>
+
+namespace overturn {
+
+namespace {
+
+std::int64_t ceiling_of_ratio(std::int64_t a, std::int64_t b)
+{
+    return (a + b - 1) / b;
+}
+
+} // namespace
+
+std::int64_t count_points(const Shape& shape)
+{
+    return std::accumulate(shape.begin(), shape.end(), std::int64_t(1), std::multiplies());
+}
+
+Tiling::Tiling(Shape shape, const Shape& tile)
+    : shape_(std::move(shape)), tile_shape_(shape_.size(), 1)
+{
+    assert(tile.size() <= shape_.size());
+    const std::size_t outer = shape_.size() - tile.size();
+    for (std::size_t i = 0; i < shape_.size(); ++i) {
+        if (i >= outer) {
+            tile_shape_[i] = std::min(tile[i - outer], shape_[i]);
+        }
+        tiles_.push_back(ceiling_of_ratio(shape_[i], tile_shape_[i]));
+    }
+}
+
+Tile Tiling::operator[](std::int64_t number) const
+{
+    Tile tile{number, Shape(shape_.size()), Shape(shape_.size())};
+    std::int64_t place = number;
+    for (std::size_t i = shape_.size(); i-- > 0;) {
+        tile.begin[i] = place % tiles_[i] * tile_shape_[i];
+        tile.count[i] = std::min(tile_shape_[i], shape_[i] - tile.begin[i]);
+        place /= tiles_[i];
+    }
+    return tile;
+}
+
+} // namespace overturn

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""documented_keys_test.py PROGRAM DOCS: the tables of keys in jobs.md and records.md have exactly the
+keys that the program knows."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+PARTS = {"values", "first", "last", "count", "spacing"}  # of an axis
+
+
+def known_keys(program):
+    completion = subprocess.run([program, "--bash-completion"], capture_output=True, text=True, check=True).stdout
+    keys = {key for key in re.findall(r"(?<![\w.])(title|[a-z]+(?:\.[a-z_]+)+)=", completion)}
+    return {key for key in keys if key.split(".")[-1] not in PARTS}
+
+
+def documented_keys(folder):
+    rows = "".join(line for page in ("jobs.md", "records.md")
+                   for line in (folder / page).read_text().splitlines(True) if not line.startswith("    "))
+    return set(re.findall(r"`((?:scene|plane|block|blocks|numerics|output)\.[a-z_.]+)`", rows)) | {"title"}
+
+
+def main():
+    known, documented = known_keys(sys.argv[1]), documented_keys(pathlib.Path(sys.argv[2]))
+    known = {key for key in known if not key.startswith("block.")}  # as in [plane]
+    documented = {key for key in documented if not key.startswith("block.")}
+    for text, keys in (("not documented", known - documented), ("unknown to the program", documented - known)):
+        for key in sorted(keys):
+            print(f"{key} is {text}")
+    if len(known) < 30 or known != documented:
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

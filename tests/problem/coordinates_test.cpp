@@ -1,0 +1,270 @@
+// Derived coordinates against closed forms, and against those of the same block and motion in other
+// quantities.
+#include "overturn/problem/coordinates.hpp"
+
+#include "overturn/mechanics/block.hpp"
+#include "support/given_values.hpp"
+#include "support/short_records.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace overturn {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A block of 0.6 m x 1.8 m, and its shape and size in the other quantities.
+constexpr double width = 0.6;
+constexpr double height = 1.8;
+const double alpha = std::atan(width / height);
+const double size = std::hypot(width / 2, height / 2);
+const double p = std::sqrt(3 * 9.81 / (4 * size));
+
+double value_of(const Scene& scene, const Grid& grid, std::string_view name)
+{
+    const Coordinates coordinates(scene, grid);
+    EXPECT_TRUE(coordinates.has(name)) << name;
+    EXPECT_TRUE(coordinates.dimensions_of(name).empty()) << name;
+    return coordinates.of(name).values.at(0);
+}
+
+TEST(Coordinates, OfABlockFollowFromEveryDescriptionOfIt)
+{
+    const std::vector<std::vector<Given>> descriptions{
+        {number("width", width), number("height", height)},
+        {number("half_width", width / 2), number("height", height)},
+        {number("width", width), number("half_height", height / 2)},
+        {number("half_width", width / 2), number("half_height", height / 2)},
+        {number("slenderness", alpha), number("size", size)},
+        {number("slenderness", alpha), number("frequency_parameter", p)}};
+    for (std::vector<Given> given : descriptions) {
+        given.push_back(number("restitution_of_maximum", 0.8));
+        given.push_back(number("pga", 0.5));
+        given.push_back(number("pulse_period", 0.7));
+        const Grid grid = grid_of({}, given);
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "slenderness"), alpha);
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "size"), size);
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "frequency_parameter"), p);
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "restitution"), 0.8 * largest_restitution(alpha));
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "amplitude"), 0.5 / (width / height));
+        EXPECT_DOUBLE_EQ(value_of({}, grid, "frequency"), 2 * pi / (0.7 * p));
+    }
+}
+
+TEST(Coordinates, OfAPulseFollowFromEveryDescriptionOfIt)
+{
+    const double frequency = 2 * pi / (0.7 * p);
+    const double amplitude = 0.5 / std::tan(alpha);
+    for (const Given& rate : {number("frequency", frequency), number("pulse_period", 0.7),
+                              number("pulse_frequency", 1 / 0.7)}) {
+        for (const Given& strength : {number("amplitude", amplitude), number("pga", 0.5)}) {
+            const Grid grid = grid_of({}, {number("slenderness", alpha), number("size", size),
+                                           number("restitution", 0.7), strength, rate});
+            EXPECT_DOUBLE_EQ(value_of({}, grid, "frequency"), frequency);
+            EXPECT_DOUBLE_EQ(value_of({}, grid, "amplitude"), amplitude);
+            EXPECT_DOUBLE_EQ(value_of({}, grid, "pga"), 0.5);
+            if (rate.quantity->name != "pulse_frequency") {
+                EXPECT_DOUBLE_EQ(value_of({}, grid, "pulse_period"), 0.7);
+            }
+            EXPECT_EQ(value_of({}, grid, "restitution"), 0.7);
+        }
+    }
+}
+
+TEST(Coordinates, OfTheLinearTheoryHaveTheUpliftOfSmallAngles)
+{
+    const Scene scene{.theory = Theory::linear};
+    const Grid grid = grid_of(scene, {number("slenderness", 0.2), number("restitution", 0.7),
+                                      number("pga", 0.5), number("frequency", 3)});
+    EXPECT_DOUBLE_EQ(value_of(scene, grid, "amplitude"), 0.5 / 0.2);
+}
+
+TEST(Coordinates, OfOtherGravityHaveAnotherFrequencyParameter)
+{
+    const Scene moon{.gravity = 1.62};
+    const Grid grid =
+        grid_of(moon, {number("slenderness", 0.2), number("size", 2), number("restitution", 0.7),
+                       number("amplitude", 2), number("pulse_period", 1.5)});
+    const double slow = std::sqrt(3 * 1.62 / 8);
+    EXPECT_DOUBLE_EQ(value_of(moon, grid, "frequency_parameter"), slow);
+    EXPECT_DOUBLE_EQ(value_of(moon, grid, "frequency"), 2 * pi / (1.5 * slow));
+    // A block and a pulse without units do not depend on gravity.
+    const Grid dimensionless =
+        grid_of(moon, {number("slenderness", 0.2), number("restitution", 0.7), number("pga", 0.5),
+                       number("frequency", 3)});
+    EXPECT_DOUBLE_EQ(value_of(moon, dimensionless, "amplitude"), 0.5 / std::tan(0.2));
+}
+
+TEST(Coordinates, OfARecordFollowFromItsPeakAndTimeStep)
+{
+    const Scene scene = scene_of_three_records();
+    const std::vector<Given> block{number("slenderness", alpha), number("size", size),
+                                   number("restitution", 0.7), number("motion", 2)};
+    std::vector<Given> given = block;
+    given.push_back(number("pga", 0.75));
+    EXPECT_EQ(value_of(scene, grid_of(scene, given), "record_pga"), 0.25);
+    EXPECT_DOUBLE_EQ(value_of(scene, grid_of(scene, given), "scale"), 3);
+    EXPECT_DOUBLE_EQ(value_of(scene, grid_of(scene, given), "samples_per_unit"), 1 / (0.02 * p));
+    given.back() = number("scale", 3);
+    EXPECT_DOUBLE_EQ(value_of(scene, grid_of(scene, given), "pga"), 0.75);
+}
+
+TEST(Coordinates, WithoutASizeHaveNoUnits)
+{
+    const Grid grid = grid_of({}, {number("slenderness", 0.2), number("restitution", 0.7),
+                                   number("amplitude", 2), number("frequency", 3)});
+    const Scene scene;
+    const Coordinates coordinates(scene, grid);
+    for (const char* name : {"size", "frequency_parameter", "pulse_period", "record_pga", "scale",
+                             "width", "samples_per_unit", "motion"}) {
+        EXPECT_FALSE(coordinates.has(name)) << name;
+    }
+    EXPECT_TRUE(coordinates.has("pga"));
+}
+
+using Dimensions = std::vector<std::size_t>;
+
+TEST(Coordinates, VaryAlongTheirOwnDimensionsOnly)
+{
+    const Grid grid = grid_of({}, {axis("size", {1, 2}), axis("slenderness", {0.1, 0.2, 0.3}),
+                                   axis("restitution_of_maximum", {0.5, 1}),
+                                   axis("pga", {0.2, 0.4, 0.6, 0.8}), number("pulse_period", 1)});
+    ASSERT_EQ(grid.shape(), (Shape{3, 2, 2, 4})); // slenderness, size, restitution, pga
+    const Scene scene;
+    const Coordinates coordinates(scene, grid);
+    EXPECT_EQ(coordinates.dimensions_of("slenderness"), (Dimensions{0}));
+    EXPECT_EQ(coordinates.dimensions_of("frequency_parameter"), (Dimensions{1}));
+    EXPECT_EQ(coordinates.dimensions_of("frequency"), (Dimensions{1}));
+    EXPECT_EQ(coordinates.dimensions_of("restitution"), (Dimensions{0, 2}));
+    EXPECT_EQ(coordinates.dimensions_of("amplitude"), (Dimensions{0, 3}));
+    EXPECT_EQ(coordinates.dimensions_of("pulse_period"), Dimensions());
+    const CoordinateValues& restitution = coordinates.of("restitution");
+    EXPECT_EQ(restitution.dimensions, (Dimensions{0, 2}));
+    ASSERT_EQ(restitution.values.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double largest = largest_restitution(0.1 * double(i + 1));
+        EXPECT_DOUBLE_EQ(restitution.values[2 * i], 0.5 * largest);
+        EXPECT_DOUBLE_EQ(restitution.values[2 * i + 1], largest);
+    }
+    EXPECT_EQ(coordinates.along({1, 3}, "size"), (std::vector<double>{1, 1, 1, 1, 2, 2, 2, 2}));
+}
+
+TEST(Coordinates, OfHeightBesideWidthGiveEveryShape)
+{
+    const Grid grid =
+        grid_of({}, {axis("width", {0.5, 1}), axis("height", {2, 3, 4}), number("restitution", 0.7),
+                     number("pga", 0.5), number("pulse_period", 1)});
+    ASSERT_EQ(grid.shape(), (Shape{2, 3}));
+    const Scene scene;
+    const Coordinates coordinates(scene, grid);
+    const std::vector<double>& alphas = coordinates.of("slenderness").values;
+    const std::vector<double>& sizes = coordinates.of("size").values;
+    for (std::size_t i = 0; i < 6; ++i) {
+        const double b = i < 3 ? 0.25 : 0.5;
+        const double h = 0.5 * double(2 + i % 3);
+        EXPECT_DOUBLE_EQ(alphas[i], std::atan(b / h));
+        EXPECT_DOUBLE_EQ(sizes[i], std::hypot(b, h));
+    }
+}
+
+TEST(Coordinates, OfAFrequencyParameterUnderAPulseGiveTheFrequency)
+{
+    const Grid grid =
+        grid_of({}, {number("slenderness", 0.2), number("restitution", 0.7), number("amplitude", 2),
+                     axis("frequency_parameter", {1, 2, 4}), axis("pulse_frequency", {0.5, 1})});
+    ASSERT_EQ(grid.shape(), (Shape{3, 2}));
+    const Scene scene;
+    const std::vector<double> frequencies = Coordinates(scene, grid).along({0, 1}, "frequency");
+    const std::vector<double> expected{pi, 2 * pi, pi / 2, pi, pi / 4, pi / 2};
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_DOUBLE_EQ(frequencies[i], expected[i]);
+    }
+}
+
+void expect_equal(const Point& one, const Point& other)
+{
+    EXPECT_EQ(one.slenderness, other.slenderness);
+    EXPECT_EQ(one.restitution, other.restitution);
+    EXPECT_EQ(one.amplitude, other.amplitude);
+    EXPECT_EQ(one.frequency, other.frequency);
+}
+
+TEST(Coordinates, OfATileAreThoseOfTheWholeGrid)
+{
+    for (const bool is_recorded : {false, true}) {
+        const Scene scene = is_recorded ? scene_of_three_records() : Scene();
+        std::vector<Given> given{axis("slenderness", {0.1, 0.2, 0.3}),
+                                 axis("restitution_of_maximum", {0.5, 1}),
+                                 axis("pga", AxisRange{0.2, 2, 7}), axis("size", {1, 2, 4, 8})};
+        if (is_recorded) {
+            given.push_back(axis("motion", {1, 2, 3}));
+        } else {
+            given.push_back(axis("pulse_period", AxisRange{0.2, 2, 5}));
+        }
+        const Grid grid = grid_of(scene, given);
+        const Shape shape = grid.shape();
+        const std::vector<Point> all = Coordinates(scene, grid).points();
+        const std::vector<std::int64_t> motions = Coordinates(scene, grid).motions();
+        ASSERT_EQ(std::int64_t(all.size()), grid.points());
+        EXPECT_EQ(motions.size(), is_recorded ? all.size() : 0);
+        const Tiling tiling(shape, {2, 2, 3, 2});
+        for (std::int64_t n = 0; n < tiling.size(); ++n) {
+            const Tile tile = tiling[n];
+            const Coordinates coordinates(scene, grid, tile);
+            const std::vector<Point> points = coordinates.points();
+            const std::vector<std::int64_t> motions_of_tile = coordinates.motions();
+            for (std::int64_t i = 0; i < tile.points(); ++i) {
+                std::int64_t place = 0;
+                std::int64_t stride = 1;
+                for (std::size_t d = shape.size(), left = std::size_t(i); d-- > 0;) {
+                    const auto count = std::size_t(tile.count[d]);
+                    place += (tile.begin[d] + std::int64_t(left % count)) * stride;
+                    left /= count;
+                    stride *= shape[d];
+                }
+                expect_equal(points[std::size_t(i)], all[std::size_t(place)]);
+                if (is_recorded) {
+                    EXPECT_EQ(motions_of_tile[std::size_t(i)], motions[std::size_t(place)]);
+                }
+            }
+        }
+    }
+}
+
+TEST(Coordinates, OfAScalarGridAreOnePoint)
+{
+    const Grid grid =
+        grid_of({}, {number("width", width), number("height", height), number("restitution", 0.7),
+                     number("pga", 0.5), number("pulse_period", 0.7)});
+    EXPECT_EQ(grid.points(), 1);
+    const Scene scene;
+    const std::vector<Point> points = Coordinates(scene, grid).points();
+    ASSERT_EQ(points.size(), 1u);
+    expect_equal(points[0], {.slenderness = std::atan((width / 2) / (height / 2)),
+                             .restitution = 0.7,
+                             .amplitude = points[0].amplitude,
+                             .frequency = points[0].frequency});
+}
+
+TEST(LiftingPga, LiftsTheBlockOfThisSlenderness)
+{
+    EXPECT_DOUBLE_EQ(lifting_pga({}, 0, 0.2), std::tan(0.2));
+    EXPECT_DOUBLE_EQ(lifting_pga({.theory = Theory::linear}, 0, 0.2), 0.2);
+    // Without vertical motion, the peak of any record lifts the block at the same acceleration.
+    const Scene scene = scene_of_three_records();
+    for (std::int64_t motion = 0; motion < 3; ++motion) {
+        EXPECT_NEAR(lifting_pga(scene, motion, 0.2), std::tan(0.2), 1e-15);
+    }
+}
+
+TEST(Extent, IsWrittenAsOneValueOrTwo)
+{
+    EXPECT_EQ(extent_of({{}, {2}}).text(" m"), "2 m");
+    EXPECT_EQ(extent_of({{0}, {2, 3, 0.5}}).text(" m"), "0.5 to 3 m");
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,166 @@
+#include "overturn/problem/plausibility.hpp"
+
+#include "support/given_values.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+namespace overturn {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// Blocks of 0.3 m to 2 m under pulses of 0.2 s to 2 s and 0.1 g to 1 g, one in each row.
+Columns random_blocks(std::mt19937_64& generator, int count)
+{
+    const auto column = [&](double first, double last) {
+        std::uniform_real_distribution<double> uniform(first, last);
+        std::vector<double> values(std::size_t(count), 0.0);
+        for (double& value : values) {
+            value = uniform(generator);
+        }
+        return values;
+    };
+    return {{"width", column(0.1, 0.4)},
+            {"height", column(0.5, 2)},
+            {"pga", column(0.1, 1)},
+            {"pulse_period", column(0.2, 2)},
+            {"restitution_of_maximum", column(0.7, 1)}};
+}
+
+std::string found_in(const Columns& columns, const Scene& scene = {})
+{
+    std::vector<Given> given;
+    for (const auto& [name, values] : columns) {
+        given.push_back(column(name, values));
+    }
+    if (scene.is_recorded()) {
+        given.push_back(number("motion", 1));
+    }
+    return implausible_values(scene, grid_of(scene, given));
+}
+
+void multiply(std::vector<double>& values, double factor)
+{
+    for (double& value : values) {
+        value *= factor;
+    }
+}
+
+TEST(Plausibility, OfBlocksInMetresSecondsAndGFindsNothing)
+{
+    std::mt19937_64 generator(1);
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_THAT(found_in(random_blocks(generator, 5)), IsEmpty());
+    }
+}
+
+TEST(Plausibility, OfOtherUnitsNamesTheQuantity)
+{
+    struct OtherUnit {
+        std::vector<const char*> columns;
+        double factor;
+        const char* found;
+    };
+    std::mt19937_64 generator(2);
+    for (const OtherUnit& unit :
+         {OtherUnit{{"width", "height"}, 100, "R = "}, OtherUnit{{"width", "height"}, 1000, "R = "},
+          OtherUnit{{"width", "height"}, 0.001, "R = "},
+          OtherUnit{{"pga"}, 981, "the peak ground acceleration = "},
+          OtherUnit{{"pga"}, 100, "the peak ground acceleration = "},
+          OtherUnit{{"pulse_period"}, 1000, "the period of the pulse = "},
+          OtherUnit{{"height"}, 0.1, "alpha = "},
+          OtherUnit{{"restitution"}, 1.8, "is above r_max"}}) {
+        for (int i = 0; i < 50; ++i) {
+            Columns columns = random_blocks(generator, 1);
+            columns["height"] = {4.5 * columns["width"][0]}; // r_max = 0.86
+            columns["restitution"] = {0.5};
+            columns.erase("restitution_of_maximum");
+            for (const char* name : unit.columns) {
+                multiply(columns[name], unit.factor);
+            }
+            EXPECT_THAT(found_in(columns), HasSubstr(unit.found));
+        }
+    }
+}
+
+TEST(Plausibility, OneRowOfATableIsEnough)
+{
+    std::mt19937_64 generator(3);
+    for (int i = 0; i < 50; ++i) {
+        Columns columns = random_blocks(generator, 20);
+        const std::size_t row = generator() % 20;
+        columns["width"][row] *= 100;
+        columns["height"][row] *= 100;
+        EXPECT_THAT(found_in(columns), HasSubstr("R = "));
+    }
+}
+
+TEST(Plausibility, OfRecordsJudgesPeakAndTimeStep)
+{
+    Columns columns{{"width", {0.3}}, {"height", {1.0}}, {"restitution_of_maximum", {1.0}}};
+    columns["scale"] = {0.001};
+    const auto found = [&](double peak, double time_step) {
+        Scene scene;
+        scene.records.push_back(std::make_shared<const Accelerogram>(
+            std::vector<double>{0, peak, 0}, std::vector<double>(), time_step));
+        return found_in(columns, scene);
+    };
+    EXPECT_THAT(found(0.5, 0.01), IsEmpty());
+    EXPECT_THAT(found(300, 0.01),
+                HasSubstr("the peak of a record = 300 g is outside 0.001 to 5 g"));
+    EXPECT_THAT(found(0.5e-4, 0.01), HasSubstr("the peak of a record = 5e-05 g is outside"));
+    EXPECT_THAT(found(0.5, 100), HasSubstr("the time step of a record = 100 s"));
+}
+
+TEST(Plausibility, OfGravityExpectsMetresPerSecondSquared)
+{
+    Scene scene;
+    std::mt19937_64 generator(4);
+    const Columns columns = random_blocks(generator, 1);
+    for (const double moon_earth_and_jupiter : {1.62, 9.81, 24.8}) {
+        scene.gravity = moon_earth_and_jupiter;
+        EXPECT_THAT(found_in(columns, scene), IsEmpty());
+    }
+    scene.gravity = 981;
+    EXPECT_THAT(found_in(columns, scene), HasSubstr("gravity = 981 m/s2"));
+}
+
+/// What is found for a block of 0.6 m x 1.8 m.
+std::string found_of_statue(const Given& strength, const Given& rate)
+{
+    return implausible_values({}, grid_of({}, {number("width", 0.6), number("height", 1.8),
+                                               number("restitution", 0.7), strength, rate}));
+}
+
+TEST(Plausibility, OfDimensionlessAxesNeedsOnePlausibleValue)
+{
+    const Given amplitudes = axis("amplitude", AxisRange{0.1, 30, 10});   // up to 10 g
+    const Given frequencies = axis("frequency", AxisRange{0.01, 12, 10}); // 0.2 s to 226 s
+    EXPECT_THAT(found_of_statue(amplitudes, frequencies), IsEmpty());
+    const Given slow = axis("frequency", AxisRange{0.01, 0.02, 10}); // from 113 s
+    EXPECT_THAT(found_of_statue(amplitudes, slow), HasSubstr("the period of the pulse = 112"));
+    const Given strong = axis("amplitude", AxisRange{16, 30, 10}); // from 5.3 g
+    EXPECT_THAT(found_of_statue(strong, frequencies),
+                HasSubstr("the peak ground acceleration = 5.333"));
+}
+
+TEST(Plausibility, OfAxesWithUnitsNeedsAllValues)
+{
+    const Given pga = axis("pga", AxisRange{0.1, 4, 10});
+    const Given hertz = axis("pulse_frequency", AxisRange{0.5, 5, 10});
+    EXPECT_THAT(found_of_statue(pga, hertz), IsEmpty());
+    const Given in_other_units = axis("pga", AxisRange{1, 10, 10}); // m/s2
+    EXPECT_THAT(found_of_statue(in_other_units, hertz), HasSubstr("= 1 to 10 g is above 5 g"));
+    const Given millihertz = axis("pulse_frequency", AxisRange{5, 5000, 10});
+    EXPECT_THAT(found_of_statue(pga, millihertz), HasSubstr("the period of the pulse = 0.0002"));
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,138 @@
+#include "overturn/problem/problem_bytes.hpp"
+
+#include "overturn/problem/coordinates.hpp"
+#include "support/given_values.hpp"
+#include "support/short_records.hpp"
+
+#include <gtest/gtest.h>
+
+namespace overturn {
+namespace {
+
+const std::vector<Given> block{number("width", 0.6), axis("height", {1.8, 2.5}),
+                               number("restitution_of_maximum", 0.9)};
+
+std::vector<Given> with_block(std::vector<Given> given)
+{
+    given.insert(given.end(), block.begin(), block.end());
+    return given;
+}
+
+/// A problem of every kind.
+std::vector<Problem> every_problem()
+{
+    const std::vector<Given> pulse = with_block(
+        {axis("pga", AxisRange{0.1, 2, 30, Spacing::log}), axis("pulse_period", {0.5, 1})});
+    const Scene pulse_scene{.pulse = PulseKind::mavroeidis_papageorgiou,
+                            .theory = Theory::linear,
+                            .shape = {.window = 0.5, .cycles = 2, .gamma = 1.5, .nu = -0.25},
+                            .gravity = 1.62};
+    const Scene records = scene_of_three_records();
+    Scene vertical;
+    vertical.records = {short_record(0.5, 0.01, 0.25), short_record(0.5, 0.02, -0.25)};
+    std::vector<Problem> problems{
+        {.scene = pulse_scene,
+         .grid = grid_of(pulse_scene, pulse),
+         .numerics = {.method = Method::taylor, .tolerance = 1e-6, .resolve = true},
+         .fields = {Field::margin, Field::region}},
+        {.scene = {},
+         .grid = grid_of({}, pulse),
+         .numerics = {.fill = true, .audit = 0.25},
+         .fields = {Field::region, Field::evaluated}},
+        {.scene = {},
+         .grid = grid_of({}, pulse),
+         .product = Product::boundary,
+         .fields = boundary_fields({}, grid_of({}, pulse))},
+        {.scene = {},
+         .grid = grid_of({}, {number("slenderness", 0.2), number("restitution", 0.9),
+                              number("amplitude", 2), number("frequency", 3)}),
+         .fields = {Field::region}},
+        {.scene = {},
+         .grid = grid_of(
+             {}, with_block({column("pga", {0.5, 0.2}), column("pulse_frequency", {3, 2})})),
+         .fields = {Field::region}},
+        {.scene = records,
+         .grid =
+             grid_of(records, with_block({axis("motion", {1, 2, 3}), axis("scale", {1, 2, 3, 4})})),
+         .numerics = {.method = Method::taylor, .most_in_50_digits = 3},
+         .fields = {Field::region, Field::status}},
+        {.scene = vertical,
+         .grid = grid_of(vertical,
+                         with_block({column("motion", {2, 1, 2}), column("scale", {1, 0.5, 1.5})})),
+         .numerics = {.method = Method::taylor},
+         .fields = {Field::peak}}};
+    return problems;
+}
+
+TEST(ProblemBytes, OfAnEqualProblemAreEqual)
+{
+    std::vector<std::string> all;
+    for (const Problem& problem : every_problem()) {
+        const std::string bytes = bytes_of(problem);
+        EXPECT_EQ(bytes_of(problem_of(bytes)), bytes) << all.size();
+        EXPECT_EQ(std::count(all.begin(), all.end(), bytes), 0) << "two problems have these bytes";
+        all.push_back(bytes);
+    }
+}
+
+void expect_equal(const Scene& one, const Scene& other)
+{
+    EXPECT_EQ(one.pulse, other.pulse);
+    EXPECT_EQ(one.theory, other.theory);
+    EXPECT_EQ(one.shape.window, other.shape.window);
+    EXPECT_EQ(one.shape.cycles, other.shape.cycles);
+    EXPECT_EQ(one.shape.gamma, other.shape.gamma);
+    EXPECT_EQ(one.shape.nu, other.shape.nu);
+    EXPECT_EQ(one.gravity, other.gravity);
+    ASSERT_EQ(one.records.size(), other.records.size());
+    for (std::size_t i = 0; i < one.records.size(); ++i) {
+        EXPECT_EQ(one.records[i]->horizontal(), other.records[i]->horizontal());
+        EXPECT_EQ(one.records[i]->upwards(), other.records[i]->upwards());
+        EXPECT_EQ(one.records[i]->time_step(), other.records[i]->time_step());
+    }
+}
+
+void expect_equal(const Numerics& one, const Numerics& other)
+{
+    EXPECT_EQ(one.method, other.method);
+    EXPECT_EQ(one.tolerance, other.tolerance);
+    EXPECT_EQ(one.resolve, other.resolve);
+    EXPECT_EQ(one.most_in_50_digits, other.most_in_50_digits);
+    EXPECT_EQ(one.fill, other.fill);
+    EXPECT_EQ(one.audit, other.audit);
+}
+
+TEST(ProblemBytes, KeepEverything)
+{
+    for (const Problem& problem : every_problem()) {
+        const Problem received = problem_of(bytes_of(problem));
+        expect_equal(received.scene, problem.scene);
+        expect_equal(received.numerics, problem.numerics);
+        EXPECT_EQ(received.product, problem.product);
+        EXPECT_EQ(received.fields, problem.fields);
+        EXPECT_EQ(stored_shape(received), stored_shape(problem));
+        EXPECT_EQ(tiling_of(received).tile_shape(), tiling_of(problem).tile_shape());
+        EXPECT_EQ(received.grid.table() != nullptr, problem.grid.table() != nullptr);
+        const Coordinates coordinates(problem.scene, problem.grid);
+        const Coordinates same(received.scene, received.grid);
+        for (const Quantity& each : all_quantities()) {
+            ASSERT_EQ(same.has(each.name), coordinates.has(each.name)) << each.name;
+            if (same.has(each.name)) {
+                EXPECT_EQ(same.dimensions_of(each.name), coordinates.dimensions_of(each.name));
+                EXPECT_EQ(same.of(each.name).values, coordinates.of(each.name).values);
+            }
+        }
+    }
+}
+
+TEST(ProblemBytes, KeepRangesAsRanges)
+{
+    const Problem received = problem_of(bytes_of(every_problem().front()));
+    const Axis& pga = received.grid.find("pga")->values;
+    ASSERT_TRUE(pga.is_range());
+    EXPECT_EQ(std::get<AxisRange>(pga.definition()).spacing, Spacing::log);
+    EXPECT_FALSE(received.grid.find("pulse_period")->values.is_range());
+}
+
+} // namespace
+} // namespace overturn

@@ -1,0 +1,184 @@
+"""The values that a result file stores, and how those of two files differ."""
+
+import collections
+import shutil
+
+import h5py
+import numpy as np
+
+# Names in format 3 with those in format 4, and why. A row applies only if the new file has the new
+# name and is not of format 3 as well, see name_in().
+RENAMED = [
+    ("restitution_ratio", "restitution", "r has the name that jobs and tables of blocks give it"),
+    ("restitution", "restitution_of_maximum", "r / r_max has the name that tables of blocks give it"),
+    ("scaled_pga", "pga", "the peak of the scaled record has the name that it has under a pulse"),
+    ("half_diagonal", "size", "R has the name that it has as an axis"),
+    ("pga", "record_pga", "the measure of the record has the same name whether pga is an axis or not"),
+]
+
+# Values of the old file that the new one may lack, and the other way round, with the reasons. A new
+# coordinate is always allowed.
+MAY_BE_MISSING = {
+    "half_width": "stored as the job gives it, which may be the width",
+    "half_height": "stored as the job gives it, which may be the height",
+}
+MAY_BE_NEW = {
+    "run/coordinate_checksums": "coordinates are checked by checksums",
+    **dict.fromkeys(["pga", "pulse_period", "restitution_of_maximum", "size", "width", "height", "scale",
+                     "frequency_parameter"], "a history has all coordinates of its point"),
+}
+
+# Not compared: layout, texts of the job, and times.
+NOT_COMPARED = {
+    "format_version", "seconds_per_point", "run/checksum", "run/tile", "run/run_token",
+    "run/job_given", "run/job_overrides", "run/job_resolved",
+}
+ATTRIBUTES_NOT_REPORTED = {
+    "long_name", "comment", "coordinates", "program_commit", "CLASS", "NAME", "DIMENSION_LIST",
+    "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates",
+}
+
+Stored = collections.namedtuple("Stored", "values dimensions")
+
+
+def stored(file):
+    """What the file stores, by name: the datasets of all groups, and the numbers among its
+    attributes, which are results of a history."""
+    found = {}
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset) and not is_bare_dimension(item):
+            found[name] = Stored(item[()], [scales[0].name.lstrip("/") if len(scales) else name
+                                            for scales in item.dims])
+
+    file.visititems(add)
+    for name, value in file.attrs.items():
+        if is_number(value):
+            found.setdefault(name, Stored(value, []))
+    return {name: values for name, values in found.items() if name not in NOT_COMPARED}
+
+
+def is_bare_dimension(dataset):
+    return as_text(dataset.attrs.get("NAME", "")).startswith("This is a netCDF dimension but not")
+
+
+def is_number(value):
+    return np.asarray(value).dtype.kind in "iuf"
+
+
+def as_text(value):
+    return value.decode(errors="replace") if isinstance(value, bytes) else str(value)
+
+
+def name_in(new, name, old, of):
+    """The name in the new file of what the old one calls `name`; `of` is of its restitutions."""
+    for before, after, _ in RENAMED:
+        both_have_both = after in old and name in new
+        is_absolute = name == "restitution" and of != "maximum"
+        if name == before and after in new and not both_have_both and not is_absolute:
+            return after
+    return name
+
+
+def coordinates(file):
+    """Names of the dimensions, and of the coordinates that the fields name."""
+    names = set()
+    for item in (item for item in file.values() if isinstance(item, h5py.Dataset)):
+        names.update(as_text(item.attrs.get("coordinates", "")).split())
+        if as_text(item.attrs.get("CLASS", "")) == "DIMENSION_SCALE":
+            names.add(item.name.lstrip("/"))
+    return names
+
+
+def spread(new, old):
+    """The new values along the dimensions of the old ones, where the old file repeated them."""
+    lengths = dict(zip(new.dimensions, np.shape(new.values)))
+    if not set(lengths) < set(old.dimensions):
+        return new.values
+    shape = [lengths.get(dimension, 1) for dimension in old.dimensions]
+    return np.broadcast_to(np.reshape(new.values, shape), np.shape(old.values))
+
+
+def difference(old, new):
+    """How the values differ, apart from dimensions of length 1; empty if the types are the same and
+    the bits are, or if both are NaN."""
+    old, new = np.squeeze(old), np.squeeze(new)
+    if old.dtype != new.dtype or old.shape != new.shape:
+        return f"{old.dtype}{old.shape} has become {new.dtype}{new.shape}"
+    same = np.asarray(bits(old) == bits(new))
+    if old.dtype.kind == "f":
+        same |= np.isnan(old) & np.isnan(new)
+    if same.all():
+        return ""
+    at = tuple(int(index) for index in np.argwhere(~same)[0])
+    return (f"{np.count_nonzero(~same)} of {same.size} values differ; at {at}, {old[at]!r} has become "
+            f"{new[at]!r}")
+
+
+def bits(values):
+    """Numbers as integers of the same bits; texts as they are."""
+    if values.dtype.kind not in "iuf":
+        return values
+    return np.frombuffer(values.tobytes(), f"u{values.dtype.itemsize}").reshape(values.shape)
+
+
+def compare(old_path, new_path, notes):
+    """The differences of the stored values, as texts. Adds what is only reported to the counter
+    `notes`: differing attributes and new coordinates."""
+    with h5py.File(old_path) as old_file, h5py.File(new_path) as new_file:
+        old, new = stored(old_file), stored(new_file)
+        of = old_file["restitution"].attrs.get("of", "") if "restitution" in old_file else ""
+        names = {name: name_in(new, name, old, as_text(of)) for name in old}
+        found = []
+        for name, after in names.items():
+            if after in new:
+                values = new[after].values if name == after else spread(new[after], old[name])
+                text = difference(old[name].values, values)
+                found += [f"{name}: {text}"] if text else []
+            elif name not in MAY_BE_MISSING:
+                found.append(f"{name}: missing")
+        for name in new.keys() - set(names.values()):
+            if name in coordinates(new_file):
+                notes[f"coordinate {name} added"] += 1
+            elif name not in MAY_BE_NEW:
+                found.append(f"{name}: not in the old file")
+        note_attributes("the file", old_file, new_file, notes)
+        for name, after in names.items():
+            if name in old_file and after in new_file:
+                note_attributes(name, old_file[name], new_file[after], notes)
+    return found
+
+
+def note_attributes(name, old, new, notes):
+    for key in (old.attrs.keys() | new.attrs.keys()) - ATTRIBUTES_NOT_REPORTED:
+        before, after = old.attrs.get(key), new.attrs.get(key)
+        is_compared = isinstance(old, h5py.File) and is_number(before)
+        before, after = as_text(before), as_text(after)
+        if not is_compared and before != after:
+            notes[f"attribute {key} of {name}: {before:.60} has become {after:.60}"] += 1
+
+
+def unnoticed_flips(path):
+    """Names of what the file stores that may change by a bit without being reported, alone, by
+    `compare`: for each, the last bit of one value is flipped in a copy."""
+    copy = path.with_suffix(".flipped")
+    unnoticed = []
+    with h5py.File(path) as file:
+        names = {name: np.array(item.values) for name, item in stored(file).items()}
+    for name, values in names.items():
+        flat = values.reshape(-1)
+        places = np.flatnonzero(flat == flat)  # not NaN
+        if len(places) == 0:
+            continue
+        flat.view("u1")[places[-1] * values.dtype.itemsize] ^= 1  # little-endian
+        shutil.copy(path, copy)
+        with h5py.File(copy, "r+") as file:
+            if name in file:
+                file[name][...] = values
+            else:
+                file.attrs.modify(name, values)
+        found = compare(path, copy, collections.Counter())
+        if [text.split(":")[0] for text in found] != [name]:
+            unnoticed.append(name)
+    copy.unlink(missing_ok=True)
+    return unnoticed
