@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -101,49 +102,70 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     const auto number = [&](const char* name, auto& value, const char* unit, const char* text) {
         return command.add_option(name, value, text)->type_name(unit)->check(is_positive);
     };
+    const auto text = [&](const char* name, auto& value, const char* type, const char* what) {
+        return command.add_option(name, value, what)->type_name(type);
+    };
     number("--width", options.width, "M", "Width of the block [m]")->required();
     number("--height", options.height, "M", "Height of the block [m]")->required();
     number("--period", options.period, "S", "Period of the pulse [s]");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")
         ->check(is_searchable);
-    command
-        .add_option_function<std::string>(
-            "--pulse",
-            [&options](const std::string& pulse) {
-                options.pulse = pulse;
-                options.has_pulse = true;
-            },
-            "Pulse; default: one_sine")
-        ->type_name("NAME");
-    command.add_option("--record", options.record, "Recorded motion instead of a pulse")
-        ->type_name("FILE");
-    command
-        .add_option("--component", options.component, "Name or number in the record; default: 1")
-        ->type_name("NAME");
+    text("--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
+    text("--record", options.record, "FILE", "Recorded motion instead of a pulse");
+    text("--component", options.component, "NAME", "Name or number in the record; default: 1");
     number("--scale", options.scale, "X", "Factor on the record, instead of --pga");
     number("--restitution", options.restitution, "R",
            "Energy ratio r at an impact, the square of the ratio of velocities");
-    command
-        .add_option_function<double>(
-            "--restitution-of-maximum",
-            [&options](double share) {
-                options.restitution_of_maximum = share;
-                options.has_share = true;
-            },
-            "r over r_max (Eq. 17); default: 1")
-        ->type_name("X")
-        ->check(is_positive);
+    number("--restitution-of-maximum", options.restitution_of_maximum, "X",
+           "r over r_max (Eq. 17); default: 1");
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search")
         ->check(is_searchable)
         ->capture_default_str();
-    command.add_option("--set", options.overrides, "Set a key of [scene]; repeatable")
-        ->type_name("scene.KEY=VALUE")
+    text("--set", options.overrides, "scene.KEY=VALUE", "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
     command.add_flag("--json", options.json, "Print JSON for programs");
+    text("-o,--history", options.history, "OUT.h5",
+         "Write the motion at --pga or --scale, as overturn history does");
+}
+
+void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
+{
+    add_job_arguments(command, options.job);
+    add_result_file(command, "-o,--output", options.output)->type_name("OUT.h5");
     command
-        .add_option("-o,--history", options.history,
-                    "Write the motion at --pga or --scale, as overturn history does")
-        ->type_name("OUT.h5");
+        .add_option("--points", options.points,
+                    "Maximum number of sample points, for times and verdicts")
+        ->check(CLI::Range(16, 10000000))
+        ->capture_default_str();
+    command
+        .add_option("--digits", options.digits,
+                    "Approximate number of points computed in 50 digits, for errors")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+}
+
+void add_history_arguments(CLI::App& command, HistoryOptions& options)
+{
+    add_job_arguments(command, options.job);
+    command
+        .add_option("--at", options.at,
+                    "A value for each axis on which the job has several values;\n"
+                    "it need not be one of them")
+        ->type_name("AXIS=VALUE,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_result_file(command, "-o,--output", options.output)->type_name("OUT.h5");
+    command
+        .add_option("--until", options.until,
+                    "Last time [1/p]; default: until the block comes to rest or overturns,\n"
+                    "at most 60/p after the pulse")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--samples", options.samples,
+                    "Number of evenly spaced times, at least as many as the record has\n"
+                    "samples; events are added")
+        ->check(CLI::Range(2, 10000000))
+        ->capture_default_str();
 }
 
 /// All parsed options; must live as long as the parser.
@@ -158,6 +180,73 @@ struct Arguments {
     std::string verify;
     std::string doctor = ".";
 };
+
+/// The parser of the command line, and the subcommand that it found.
+class Parser {
+public:
+    Parser();
+
+    CLI::App app{"Overturning spectra of rocking blocks."};
+    Command chosen;
+
+private:
+    template <class Options>
+    CLI::App& add(const char* name, const char* description, const char* footer,
+                  int (*execute)(const Options&), const Options& options)
+    {
+        CLI::App* const command = app.add_subcommand(name, description);
+        command->footer(footer);
+        command->callback([this, execute, &options] {
+            chosen = {
+                .execute = [arguments = arguments_, execute, &options] { return execute(options); },
+                .on_every_rank = std::same_as<Options, RunOptions>};
+        });
+        return *command;
+    }
+
+    std::shared_ptr<Arguments> arguments_ = std::make_shared<Arguments>();
+};
+
+Parser::Parser()
+{
+    app.require_subcommand(1);
+    app.footer(help::overview);
+    app.set_version_flag("--version", version_text);
+    Arguments& to = *arguments_;
+
+    add_run_arguments(
+        add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run, to.run),
+        to.run, "JOB.h5");
+    to.boundary.boundary = true;
+    add_run_arguments(add("boundary",
+                          "Find the amplitudes at which verdicts flip, with or without mpirun",
+                          help::boundary, run, to.boundary),
+                      to.boundary, "JOB_boundary.h5");
+    add_job_arguments(add("check",
+                          "Validate a job; print its points, bytes and time; write nothing",
+                          help::check, check, to.check),
+                      to.check);
+    add_accuracy_arguments(add("accuracy",
+                               "Measure error and computing time on a sample of a job's plane",
+                               help::accuracy, accuracy, to.accuracy),
+                           to.accuracy);
+    add_history_arguments(
+        add("history", "Compute the motion of one block: angle, velocity and events over time",
+            help::history, history, to.history),
+        to.history);
+    add_topple_arguments(add("topple", "Answer whether one block topples, and at which PGA",
+                             help::topple, topple, to.topple),
+                         to.topple);
+    add_result_file(add("info", "Print a summary of a result file", help::info, info, to.info),
+                    "FILE", to.info);
+    add_result_file(
+        add("verify", "Check a result file for damage", help::verify, verify, to.verify), "FILE",
+        to.verify);
+    add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
+        to.doctor)
+        .add_option("FOLDER", to.doctor, "Folder of the result files")
+        ->capture_default_str();
+}
 
 Command to_print(const std::string& text)
 {
@@ -182,99 +271,8 @@ Command to_print(const std::string& text)
 
 Command read_command_line(int argc, const char* const* argv)
 {
-    CLI::App app{"Overturning spectra of rocking blocks."};
-    app.require_subcommand(1);
-    app.footer(help::overview);
-    app.set_version_flag("--version", version_text);
-    const auto arguments = std::make_shared<Arguments>();
-
-    Command chosen;
-    const auto add_command = [&](const char* name, const char* description, const char* footer,
-                                 auto* execute, const auto& options) {
-        CLI::App* const command = app.add_subcommand(name, description);
-        command->footer(footer);
-        command->callback([&, execute] {
-            chosen.execute = [arguments, execute, &options] { return execute(options); };
-        });
-        return command;
-    };
-
-    RunOptions& run_options = arguments->run;
-    CLI::App* const run_command = add_command(
-        "run", "Compute or resume a spectrum, with or without mpirun", help::run, run, run_options);
-    add_run_arguments(*run_command, run_options, "JOB.h5");
-
-    RunOptions& boundary_options = arguments->boundary;
-    boundary_options.boundary = true;
-    CLI::App* const boundary_command = add_command(
-        "boundary", "Find the amplitudes at which verdicts flip, with or without mpirun",
-        help::boundary, run, boundary_options);
-    add_run_arguments(*boundary_command, boundary_options, "JOB_boundary.h5");
-
-    CLI::App* const check_command =
-        add_command("check", "Validate a job; print its points, bytes and time; write nothing",
-                    help::check, check, arguments->check);
-    add_job_arguments(*check_command, arguments->check);
-
-    AccuracyOptions& accuracy_options = arguments->accuracy;
-    CLI::App* const accuracy_command =
-        add_command("accuracy", "Measure error and computing time on a sample of a job's plane",
-                    help::accuracy, accuracy, accuracy_options);
-    add_job_arguments(*accuracy_command, accuracy_options.job);
-    add_result_file(*accuracy_command, "-o,--output", accuracy_options.output)->type_name("OUT.h5");
-    accuracy_command
-        ->add_option("--points", accuracy_options.points,
-                     "Maximum number of sample points, for times and verdicts")
-        ->check(CLI::Range(16, 10000000))
-        ->capture_default_str();
-    accuracy_command
-        ->add_option("--digits", accuracy_options.digits,
-                     "Approximate number of points computed in 50 digits, for errors")
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
-
-    HistoryOptions& history_options = arguments->history;
-    CLI::App* const history_command = add_command(
-        "history", "Compute the motion of one block: angle, velocity and events over time",
-        help::history, history, history_options);
-    add_job_arguments(*history_command, history_options.job);
-    history_command
-        ->add_option("--at", history_options.at,
-                     "A value for each axis on which the job has several values;\n"
-                     "it need not be one of them")
-        ->type_name("AXIS=VALUE,...")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    add_result_file(*history_command, "-o,--output", history_options.output)->type_name("OUT.h5");
-    history_command
-        ->add_option("--until", history_options.until,
-                     "Last time [1/p]; default: until the block comes to rest or overturns,\n"
-                     "at most 60/p after the pulse")
-        ->check(CLI::PositiveNumber);
-    history_command
-        ->add_option("--samples", history_options.samples,
-                     "Number of evenly spaced times, at least as many as the record has\n"
-                     "samples; events are added")
-        ->check(CLI::Range(2, 10000000))
-        ->capture_default_str();
-
-    ToppleOptions& topple_options = arguments->topple;
-    add_topple_arguments(*add_command("topple",
-                                      "Answer whether one block topples, and at which PGA",
-                                      help::topple, topple, topple_options),
-                         topple_options);
-
-    add_result_file(
-        *add_command("info", "Print a summary of a result file", help::info, info, arguments->info),
-        "FILE", arguments->info);
-    add_result_file(*add_command("verify", "Check a result file for damage", help::verify, verify,
-                                 arguments->verify),
-                    "FILE", arguments->verify);
-    add_command("doctor", "Print what a bug report should contain about this machine", help::doctor,
-                doctor, arguments->doctor)
-        ->add_option("FOLDER", arguments->doctor, "Folder of the result files")
-        ->capture_default_str();
-
+    Parser parser;
+    CLI::App& app = parser.app;
     // For the build, which installs the output; hidden from --help.
     const std::string_view only = argc == 2 ? argv[1] : "";
     if (only == "--manual" || only == "--bash-completion") {
@@ -298,8 +296,7 @@ Command read_command_line(int argc, const char* const* argv)
     } catch (const CLI::ParseError& error) {
         throw Error(exit_code::usage, "{}\nRun with --help for more information.", error.what());
     }
-    chosen.on_every_rank = run_command->parsed() || boundary_command->parsed();
-    return chosen;
+    return parser.chosen;
 }
 
 } // namespace overturn

@@ -48,20 +48,18 @@ int history(const HistoryOptions& options);
 
 /// Answers whether one block topples under one motion, and at which peak accelerations.
 struct ToppleOptions {
-    double width = 0;  ///< [m]
-    double height = 0; ///< [m]
-    std::string pulse = "one_sine";
-    bool has_pulse = false;       ///< --pulse was given
-    std::optional<double> period; ///< of the pulse [s]
-    std::string record;           ///< path; empty: a pulse
-    std::string component;        ///< of the record, its name or number
-    std::optional<double> pga;    ///< over g [1]
-    std::optional<double> scale;  ///< of the record [1]
+    double width = 0;                 ///< [m]
+    double height = 0;                ///< [m]
+    std::optional<std::string> pulse; ///< its name; default: one_sine
+    std::optional<double> period;     ///< of the pulse [s]
+    std::string record;               ///< path; empty: a pulse
+    std::string component;            ///< of the record, its name or number
+    std::optional<double> pga;        ///< over g [1]
+    std::optional<double> scale;      ///< of the record [1]
     std::optional<double> restitution;
-    double restitution_of_maximum = 1;
-    bool has_share = false;             ///< --restitution-of-maximum was given
-    std::vector<std::string> overrides; ///< of keys of [scene]
-    double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
+    std::optional<double> restitution_of_maximum; ///< default, without restitution: 1
+    std::vector<std::string> overrides;           ///< of keys of [scene]
+    double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
     bool json = false;
     std::string history; ///< path of a file of the motion; empty: none
 };

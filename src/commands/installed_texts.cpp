@@ -10,8 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
 
 namespace overturn {
 
@@ -56,103 +54,17 @@ std::string escaped(std::string_view text)
         default: result += letter;
         }
     }
-    return result.starts_with('.') ? "\\&" + result : result;
-}
-
-/// Paragraphs for roff to fill; indented lines are kept verbatim.
-std::string paragraphs(const std::string& text)
-{
-    std::string result;
-    bool is_verbatim = false;
-    bool is_new = false;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        const bool is_indented = line.starts_with("  ");
-        if (line.empty()) {
-            is_new = true;
-            continue;
-        }
-        if (is_new || is_indented != is_verbatim) {
-            result += is_verbatim ? ".fi\n" : "";
-            result += result.empty() ? "" : ".PP\n";
-            result += is_indented ? ".nf\n" : "";
-        }
-        result += escaped(line) + "\n";
-        is_verbatim = is_indented;
-        is_new = false;
-    }
-    return result + (is_verbatim ? ".fi\n" : "");
-}
-
-std::string section(std::string name, const std::string& text)
-{
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char letter) { return char(std::toupper(letter)); });
-    return fmt::format(".SH {}\n{}", name, paragraphs(text));
-}
-
-std::string bold(const std::string& text)
-{
-    return fmt::format("\\fB{}\\fR", escaped(text));
-}
-
-std::string italic(const std::string& text)
-{
-    return fmt::format("\\fI{}\\fR", escaped(text));
-}
-
-/// "-o, --output OUT.h5"
-std::string heading_of(const CLI::Option& option)
-{
-    std::vector<std::string> words;
-    for (const std::string& name : names_of(option)) {
-        words.push_back(bold(name));
-    }
-    const std::string value = value_of(option);
-    return fmt::format("{}{}{}", fmt::join(words, ", "), words.empty() || value.empty() ? "" : " ",
-                       value.empty() ? "" : italic(value));
-}
-
-std::string options_of(const CLI::App& command)
-{
-    std::string result;
-    for (const CLI::Option* option : command.get_options()) {
-        const std::string standard = option->get_default_str();
-        result +=
-            fmt::format(".TP\n{}\n{}{}.\n", heading_of(*option), escaped(option->get_description()),
-                        standard.empty() ? "" : fmt::format(" (default: {})", standard));
-    }
     return result;
 }
 
-std::string subcommand(const CLI::App& command)
+/// A section whose text is shown as it is.
+std::string section(const std::string& name, std::string_view text)
 {
-    std::string arguments;
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_positional()) {
-            arguments += " " + heading_of(*option);
-        } else if (option->get_required()) {
-            arguments += " " + bold(names_of(*option)[0]) + " " + italic(value_of(*option));
-        }
+    std::string lines = escaped(text);
+    for (std::size_t dot = 0; (dot = lines.find("\n.", dot)) != lines.npos;) {
+        lines.insert(dot + 1, "\\&"); // not a request to roff
     }
-    return fmt::format(".SS \"overturn {}{}\"\n{}.\n{}.PP\n{}", escaped(command.get_name()),
-                       arguments, escaped(command.get_description()), options_of(command),
-                       paragraphs(command.get_footer()));
-}
-
-/// A section for each paragraph of the footer, which begins with the title: "Examples: ...".
-std::string sections_of_footer(const std::string& footer)
-{
-    std::string result;
-    std::size_t begin = 0;
-    while (begin < footer.size()) {
-        const std::size_t end = std::min(footer.find("\n\n", begin), footer.size());
-        const std::string paragraph = footer.substr(begin, end - begin);
-        const std::size_t colon = paragraph.find(':');
-        result += section(paragraph.substr(0, colon), paragraph.substr(colon + 2));
-        begin = end + 2;
-    }
-    return result;
+    return fmt::format(".SH {}\n.nf\n{}\n.fi\n", escaped(name), lines);
 }
 
 /// The cases list the words and the ending of the files that are allowed at a position of the line,
@@ -202,19 +114,14 @@ std::string choices_of(std::string value)
 std::string manual_page(const CLI::App& program)
 {
     std::string page = fmt::format(".TH OVERTURN 1 {} \"overturn {}\" \"User Commands\"\n"
-                                   ".SH NAME\noverturn \\- overturning spectra of rocking blocks\n"
-                                   ".SH SYNOPSIS\n"
-                                   "\\fBoverturn\\fR \\fISUBCOMMAND\\fR [\\fIOPTIONS\\fR]\n"
-                                   ".br\n\\fBoverturn\\fR \\fISUBCOMMAND\\fR \\fB\\-\\-help\\fR\n",
+                                   ".SH NAME\noverturn \\- overturning spectra of rocking blocks\n",
                                    manual::date_of_texts, program_version());
-    page += section("Description", manual::description);
-    page += ".SH OPTIONS\n" + options_of(program) + ".SH SUBCOMMANDS\n";
+    page += section("DESCRIPTION", manual::description) + section("SYNOPSIS", program.help());
     for (const CLI::App* command : program.get_subcommands({})) {
-        page += subcommand(*command);
+        page += section("overturn " + command->get_name(), command->help("overturn"));
     }
-    return page + sections_of_footer(program.get_footer()) + section("Tools", manual::tools) +
-           section("Environment", manual::environment) + section("Files", manual::files) +
-           ".SH SEE ALSO\n\\fBmpirun\\fR(1), \\fBh5dump\\fR(1)\n";
+    return page + section("TOOLS", manual::tools) + section("ENVIRONMENT", manual::environment) +
+           section("FILES", manual::files) + ".SH SEE ALSO\n\\fBmpirun\\fR(1), \\fBh5dump\\fR(1)\n";
 }
 
 std::string bash_completion(const CLI::App& program)

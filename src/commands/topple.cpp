@@ -39,7 +39,7 @@ std::string job_text(const ToppleOptions& options)
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
     text += is_recorded ? fmt::format("record = {}\n", quoted(options.record))
-                        : fmt::format("pulse = {}\n", quoted(options.pulse));
+                        : fmt::format("pulse = {}\n", quoted(options.pulse.value_or("one_sine")));
     if (!options.component.empty()) {
         const bool is_number =
             options.component.find_first_not_of("0123456789") == std::string::npos;
@@ -52,9 +52,9 @@ std::string job_text(const ToppleOptions& options)
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
-    text += options.restitution
-                ? fmt::format("restitution = {}\n", *options.restitution)
-                : fmt::format("restitution_of_maximum = {}\n", options.restitution_of_maximum);
+    text += options.restitution ? fmt::format("restitution = {}\n", *options.restitution)
+                                : fmt::format("restitution_of_maximum = {}\n",
+                                              options.restitution_of_maximum.value_or(1));
     return text + fmt::format("[block]\nwidth = {}\nheight = {}\n", options.width, options.height);
 }
 
@@ -68,8 +68,7 @@ void expect_consistent(const ToppleOptions& options)
     const bool is_recorded = !options.record.empty();
     refuse_if(is_recorded && options.period,
               "--period applies to a pulse, but --record gives a recorded motion. Remove one.");
-    refuse_if(is_recorded && options.has_pulse,
-              "--pulse and --record exclude each other. Remove one.");
+    refuse_if(is_recorded && options.pulse, "--pulse and --record exclude each other. Remove one.");
     refuse_if(!is_recorded && !options.period,
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
@@ -86,7 +85,7 @@ void expect_consistent(const ToppleOptions& options)
     }
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
-    refuse_if(options.restitution && options.has_share,
+    refuse_if(options.restitution && options.restitution_of_maximum,
               "--restitution and --restitution-of-maximum exclude each other. Remove one.");
 }
 

@@ -19,8 +19,17 @@ FEW = ("--points", "1024", "--digits", "16")
 
 
 class AnAccuracyStudy(Scratch):
-    def study(self, *arguments):
-        return self.overturn("accuracy", "small.toml", "-o", "study.h5", *FEW, *arguments)
+    computed = None  # study.h5 of the first test that needs it
+
+    def study(self):
+        return self.overturn("accuracy", "small.toml", "-o", "study.h5", *FEW)
+
+    def have_study(self):
+        path = self.folder / "study.h5"
+        if AnAccuracyStudy.computed is None:
+            self.assert_exit(self.study(), 0)
+            AnAccuracyStudy.computed = path.read_bytes()
+        path.write_bytes(AnAccuracyStudy.computed)
 
     def plot(self, *arguments):
         return subprocess.run([sys.executable, PLOT_ACCURACY, *arguments], cwd=self.folder,
@@ -48,19 +57,19 @@ class AnAccuracyStudy(Scratch):
             self.assertTrue(np.isfinite(file["margin_error"][:]).all())
 
     def test_is_described_by_info(self):
-        self.study()
+        self.have_study()
         self.assert_exit(self.overturn("info", "study.h5"), 0, "A small plane",
                          "contains an accuracy study", "pulse = \"one_sine\"")
 
     def test_has_no_wrong_resolved_verdicts_but_wrong_ones_at_the_loosest_tolerance(self):
-        self.study()
+        self.have_study()
         with h5py.File(self.folder / "study.h5") as file:
             resolved = file["resolve"][:] == 1
             self.assertEqual(file["wrong_verdicts"][:][resolved].sum(), 0)
             self.assertGreater(file["wrong_verdicts"][:][file["tolerance"][:] == 1e-2].max(), 0)
 
     def test_opens_in_xarray_with_its_coordinates(self):
-        self.study()
+        self.have_study()
         for engine in ("netcdf4", "h5netcdf"):
             with xarray.open_dataset(self.folder / "study.h5", engine=engine) as found:
                 self.assertEqual(found.margin_error.dims, ("setting", "quantile"))
@@ -68,7 +77,7 @@ class AnAccuracyStudy(Scratch):
                 self.assertEqual(list(found["quantile"].values), [0.5, 0.9, 0.99, 0.999, 1])
 
     def test_replaces_an_older_study_and_nothing_else(self):
-        self.assert_exit(self.study(), 0)
+        self.have_study()
         self.assert_exit(self.study(), 0)
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         before = checksum(self.folder / "spectrum.h5")
@@ -82,7 +91,7 @@ class AnAccuracyStudy(Scratch):
         self.assertEqual(result.stdout, "")
 
     def test_is_plotted_with_the_names_of_all_methods(self):
-        self.study()
+        self.have_study()
         result = self.plot("study.h5", "-o", "study.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         picture = (self.folder / "study.svg").read_text()
@@ -97,7 +106,7 @@ class AnAccuracyStudy(Scratch):
         self.assertIn("is not a study written by overturn accuracy", result.stderr)
 
     def test_plot_refuses_a_study_without_known_points(self):
-        self.study()
+        self.have_study()
         for known in ("points_settled", "points_in_50_digits"):
             shutil.copy(self.folder / "study.h5", self.folder / "nothing_known.h5")
             with h5py.File(self.folder / "nothing_known.h5", "r+") as file:

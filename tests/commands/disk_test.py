@@ -12,7 +12,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import (ENVIRONMENT, JOB, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, under_mpi,
+from program import (ENVIRONMENT, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, under_mpi,
                      words)
 
 FAULTY_DISK = os.environ["FAULTY_DISK"]
@@ -231,24 +231,17 @@ class ASlowDisk(OnFaultyDisk):
 
 
 class AFileThatChanges(Scratch):
-    # About ten seconds, of which the tests need at most the first two.
-    LONGER = JOB.format(columns=1200, rows=1200, restitutions="[0.7]", tolerance="1e-13")
-
-    def setUp(self):
-        super().setUp()
-        (self.folder / "longer.toml").write_text(self.LONGER)
-
     def tiles_done(self, name):
         told = words(self.overturn("info", name).stdout)
         return int(told.split(" tiles ")[1].split(" of ")[0]) if " tiles " in told else 0
 
-    def end_of_run_after(self, change, ranks, job="longer"):
+    def end_of_run_after(self, change, ranks):
         """Returns the output of a run after the change, which is made when some tiles are done."""
-        output = self.folder / f"{job}.h5"
+        output = self.folder / "long.h5"
         output.unlink(missing_ok=True)
-        command = [OVERTURN, "run", f"{job}.toml"]
+        command = [OVERTURN, "run", "long.toml"]
         with subprocess.Popen(command if ranks is None else under_mpi(ranks) + command,
-                              cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                              cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True) as process:
             self.addCleanup(process.kill)
             self.assertIn("tiles", process.stdout.readline())
@@ -266,7 +259,7 @@ class AFileThatChanges(Scratch):
 
     def test_is_reported_if_moved_and_resumes_once_moved_back(self):
         elsewhere = self.folder / "elsewhere.h5"
-        said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2, job="long")
+        said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2)
         self.assertIn("move it back and run the same command again to resume", said)
         elsewhere.rename(self.folder / "long.h5")
         self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "resuming: ")
@@ -278,12 +271,12 @@ class AFileThatChanges(Scratch):
             path.write_text("somebody else's")
 
         self.end_of_run_after(replace, None)
-        self.assertEqual((self.folder / "longer.h5").read_text(), "somebody else's")
+        self.assertEqual((self.folder / "long.h5").read_text(), "somebody else's")
 
     def test_is_reported_if_it_is_truncated(self):
         said = self.end_of_run_after(lambda path: os.truncate(path, 100_000), 2)
         self.assertIn("was truncated from", said)
-        self.assert_exit(self.overturn("run", "longer.toml"), 74, "longer.h5")
+        self.assert_exit(self.overturn("run", "long.toml"), 74, "long.h5")
 
     def test_is_refused_if_a_coordinate_has_changed(self):
         self.assert_exit(self.overturn("run", "small.toml"), 0)

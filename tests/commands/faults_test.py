@@ -9,7 +9,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import ENVIRONMENT, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, ranks_of, under_mpi
+from program import LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, ranks_of, under_mpi
 
 
 class ADamagedFile(Scratch):
@@ -39,8 +39,8 @@ class ADamagedFile(Scratch):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
         with h5py.File(self.folder / "long.h5", "r+") as file:
             file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
-        with subprocess.Popen([OVERTURN, "run", "long.toml"], cwd=self.folder, env=ENVIRONMENT,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        with subprocess.Popen([OVERTURN, "run", "long.toml"], cwd=self.folder,
+                              env=self.with_slow("long.h5"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
             self.assertIn(f"{LONG_TILES} damaged tiles to recompute", process.stdout.readline())
             process.send_signal(signal.SIGUSR1)
             process.communicate(timeout=PATIENCE)
@@ -91,7 +91,7 @@ class ADamagedFile(Scratch):
             (self.folder / "long.h5").unlink(missing_ok=True)
             with subprocess.Popen(
                     [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "long.toml"],
-                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                    cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT, text=True) as process:
                 self.addCleanup(process.kill)
                 self.assertIn("tiles", process.stdout.readline())
@@ -119,7 +119,7 @@ class ASilentRank(Scratch):
         for silent in (2, 0):
             with subprocess.Popen(
                     [*under_mpi(3), OVERTURN, "run", "long.toml", "--patience", "1"],
-                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                    cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
                     stderr=subprocess.STDOUT, text=True) as process:
                 self.addCleanup(process.kill)
                 self.assertIn("tiles", process.stdout.readline())

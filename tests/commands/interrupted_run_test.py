@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import (ENVIRONMENT, JOB, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, is_mpich, ranks_of,
+from program import (ENVIRONMENT, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, is_mpich, ranks_of,
                      under_mpi, words)
 
 
@@ -29,13 +29,14 @@ class ScratchWithRuns(Scratch):
         command = [OVERTURN, "run", "long.toml"]
         before = self.tiles_done() if "long.h5" in self.files() else 0
         process = subprocess.Popen(
-            (under_mpi(ranks) if ranks else []) + command, cwd=self.folder, env=ENVIRONMENT,
+            (under_mpi(ranks) if ranks else []) + command, cwd=self.folder, env=self.with_slow("long.h5"),
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         )  # fmt: skip
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
         deadline = time.monotonic() + PATIENCE
         while "long.h5" not in self.files() or self.tiles_done() < before + 3:
+            time.sleep(0.02)
             self.assertLess(time.monotonic(), deadline, "no tiles were computed")
             self.assertIsNone(process.poll(), "the run ended before it could be interrupted")
         return process
@@ -134,7 +135,9 @@ class AnInterruptedRun(ScratchWithRuns):
 
     @unittest.skipIf(is_mpich(), "its UCX handles SIGHUP before main() begins")
     def test_continues_without_a_terminal_if_sighup_is_ignored(self):
-        ignored = "trap '' HUP; (sleep 1; kill -HUP $$) & true"
+        slow = " ".join(f"{name}={self.with_slow('long.h5')[name]}"
+                        for name in ("LD_PRELOAD", "WRITE_TAKES", "FAULTY_FILE"))
+        ignored = f"trap '' HUP; (sleep 1; kill -HUP $$) & export {slow}"
         self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
 
     def test_continues_when_its_output_is_closed(self):

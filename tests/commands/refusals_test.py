@@ -156,7 +156,7 @@ class ABadOutput(Scratch):
 
     def test_a_foreign_sidecar_that_appears_during_the_run_is_kept(self):
         with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
-                              env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              env=self.with_slow("out.h5"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True) as run:
             self.addCleanup(run.kill)
             run.stdout.readline()
@@ -180,7 +180,7 @@ class ABadOutput(Scratch):
     def test_a_lock_that_cannot_be_opened_is_refused(self):
         lock = self.folder / "out.h5.lock"
         with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
-                              env=ENVIRONMENT, stdout=subprocess.PIPE, text=True) as run:
+                              env=self.with_slow("out.h5"), stdout=subprocess.PIPE, text=True) as run:
             run.stdout.readline()
             run.kill()
         lock.chmod(lock.stat().st_mode & ~0o777)  # as for the lock of another user
