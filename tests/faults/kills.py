@@ -46,7 +46,7 @@ amplitude = { first = 0.5, last = 12.0, count = 250 }
 restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
 slenderness = { values = [0.1745716] }
 [numerics]
-tolerance = 1e-12
+tolerance = 1e-8
 """
 FILLED = """
 [output]
@@ -60,7 +60,7 @@ restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
 slenderness = { values = [0.1745716] }
 [numerics]
 fill = true
-tolerance = 1e-12
+tolerance = 1e-8
 """
 RECORDS = COMMON + f"""
 [scene]
