@@ -24,7 +24,7 @@ SMOKE = TOOLS.parent / "jobs" / "smoke.toml"
 
 class TestAWrittenFile(unittest.TestCase):
     WRITERS = (("to_csv", "result.h5", "-o", "{}"), ("synthetic_record", "-o", "{}"),
-               ("plot_phase", "regions", "-o", "{}.svg"))
+               ("plot_phase", "-o", "{}.svg"))
 
     @classmethod
     def setUpClass(cls):
