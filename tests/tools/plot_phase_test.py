@@ -1,14 +1,12 @@
 """The picture of tools/plot_phase: its colours compared with Eq. 20, its texts read from
 SVG."""
 
-import pathlib
 import re
-import tempfile
 import unittest
 
 import numpy as np
 from matplotlib import colors, pyplot
-from tool import run_tool  # first: adds the package to the path
+from tool import InAFolder  # first: adds the package to the path
 from overturn.phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
 from overturn.regions import REGIONS
 
@@ -88,20 +86,11 @@ class TestTheFormulas(unittest.TestCase):
             np.array([-0.5, 0, 0.1])), [-0.1, 0.4, 0.3], atol=1e-15)
 
 
-class TestAPortrait(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def plot(self, *arguments):
-        return run_tool("plot_phase", *arguments, cwd=self.folder)
+class TestAPortrait(InAFolder):
+    TOOL = "plot_phase"
 
     def words(self, *arguments):
-        run = self.plot("-o", "picture.svg", *arguments)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        picture = (self.folder / "picture.svg").read_text("utf-8")
-        return " ".join(re.findall(r"<(?:text|tspan)[^>]*>\s*([^<\s][^<]*)", picture)).split()
+        return " ".join(re.findall(r"<(?:text|tspan)[^>]*>\s*([^<\s][^<]*)", self.svg(*arguments))).split()
 
     def test_names_all_seven_regions(self):
         words = self.words()
@@ -115,16 +104,14 @@ class TestAPortrait(unittest.TestCase):
 
     def test_can_be_drawn_for_any_block(self):
         for alpha, r in (("0.02", "0.999"), ("0.1746", "0.9115"), ("1.4", "0.05"), ("1.5", "1")):
-            run = self.plot("--slenderness", alpha, "--restitution", r)
+            run = self.run_tool("--slenderness", alpha, "--restitution", r)
             self.assertEqual((run.returncode, run.stderr), (0, ""), (alpha, r))
 
     def test_is_refused_for_invalid_blocks_and_formats(self):
         for arguments, sentence in ((("--slenderness", "1.6"), "outside (0, pi/2)"),
                                     (("--restitution", "1.2"), "outside (0, 1]"),
                                     (("-o", "picture.jpg"), ".png, .pdf or .svg")):
-            run = self.plot(*arguments)
-            self.assertEqual(run.returncode, 2)
-            self.assertIn(sentence, run.stderr)
+            self.refuses(2, sentence, *arguments)
 
 
 if __name__ == "__main__":

@@ -19,9 +19,9 @@ def is_program(path):
 
 def find_overturn(given):
     """Returns the program; `given` is the argument of a tool."""
-    from overturn.result_file import USAGE, PlotError
+    from overturn.tool import USAGE, ToolError
     path = overturn_path(given)
     if not is_program(path):
-        raise PlotError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
+        raise ToolError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
                         "pass another one with --overturn PATH.", USAGE)
     return path.resolve()

@@ -38,7 +38,7 @@ def run_command(name, module):
     os.environ["MPLBACKEND"] = "Agg"  # writes files; needs no display
     try:
         command = importlib.import_module(module)
-        from overturn.result_file import run_tool
+        from overturn.tool import run_tool
     except ImportError as error:
         run_elsewhere(error)
     run_tool(name, command.main)

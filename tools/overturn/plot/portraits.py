@@ -1,12 +1,11 @@
 """Plots the regions in phase space from closed formulas: what becomes of a block that rocks freely, by its
 angle and velocity."""
 
-import argparse
-
 from matplotlib import pyplot
+from overturn.output_file import save
 from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_regions, largest_restitution,
                                   name_phase_axes)
-from overturn.result_file import USAGE, PlotError, add_picture_argument, name_picture, save
+from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 
 EXAMPLE = """\
 example:
@@ -52,26 +51,22 @@ def draw(block):
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_phase", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("plot_phase", __doc__, EXAMPLE)
     parser.add_argument("--slenderness", type=float, default=0.4, metavar="ALPHA",
                         help="slenderness of the block [rad] (default: 0.4)")
     parser.add_argument("--restitution", type=float, metavar="R",
                         help="energy ratio at an impact (default: the maximum for the slenderness)")
-    add_picture_argument(parser, "phase.png")
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments, "phase.png")
-    return arguments
+    return parse_with_output(parser, argv, "phase.png")
 
 
 def chosen_block(arguments):
     if not 0 < arguments.slenderness < HALF_TURN:
-        raise PlotError(f"--slenderness {arguments.slenderness:g} is outside (0, pi/2).", USAGE)
+        raise ToolError(f"--slenderness {arguments.slenderness:g} is outside (0, pi/2).", USAGE)
     r = arguments.restitution
     if r is None:
         r = largest_restitution(arguments.slenderness)
     if not 0 < r <= 1:
-        raise PlotError(f"--restitution {r:g} is outside (0, 1].", USAGE)
+        raise ToolError(f"--restitution {r:g} is outside (0, 1].", USAGE)
     return FreeBlock(arguments.slenderness, r)
 
 
