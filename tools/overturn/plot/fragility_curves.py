@@ -10,7 +10,6 @@ import numpy as np
 import overturn
 from matplotlib import pyplot
 from overturn.block_groups import groups_of
-from overturn.interpreter import run_elsewhere
 from overturn.output_file import save
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
@@ -134,12 +133,7 @@ def read_arguments(argv):
 
 def compute(arguments):
     """Returns the title, and the curves of each measure, one for each group of blocks."""
-    try:
-        import h5py  # noqa: F401 (for overturn.open)
-        import scipy  # noqa: F401 (for overturn.fragility)
-        import xarray  # noqa: F401 (for overturn.open)
-    except ImportError as error:
-        run_elsewhere(error)
+    import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
     try:
         dataset = overturn.open(arguments.file)
     except (OSError, ValueError) as error:
