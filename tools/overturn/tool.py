@@ -27,13 +27,18 @@ def parser_of(name, description, example, written_by=None):
     return parser
 
 
-def parse_with_output(parser, argv, default="FILE.png", what="picture: .png, .pdf or .svg"):
+def parse_with_output(parser, argv, default, what):
     """Parses the arguments, with -o for the output. FILE in its default name is the name of the file."""
     parser.add_argument("-o", "--output", metavar="OUT", help=f"{what} (default: {default} in the working directory)")
     arguments = parser.parse_args(argv)
     if arguments.output is None:
         arguments.output = default.replace("FILE", pathlib.Path(getattr(arguments, "file", "")).stem)
-    if what.startswith("picture") and pathlib.Path(arguments.output).suffix not in PICTURES:
+    return arguments
+
+
+def parse_with_picture(parser, argv, default="FILE.png"):
+    arguments = parse_with_output(parser, argv, default, "picture: .png, .pdf or .svg")
+    if pathlib.Path(arguments.output).suffix not in PICTURES:
         parser.error(f"\"{arguments.output}\" must end in .png, .pdf or .svg")
     return arguments
 

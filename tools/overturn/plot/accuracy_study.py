@@ -6,7 +6,7 @@ from overturn.captions import ground_text
 from overturn.output_file import save
 from overturn.result_file import damage_reported, open_result, plain, title_of
 from overturn.ticks import name_ticks
-from overturn.tool import ToolError, parse_with_output, parser_of
+from overturn.tool import ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -131,7 +131,7 @@ def draw(file):
 
 def read_arguments(argv):
     parser = parser_of("plot_accuracy", __doc__, EXAMPLE, "overturn accuracy")
-    return parse_with_output(parser, argv)
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

@@ -21,7 +21,7 @@ from overturn.regions import REGIONS
 from overturn.result_file import damage_reported, open_result, path_of, plain
 from overturn.spectrum_file import Axis
 from overturn.ticks import set_axes
-from overturn.tool import parse_with_output, parser_of
+from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 
 EXAMPLE = """\
@@ -242,7 +242,7 @@ def read_arguments(argv):
     parser = parser_of("plot_boundary", __doc__, EXAMPLE, "overturn boundary")
     add_choice_arguments(parser)
     add_units_argument(parser)
-    return parse_with_output(parser, argv)
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

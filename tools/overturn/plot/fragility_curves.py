@@ -13,7 +13,7 @@ from overturn.block_groups import groups_of
 from overturn.output_file import save
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
-from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -128,7 +128,7 @@ def read_arguments(argv):
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
                              "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
-    return parse_with_output(parser, argv, "FILE_fragility.png")
+    return parse_with_picture(parser, argv, "FILE_fragility.png")
 
 
 def compute(arguments):

@@ -15,7 +15,7 @@ from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import damage_reported, open_result, path_of, plain, title_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
-from overturn.tool import ToolError, parse_with_output, parser_of
+from overturn.tool import ToolError, parse_with_picture, parser_of
 from overturn.units import add_units_argument, expect_size
 
 EXAMPLE = """\
@@ -249,7 +249,7 @@ def read_arguments(argv):
     parser.add_argument("--from", dest="start", type=float, metavar="TIME", default=0,
                         help="first time to draw, in the same unit (default: 0)")
     add_units_argument(parser, "time in s, angles in degrees, PGA in g")
-    return parse_with_output(parser, argv)
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

@@ -13,7 +13,7 @@ from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
 from overturn.result_file import damage_reported, plain
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
-from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 
 EXAMPLE = """\
@@ -206,7 +206,7 @@ def read_arguments(argv):
     add_label_argument(parser)
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the name "
                                         "of its record)")
-    return parse_with_output(parser, argv, "FILE_landing.png")
+    return parse_with_picture(parser, argv, "FILE_landing.png")
 
 
 def main(argv=None):

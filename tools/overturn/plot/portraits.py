@@ -5,7 +5,7 @@ from matplotlib import pyplot
 from overturn.output_file import save
 from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_regions, largest_restitution,
                                   name_phase_axes)
-from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -56,7 +56,7 @@ def read_arguments(argv):
                         help="slenderness of the block [rad] (default: 0.4)")
     parser.add_argument("--restitution", type=float, metavar="R",
                         help="energy ratio at an impact (default: the maximum for the slenderness)")
-    return parse_with_output(parser, argv, "phase.png")
+    return parse_with_picture(parser, argv, "phase.png")
 
 
 def chosen_block(arguments):

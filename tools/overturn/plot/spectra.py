@@ -18,7 +18,7 @@ from overturn.regions import coloured, legend_entries
 from overturn.result_file import damage_reported, path_of, plain
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
-from overturn.tool import parse_with_output, parser_of
+from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
 EXAMPLE = """\
@@ -161,7 +161,7 @@ def read_arguments(argv):
                              "published practice calls overturned; needs the field peak")
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
                                         "names of its records)")
-    return parse_with_output(parser, argv)
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):
