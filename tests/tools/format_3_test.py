@@ -6,7 +6,6 @@ import h5py
 import numpy as np
 import plot_spectrum_test
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S
-from tool import run_tool  # first: adds the package to the path
 import overturn
 
 
@@ -72,7 +71,7 @@ class TestAFileOfFormat3(plot_spectrum_test.Picture):
         for word in ("Old", "pulse period [s]", "PGA [g]"):
             self.assertIn(word, words)
         self.assertIn("one-sine pulse,  α = 11.46°,  r = r_max = 0.85,  unfinished: 7 of 8 tiles computed", words)
-        self.assertEqual(run_tool("to_csv", "spectrum.h5", cwd=self.folder).returncode, 0)
+        self.output_of("spectrum.h5", tool="to_csv")
         lines = (self.folder / "spectrum.csv").read_text().splitlines()
         self.assertEqual(lines[0], "frequency,amplitude,restitution_of_maximum,region")
         self.assertEqual((lines[1], lines[-1]), ("3.0,1.0,0.9,0", "4.0,2.0,1.0,255"))

@@ -3,23 +3,20 @@
 import os
 import pathlib
 import subprocess
-import tempfile
 import unittest
 import venv
 
-from tool import PATIENCE, TOOLS
+from tool import PATIENCE, TOOLS, InOneFolder
 from overturn.interpreter import SYSTEM, system_has
 
 NAMES = sorted(path.relative_to(TOOLS) for path in (*TOOLS.iterdir(), *(TOOLS / "paper").iterdir())
                if path.is_file() and b"python" in path.read_bytes().split(b"\n")[0])
 
 
-class TestAPythonWithoutTheModules(unittest.TestCase):
+class TestAPythonWithoutTheModules(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         venv.create(cls.folder / "bare")
         cls.programs = cls.folder / "bare" / "bin"
 
@@ -41,7 +38,7 @@ class TestAPythonWithoutTheModules(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn(f"usage: {name.name} ", run.stdout)
             self.assertEqual(run.stderr, "")
-        run = self.run_here(TOOLS / "plot_phase", "regions", "-o", "a picture.png")
+        run = self.run_here(TOOLS / "plot_phase", "-o", "a picture.png")
         self.assertEqual((run.returncode, run.stdout), (0, "a picture.png\n"), run.stderr)
 
     def test_ends_with_the_packages_to_install_if_the_systems_lacks_them_too(self):

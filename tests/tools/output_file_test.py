@@ -3,41 +3,32 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
-import os
-import pathlib
 import random
 import resource
 import shutil
 import signal
 import stat
-import subprocess
-import tempfile
 import unittest
 import unittest.mock
 
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from tool import JOBS, InAFolder, new_folder, run_overturn, run_tool  # first: adds the package to the path
 from overturn import csv_table
 from overturn.output_file import OutputError, new_file, write_text
 
-SMOKE = TOOLS.parent / "jobs" / "smoke.toml"
 
-
-class TestAWrittenFile(unittest.TestCase):
+class TestAWrittenFile(InAFolder):
     WRITERS = (("to_csv", "result.h5", "-o", "{}"), ("synthetic_record", "-o", "{}"),
-               ("plot_phase", "regions", "-o", "{}.svg"))
+               ("plot_phase", "-o", "{}.svg"))
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.result = pathlib.Path(folder.name) / "result.h5"
-        few = [f"--set=plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
-        subprocess.run([os.environ["OVERTURN"], "run", SMOKE, *few, "-o", cls.result], check=True, capture_output=True)
+        folder = new_folder(cls.addClassCleanup)
+        cls.result = folder / "result.h5"
+        run_overturn(folder, "run", JOBS / "smoke.toml", "result.h5", "plane.frequency.count=20",
+                     "plane.amplitude.count=20")
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         shutil.copy(self.result, self.folder / "result.h5")
 
     def run_tool(self, *words):

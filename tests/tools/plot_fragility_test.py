@@ -4,15 +4,12 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
-import os
-import pathlib
 import re
 import shutil
-import subprocess
-import tempfile
 import unittest
 
-from tool import run_tool  # first: adds the package to the path
+import h5py
+from tool import InOneFolder, run_overturn, run_tool  # first: adds the package to the path
 from overturn.plot import fragility_curves
 
 JOB = """
@@ -26,32 +23,21 @@ JOB = """
     """
 
 
-class Curve(unittest.TestCase):
+class Curve(InOneFolder):
+    TOOL, JOB = "plot_fragility", JOB
+
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-fragility-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         done = run_tool("synthetic_record", "--suite", "10", "-o", ".", cwd=cls.folder)
         assert done.returncode == 0, done.stderr
-        cls.compute("result.h5")
-
-    @classmethod
-    def compute(cls, name, *overrides, job=JOB):
-        (cls.folder / "job.toml").write_text(job)
-        settings = [word for override in overrides for word in ("--set", override)]
-        subprocess.run([os.environ["OVERTURN"], "run", "job.toml", "-o", name, *settings], cwd=cls.folder, check=True,
-                       capture_output=True)
-
-    def plot(self, *arguments):
-        return run_tool("plot_fragility", *arguments, cwd=self.folder)
+        run_overturn(cls.folder, "run", JOB, "result.h5")
 
     def words(self, *arguments):
-        done = self.plot(*arguments, "-o", "picture.svg")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        text = self.output_of(*arguments, "-o", "picture.svg")
         picture = (self.folder / "picture.svg").read_text("utf-8")
         texts = re.findall(r"<!-- (.*?) -->|<text[^>]*>([^<]+)", picture)  # drawn as paths, or as text
-        return done.stdout, " ".join("".join(text) for text in texts)
+        return text, " ".join("".join(text) for text in texts)
 
 
 class TestAPicture(Curve):
@@ -88,7 +74,7 @@ class TestAPicture(Curve):
         self.assertLess(*counts)
 
     def test_without_a_fit_says_why_and_draws_no_curve(self):
-        self.compute("safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")
+        self.overturn("run", "safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")
         text, words = self.words("safe.h5")
         self.assertIn("no fit: no point overturns", text)
         self.assertIn("no fit: no point overturns", words)
@@ -96,7 +82,6 @@ class TestAPicture(Curve):
         self.assertNotIn("confidence", words)
 
     def test_of_an_unfinished_file_reports_what_is_not_computed(self):
-        import h5py
         shutil.copy(self.folder / "result.h5", self.folder / "part.h5")
         with h5py.File(self.folder / "part.h5", "a") as file:
             file["run/checksum"][-1] = 0  # of the tile of the last motion
@@ -109,24 +94,21 @@ class TestAPicture(Curve):
 
 class TestACurveRefused(Curve):
     def refuses(self, code, sentence, *arguments):
-        done = self.plot(*arguments, "-o", "refused.png")
-        self.assertEqual(done.returncode, code, done.stderr)
-        self.assertIn(sentence, done.stderr)
-        self.assertNotIn("Traceback", done.stderr)
+        super().refuses(code, sentence, *arguments, "-o", "refused.png")
         self.assertFalse((self.folder / "refused.png").exists())
 
     def test_of_what_is_not_a_result_under_records(self):
         self.refuses(74, "cannot read", "missing.h5")
         pulse = 'scene.pulse="one_sine"\n[plane]\nfrequency.values=[1, 2]\namplitude.values=[1, 2]\n' \
             "slenderness=0.2\nrestitution.values=[0.8]\n"
-        self.compute("pulse.h5", job=pulse)
+        self.overturn("run", "pulse.h5", job=pulse)
         self.refuses(2, "a result under records", "pulse.h5")
 
     def test_of_a_measure_or_a_field_that_is_not_there(self):
         self.refuses(2, "'mass' is not an intensity measure", "result.h5", "--im", "mass")
         self.refuses(2, "'motion' is not an intensity measure", "result.h5", "--im", "motion")
         self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
-        self.compute("region.h5", 'output.fields=["region"]')
+        self.overturn("run", "region.h5", 'output.fields=["region"]')
         self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
 
 

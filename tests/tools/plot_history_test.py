@@ -3,21 +3,16 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from tool import run_tool  # first: adds the package to the path
+from tool import InAFolder  # first: adds the package to the path
 import overturn
 from matplotlib import pyplot
 from overturn.plot import histories
 from overturn.result_file import open_result
 
-OVERTURN = os.environ["OVERTURN"]
 JOB = """
     title = "A job"
     [scene]
@@ -35,17 +30,12 @@ def open_history(path):
     return open_result(path, "rocking history", "a history")
 
 
-class TestAHistoryUnderARecord(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        (self.folder / "job.toml").write_text(JOB)
-        self.compute()
+class TestAHistoryUnderARecord(InAFolder):
+    TOOL, FILE, JOB = "plot_history", "history.h5", JOB
 
-    def compute(self):
-        subprocess.run([OVERTURN, "history", "job.toml", "-o", "history.h5"], cwd=self.folder,
-                       check=True, capture_output=True, timeout=100)
+    def setUp(self):
+        super().setUp()
+        self.overturn("history", "history.h5")
 
     def under_a_record(self, **attributes):
         """Replaces the pulse of the history by a record."""
@@ -57,12 +47,6 @@ class TestAHistoryUnderARecord(unittest.TestCase):
             for name in ("pulse", "frequency", "amplitude", "pga"):
                 del file.attrs[name]
             file.attrs.update({"record": "records/a_$1$.AT2", "gravity": 9.81, **attributes})
-
-    def picture(self, *arguments):
-        run = run_tool("plot_history", "history.h5", "-o", "picture.svg", *arguments,
-                       cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return (self.folder / "picture.svg").read_text("utf-8")
 
     def history(self, start=0, until=np.inf):
         with open_history(self.folder / "history.h5") as file:
@@ -87,7 +71,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
             with open_history(self.folder / "history.h5") as file:
                 self.assertIn(f"$R$ = {size:.4g} m", histories.describe(file))
             (self.folder / "history.h5").unlink()
-            self.compute()
+            self.overturn("history", "history.h5")
 
     def test_is_in_seconds_and_in_alpha(self):
         self.under_a_record()
@@ -104,7 +88,7 @@ class TestAHistoryUnderARecord(unittest.TestCase):
 
     def test_shows_ground_and_tilt_with_their_events(self):
         self.under_a_record()
-        picture = self.picture()
+        picture = self.svg()
         for words in ("A job", "uplift", "at rest", "time since the start of the record  [s]"):
             self.assertIn(f">{words}<", picture)
         with h5py.File(self.folder / "history.h5") as file:
@@ -120,36 +104,32 @@ class TestAHistoryUnderARecord(unittest.TestCase):
                                  rf"a_\$1\$.AT2, {words}, $R$ = 3 m, $\alpha$ = 0.2 rad, "
                                  "$r$ = 0.9: falls during the record (F−)")
             (self.folder / "history.h5").unlink()
-            self.compute()
+            self.overturn("history", "history.h5")
 
     def test_without_a_title_is_titled_by_its_record(self):
         self.under_a_record(title="")
-        self.assertIn(">a_$1$.AT2<", self.picture())
+        self.assertIn(">a_$1$.AT2<", self.svg())
 
     def test_is_drawn_from_and_until_given_times(self):
         self.under_a_record()
         history = self.history(1.0, 2.0)
         self.assertTrue((history.time >= 1).all() and (history.time <= 2).all())
         self.assertTrue(all(1 <= when <= 2 for when, _, _ in history.events))
-        self.picture("--from", "1", "--until", "2")
-        run = run_tool("plot_history", "history.h5", "--from", "3", "--until", "2", cwd=self.folder)
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("has no data from 3 s to 2 s", run.stderr)
+        self.svg("--from", "1", "--until", "2")
+        self.refuses(74, "has no data from 3 s to 2 s", "history.h5", "--from", "3", "--until", "2")
 
     def test_without_the_frequency_parameter_is_damaged(self):
         self.under_a_record()
         with h5py.File(self.folder / "history.h5", "a") as file:
             del file.attrs["frequency_parameter"]
-        run = run_tool("plot_history", "history.h5", cwd=self.folder)
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("is damaged", run.stderr)
+        self.refuses(74, "is damaged", "history.h5")
 
     def test_under_a_pulse_keeps_its_units_and_panels(self):
         history = self.history()
         with h5py.File(self.folder / "history.h5") as file:
             np.testing.assert_array_equal(history.time, file["time"][:])
             np.testing.assert_array_equal(history.values["angle"], file["angle"][:])
-        picture = self.picture()
+        picture = self.svg()
         for words in ("velocity", "acceleration"):
             self.assertIn(words, picture)
 

@@ -4,22 +4,18 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import argparse
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
-import plot_spectrum_test
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, S_PLUS, U0_MINUS, Picture,
-                                add_field)
-from tool import run_tool  # first: adds the package to the path
+import plot_spectrum_test  # adds the package to the path
+from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, U0_MINUS, Picture, add_field
 from overturn.region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
 from overturn.spectrum_file import Axis
 
 
 class LandingPicture(Picture):
-    def plot(self, *arguments):
-        return run_tool("plot_landing", *arguments, cwd=self.folder)
+    TOOL = "plot_landing"
 
     def landing(self, codes, angle, velocity):
         """Writes a result file whose points have given end states."""
@@ -86,7 +82,7 @@ class TestWhereTheyLand(LandingPicture):
         generator = np.random.default_rng(1)
         self.landing(np.full((1000, 1000), S), generator.uniform(-0.2, 0.2, (1000, 1000)),
                      generator.uniform(-0.2, 0.2, (1000, 1000)))
-        self.assertEqual(self.plot("spectrum.h5", "-o", "picture.pdf").returncode, 0)
+        self.output_of("spectrum.h5", "-o", "picture.pdf")
         # As vector markers, 20 bytes each, they would take 20 MB.
         self.assertLess((self.folder / "picture.pdf").stat().st_size, 2_000_000)
 
@@ -115,10 +111,8 @@ class TestTheNames(LandingPicture):
 
 class TestAComputedLanding(LandingPicture):
     def test_of_the_one_sine_pulse_is_plotted(self):
-        job = plot_spectrum_test.TestAComputedFile.JOB.replace("%s", 'angle", "velocity", "region')
-        (self.folder / "job.toml").write_text(job)
-        subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
-                       check=True, capture_output=True, timeout=100)
+        self.overturn("run", "spectrum.h5", 'output.fields=["angle", "velocity", "region"]',
+                      job=plot_spectrum_test.TestAComputedFile.JOB)
         words = self.words("--label", "IV=U1+@6,7")
         self.assertIn("IV  U1+", words)
         self.assertIn("Computed", words)
@@ -164,33 +158,20 @@ class TestALabel(unittest.TestCase):
 
 
 class TestALandingRefused(LandingPicture):
-    def refuses(self, code, sentence, *arguments):
-        run = self.plot(*arguments)
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertIn(sentence, run.stderr)
-        self.assertNotIn("Traceback", run.stderr)
-
-    def test_of_a_text_file(self):
-        (self.folder / "text.h5").write_text("not a spectrum")
-        self.refuses(74, "not an HDF5 file", "text.h5")
-
     def test_without_the_velocity_names_the_missing_field(self):
         self.landing([[S]], 0.0, 0.0)
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            del file["velocity"]
+        self.change(lambda file: file.pop("velocity"))
         self.refuses(74, "no field velocity; add it to output.fields", "spectrum.h5")
 
     def test_of_a_damaged_file(self):
         self.landing([[S]], 0.0, 0.0)
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            del file["amplitude"]
+        self.change(lambda file: file.pop("amplitude"))
         self.refuses(74, "is damaged", "spectrum.h5")
 
     def test_of_several_spectra_lists_the_choices(self):
         self.landing(np.zeros((1, 3, 2, 2)), 0.0, 0.0)
         self.refuses(2, "--restitution (0 to 2)", "spectrum.h5")
-        run = self.plot("spectrum.h5", "--restitution", "1")
-        self.assertEqual((run.returncode, run.stdout), (0, "spectrum_landing.png\n"), run.stderr)
+        self.assertEqual(self.output_of("spectrum.h5", "--restitution", "1"), "spectrum_landing.png\n")
 
     def test_of_an_invalid_label_shows_an_example(self):
         self.landing([[S]], 0.0, 0.0)

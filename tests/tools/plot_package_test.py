@@ -3,36 +3,26 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from tool import JOBS, InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from matplotlib import image, pyplot
 from overturn.regions import CODES
 
-OVERTURN = os.environ["OVERTURN"]
-SMOKE = TOOLS.parent / "jobs" / "smoke.toml"
-FEW = [f"--set=plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
+FEW = [f"plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
 
 
-class TestPicturesFromPython(unittest.TestCase):
+class TestPicturesFromPython(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        for command, name, *more in (("run", "spectrum", "plane.restitution.values=[0.8,1]"),
-                                     ("boundary", "boundary"), ("history", "history")):
-            settings = [f"--set={setting}" for setting in more]
-            point = ["--at", "frequency=3,amplitude=1.5"] if command == "history" else FEW
-            subprocess.run([OVERTURN, command, SMOKE, "-o", f"{name}.h5", *point, *settings],
-                           cwd=cls.folder, check=True, capture_output=True, timeout=100)
+        super().setUpClass()
+        for command, name, *settings in (("run", "spectrum", *FEW, "plane.restitution.values=[0.8,1]"),
+                                         ("boundary", "boundary", *FEW),
+                                         ("history", "history", "plane.frequency=3", "plane.amplitude=1.5")):
+            run_overturn(cls.folder, command, JOBS / "smoke.toml", f"{name}.h5", *settings)
 
     def tearDown(self):
         pyplot.close("all")
@@ -46,8 +36,7 @@ class TestPicturesFromPython(unittest.TestCase):
                                          ("history", overturn.plot.history, {}, {"dpi": 120})):
             with self.subTest(name):
                 arguments = [word for option, value in options.items() for word in (f"--{option}", str(value))]
-                run = run_tool(f"plot_{name}", f"{name}.h5", *arguments, cwd=self.folder)
-                self.assertEqual(run.returncode, 0, run.stderr)
+                self.output_of(f"{name}.h5", *arguments, tool=f"plot_{name}")
                 axes = draw(self.path(name), **options)
                 (axes[0] if isinstance(axes, list) else axes).figure.savefig(self.folder / "own.png", **how)
                 np.testing.assert_array_equal(image.imread(self.folder / "own.png"),
@@ -70,7 +59,7 @@ class TestPicturesFromPython(unittest.TestCase):
         self.assertAlmostEqual(min(widths), max(widths), delta=1e-3)
         self.assertEqual(panels[0].get_xlabel(), panels[1].get_xlabel())
         self.assertIn("time since the start of the pulse", panels[2].get_xlabel())
-        with self.assertRaisesRegex(overturn.PlotError, "limited to 1"):
+        with self.assertRaisesRegex(overturn.ToolError, "limited to 1"):
             overturn.plot.spectrum(self.path("spectrum"), ax=panels[0])
 
     def test_take_a_data_set_as_it_was_opened(self):
@@ -89,7 +78,7 @@ class TestPicturesFromPython(unittest.TestCase):
         self.assertEqual(sorted(CODES.values()), list(range(9)))
 
     def test_of_another_kind_of_file_are_refused(self):
-        with self.assertRaisesRegex(overturn.PlotError, "is not a spectrum"):
+        with self.assertRaisesRegex(overturn.ToolError, "is not a spectrum"):
             overturn.plot.spectrum(self.path("boundary"))
 
 

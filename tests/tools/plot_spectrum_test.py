@@ -3,31 +3,21 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
-import os
-import pathlib
-import re
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from matplotlib import colors, image
-from tool import run_tool  # first: adds the package to the path
+from matplotlib import colors
+from tool import InAFolder  # first: adds the package to the path
 from overturn.regions import REGIONS
 from overturn.spectrum_file import Axis
 from overturn.ticks import log_ticks
 
-OVERTURN = os.environ["OVERTURN"]
-
 S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 4, 8, 254, 255
 
 
-class Picture(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class Picture(InAFolder):
+    TOOL, FILE = "plot_spectrum", "spectrum.h5"
 
     def spectrum(self, codes, frequency=None, amplitude=None, size=None, **attributes):
         """Writes a result file with the given codes; slenderness and restitution may be omitted.
@@ -45,18 +35,9 @@ class Picture(unittest.TestCase):
             if size is not None:
                 add_coordinate(file, "size", size)
 
-    def plot(self, *arguments):
-        return run_tool("plot_spectrum", *arguments, cwd=self.folder)
-
-    def picture(self, *arguments):
-        run = self.plot("spectrum.h5", "-o", "picture.png", *arguments)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return np.round(255 * image.imread(self.folder / "picture.png")[..., :3]).astype(int)
-
-    def words(self, *arguments):
-        run = self.plot("spectrum.h5", "-o", "picture.svg", *arguments)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+    def change(self, change):
+        with h5py.File(self.folder / "spectrum.h5", "a") as file:
+            change(file)
 
 
 def write_result(file, axes, codes, computed):
@@ -213,8 +194,7 @@ class TestTheWords(Picture):
         self.spectrum([[S]])
         settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
         settings += "\noutput.fields=[\"region\"]\noutput = {}"
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            file["run/job_overrides"] = np.frombuffer(settings.encode(), np.uint8)
+        self.change(lambda file: file.update({"run/job_overrides": np.frombuffer(settings.encode(), np.uint8)}))
         self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",
                       [word.replace("&quot;", '"') for word in self.words()])
 
@@ -256,16 +236,12 @@ class TestSeveralSpectra(Picture):
 
     def test_a_single_dimension_is_no_map(self):
         self.spectrum([[S]])
-        run = self.plot("spectrum.h5", *(f"--index={name}=0" for name in (
-            "slenderness", "restitution_of_maximum", "amplitude")))
-        self.assertEqual(run.returncode, 2)
-        self.assertIn("has frequency only. Give more axes in the job, or use tools/to_csv", run.stderr)
+        self.refuses(2, "has frequency only. Give more axes in the job, or use tools/to_csv", "spectrum.h5",
+                     *(f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "amplitude")))
 
     def test_too_many_are_refused_with_the_choices(self):
         self.spectrum(np.zeros((1, 13, 2, 2)))
-        run = self.plot("spectrum.h5")
-        self.assertEqual(run.returncode, 2)
-        self.assertIn("--restitution (0 to 12)", run.stderr)
+        self.refuses(2, "--restitution (0 to 12)", "spectrum.h5")
 
 
 class TestAComputedFile(Picture):
@@ -278,17 +254,10 @@ class TestAComputedFile(Picture):
         amplitude = { first = 1.0, last = 12.0, count = 40 }
         restitution = { values = [1.0], of = "maximum" }
         slenderness = { values = [0.1745716] }
-        [output]
-        fields = ["%s"]
         """
 
-    def compute(self, field):
-        (self.folder / "job.toml").write_text(self.JOB % field)
-        subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
-                       check=True, capture_output=True, timeout=100)
-
     def test_has_each_region_of_the_one_sine_spectrum(self):
-        self.compute("region")
+        self.overturn("run", "spectrum.h5")
         words = " ".join(self.words())
         for region in ("S ", "S+ ", "U0+ ", "U0− ", "U1+ ", "F− "):
             self.assertIn(region, words)
@@ -300,19 +269,11 @@ class TestAComputedFile(Picture):
                                    atol=0.01)
 
     def test_without_the_region_names_the_missing_field(self):
-        self.compute("margin")
-        run = self.plot("spectrum.h5")
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("no field region; add it to output.fields", run.stderr)
+        self.overturn("run", "spectrum.h5", 'output.fields=["margin"]')
+        self.refuses(74, "no field region; add it to output.fields", "spectrum.h5")
 
 
 class TestARefusal(Picture):
-    def refuses(self, code, sentence, *arguments):
-        run = self.plot(*arguments)
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertIn(sentence, run.stderr)
-        self.assertNotIn("Traceback", run.stderr)
-
     def test_of_a_missing_file(self):
         self.refuses(74, "No such file", "nowhere.h5")
 
@@ -323,13 +284,16 @@ class TestARefusal(Picture):
     def test_of_a_foreign_hdf5_file(self):
         with h5py.File(self.folder / "other.h5", "w") as file:
             file["region"] = [1]
-        self.refuses(74, "not a spectrum written by overturn run", "other.h5")
+        for tool, kind in (("plot_spectrum", "a spectrum written by overturn run"),
+                           ("plot_boundary", "a boundary written by overturn boundary"),
+                           ("plot_history", "a history written by overturn history"),
+                           ("plot_accuracy", "a study written by overturn accuracy")):
+            self.refuses(74, f"is not {kind}", "other.h5", tool=tool)
 
     def test_of_another_format(self):
         self.spectrum([[S]])
         for version, words in ((2, "the overturn that wrote it"), (5, "a newer overturn")):
-            with h5py.File(self.folder / "spectrum.h5", "a") as file:
-                file.attrs["format_version"] = version
+            self.change(lambda file: file.attrs.update({"format_version": version}))
             self.refuses(74, f"has format version {version}; this tool reads versions 3 and 4. Use the tools of "
                          f"{words}", "spectrum.h5")
 
@@ -341,8 +305,7 @@ class TestARefusal(Picture):
 
     def test_of_a_file_that_lacks_an_axis(self):
         self.spectrum([[S]])
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            del file["frequency"]
+        self.change(lambda file: file.pop("frequency"))
         self.refuses(74, "is damaged", "spectrum.h5")
 
     def test_of_an_index_out_of_range_shows_the_range(self):

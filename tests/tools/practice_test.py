@@ -8,16 +8,14 @@ import unittest
 import h5py
 import numpy as np
 from matplotlib import colors
-from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, UNDECIDED, add_field
+from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, UNDECIDED
 from recorded_spectra_test import Recorded  # first: adds the package to the path
 from overturn import practice
 
 
 class TestPublishedPractice(Recorded):
     def practice(self, *arguments):
-        run = self.plot("spectrum.h5", "-o", "picture.png", "--practice", *arguments)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run.stdout
+        return self.output_of("spectrum.h5", "-o", "picture.png", "--practice", *arguments)
 
     def test_misjudges_safe_blocks_that_pass_alpha(self):
         self.recorded([[S, S, S_PLUS, F_MINUS]])
@@ -61,8 +59,7 @@ class TestPublishedPractice(Recorded):
 
     def test_may_be_compared_under_pulses_too(self):
         self.spectrum([[S, S, F_MINUS]])
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            add_field(file, "peak", np.reshape([0.5, 1.5, np.inf], (1, 1, 1, 3)), np.nan)
+        self.add("peak", [0.5, 1.5, np.inf])
         self.assertIn("1 of 2 safe points (50 %)", self.practice())
 
 

@@ -5,15 +5,13 @@ Requires OVERTURN (the binary) in the environment.
 
 import csv
 import shutil
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_PLUS, UNDECIDED,
-                                Picture, add_coordinate, add_field, shares, where,
-                                write_result)
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, S, UNDECIDED, Picture, add_coordinate, add_field, shares,
+                                where, write_result)
+from tool import JOBS  # adds the package to the path
 from overturn.spectrum_file import Plane, open_spectrum
 from overturn.units import name_axes
 
@@ -46,19 +44,13 @@ class Recorded(Picture):
                 add_coordinate(file, "pga", np.outer(0.4 + 0.1 * np.arange(count), values[up]), "motion", "scale")
 
     def add(self, name, values, fill=np.nan):
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            values = np.reshape(values, file["region"].shape)
-            add_field(file, name, values, fill)
-
-    def change(self, change):
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            change(file)
+        self.change(lambda file: add_field(file, name, np.reshape(values, file["region"].shape), fill))
 
     def compute(self):
         """Two records, two slendernesses, two restitutions."""
         for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
-            shutil.copy(TOOLS.parent / "jobs" / name, self.folder)
-        (self.folder / "job.toml").write_text("""
+            shutil.copy(JOBS / name, self.folder)
+        self.overturn("run", "spectrum.h5", job="""
             title = "A suite"
             [scene]
             record = ["synthetic.AT2", "synthetic_vertical.AT2"]
@@ -70,14 +62,9 @@ class Recorded(Picture):
             [output]
             fields = ["region", "angle", "velocity", "margin", "peak", "impacts", "status"]
             """)
-        subprocess.run([OVERTURN, "run", "job.toml", "-o", "spectrum.h5"], cwd=self.folder,
-                       check=True, capture_output=True, timeout=100)
 
-    def refuses(self, code, sentence, *arguments, tool="plot_spectrum"):
-        run = run_tool(tool, "spectrum.h5", *arguments, cwd=self.folder)
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertIn(sentence, run.stderr)
-        self.assertNotIn("Traceback", run.stderr)
+    def refuses(self, code, sentence, *arguments, **how):
+        return super().refuses(code, sentence, "spectrum.h5", *arguments, **how)
 
 
 class TestThePlane(Recorded):
@@ -89,14 +76,6 @@ class TestThePlane(Recorded):
             with open_spectrum(self.folder / "spectrum.h5") as file:
                 self.assertEqual(name_axes(Plane(file, {}, across, up)), labels)
             self.assertIn(labels[1], self.words())
-
-    def test_grows_upward_in_scale_and_to_the_right_in_size(self):
-        self.recorded([[S, F_MINUS], [U0_PLUS, U0_PLUS]])
-        picture = self.picture()
-        middle = {code: np.median(np.argwhere(where(picture, code)), axis=0)
-                  for code in (S, F_MINUS, U0_PLUS)}
-        self.assertGreater(middle[S][0], middle[U0_PLUS][0] + 100)  # rows are counted downward
-        self.assertLess(middle[S][1], middle[F_MINUS][1] - 100)
 
     def test_is_titled_by_the_file_of_the_record_unless_the_job_has_a_title(self):
         self.recorded([[S]], ["records/a_$1$.AT2"])
@@ -122,15 +101,6 @@ class TestThePlane(Recorded):
         np.testing.assert_allclose(shares(self.picture(), [F_MINUS, UNDECIDED, S]), [0.5, 0.5, 0],
                                    atol=0.01)
         self.assertIn("undecided: see field status", self.words())
-
-    def test_never_shows_points_not_computed_as_safe(self):
-        self.recorded([[F_MINUS, S], [F_MINUS, S]], computed=[[1, 0], [1, 0]])
-        picture = self.picture()
-        self.assertEqual(np.count_nonzero(where(picture, S)), 0)
-        self.assertAlmostEqual(np.count_nonzero(where(picture, F_MINUS)) / 1e6, 0.5, delta=0.01)
-        words = self.words()
-        self.assertIn("not computed yet", words)
-        self.assertIn("unfinished: 2 of 4 tiles computed", " ".join(words))
 
     def test_of_one_size_is_drawn_in_bands_over_that_size(self):
         self.recorded([[S], [F_MINUS], [S]], scale=[0.1, 0.2, 0.4], size=[1.0307764])
@@ -204,10 +174,7 @@ class TestOtherTools(Recorded):
         self.compute()
         self.refuses(2, "choose with --motion (0 to 1) or --slenderness (0 to 1)",
                      tool="plot_landing")
-        run = run_tool("plot_landing", "spectrum.h5", *self.CHOICE, "-o", "landing.svg",
-                       cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        picture = (self.folder / "landing.svg").read_text("utf-8")
+        picture = self.svg(*self.CHOICE, tool="plot_landing")
         for words in ("A suite", "synthetic_vertical.AT2,  α = 0.15 rad", "PGA [g]",
                       "State at the end of the record, near upright"):
             self.assertIn(words, picture)
@@ -217,15 +184,11 @@ class TestOtherTools(Recorded):
         self.recorded(np.full((20, 20), UNDECIDED))
         for name in ("angle", "velocity"):
             self.add(name, np.zeros((20, 20)))
-        run = run_tool("plot_landing", "spectrum.h5", "-o", "landing.svg", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        picture = (self.folder / "landing.svg").read_text("utf-8")
-        self.assertIn(">undecided<", picture)
+        self.assertIn(">undecided<", self.svg(tool="plot_landing"))
 
     def test_to_csv_has_columns_named_as_the_axes(self):
         self.compute()
-        run = run_tool("to_csv", "spectrum.h5", *self.CHOICE, cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.output_of("spectrum.h5", *self.CHOICE, tool="to_csv")
         with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
             header, *rows = csv.reader(text)
         self.assertEqual(header, ["size", "pga", "restitution_of_maximum", "slenderness", "motion",

@@ -8,12 +8,11 @@ import importlib.util
 import json
 import os
 import pathlib
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from tool import TOOLS, InOneFolder  # first: adds the package to the path
 import overturn
 
 spec = importlib.util.spec_from_file_location("shake_table", TOOLS / "examples/shake_table.py")
@@ -55,24 +54,19 @@ def write(path, records, flags, names=True):
             file["tests/record"] = [f"record {i // 3}" for i in range(len(records))]
 
 
-class Simulated(unittest.TestCase):
+class Simulated(InOneFolder):
+    TOOL = "examples/shake_table.py"
+
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-shake-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         cls.tests = simulated(40, seed=1)
         write(cls.folder / "tests.h5", *cls.tests)
 
-    def run_example(self, *arguments):
-        return run_tool("examples/shake_table.py", *arguments, cwd=self.folder)
-
     def result(self, *arguments):
-        done = self.run_example(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
+        return json.loads(self.output_of(*arguments))
 
-    def refuses(self, sentence, function, *arguments):
+    def raises(self, sentence, function, *arguments):
         with self.assertRaisesRegex(example.TestsError, sentence):
             function(*arguments)
 
@@ -94,10 +88,10 @@ class TestAFit(Simulated):
 
     def test_refuses_what_it_cannot_use(self):
         write(self.folder / "nameless.h5", *self.tests, names=False)
-        self.refuses("a fit needs tests/record", example.fit, self.folder / "nameless.h5", 5, 1)
+        self.raises("a fit needs tests/record", example.fit, self.folder / "nameless.h5", 5, 1)
         write(self.folder / "few.h5", [record[:50] for record in self.tests[0][:6]], {"a": [1] * 6})
-        self.refuses("2 records cannot be divided into 5 folds", example.fit, self.folder / "few.h5", 5, 1)
-        self.refuses("others must not, in each fold", example.fit, self.folder / "few.h5", 2, 1)
+        self.raises("2 records cannot be divided into 5 folds", example.fit, self.folder / "few.h5", 5, 1)
+        self.raises("others must not, in each fold", example.fit, self.folder / "few.h5", 2, 1)
 
 
 class TestAPrediction(Simulated):
@@ -138,13 +132,11 @@ class TestAPrediction(Simulated):
     def test_refuses_another_layout(self):
         with h5py.File(self.folder / "empty.h5", "w") as file:
             file["motion"] = [0.0]
-        done = self.run_example("predict", "model.json", "empty.h5")
-        self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stderr, "shake_table: \"empty.h5\": there is no dataset acceleration. --help describes "
-                         "the layout.\n")
-        self.refuses("cannot read \".*missing.h5\"", example.Tests, self.folder / "missing.h5")
+        self.refuses(1, "shake_table: \"empty.h5\": there is no dataset acceleration. --help describes the layout.\n",
+                     "predict", "model.json", "empty.h5")
+        self.raises("cannot read \".*missing.h5\"", example.Tests, self.folder / "missing.h5")
         (self.folder / "other.json").write_text("{}")
-        self.refuses("is not a model", example.read_model, self.folder / "other.json")
+        self.raises("is not a model", example.read_model, self.folder / "other.json")
         for place, change in (("tests/start", lambda file: file["tests/start"].__setitem__(0, 10**6)),
                               ("dt", lambda file: file["acceleration"].attrs.__delitem__("dt")),
                               ("is in m/s2", lambda file: file["acceleration"].attrs.__setitem__("units", "m/s2")),
@@ -153,7 +145,7 @@ class TestAPrediction(Simulated):
             write(self.folder / "wrong.h5", *self.tests)
             with h5py.File(self.folder / "wrong.h5", "a") as file:
                 change(file)
-            self.refuses(place, example.Tests, self.folder / "wrong.h5")
+            self.raises(place, example.Tests, self.folder / "wrong.h5")
 
 
 class TestTheScores(unittest.TestCase):
@@ -185,7 +177,7 @@ class TestTheCalibrationHalf(Simulated):
     def test_is_predicted_in_cross_validation(self):
         if not DATA.exists():
             self.skipTest(f"no file {DATA}")
-        done = run_tool("examples/shake_table.py", "fit", DATA, cwd=self.folder, timeout=600)
+        done = self.run_tool("fit", DATA, timeout=600)
         for name, rock in json.loads(done.stdout).items():
             with self.subTest(name):
                 self.assertGreaterEqual(rock["accuracy"], 0.87)

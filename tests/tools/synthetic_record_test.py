@@ -1,30 +1,19 @@
 """The records that tools/synthetic_record writes, and those in jobs/, which it has written."""
 
-import pathlib
-import tempfile
 import unittest
 
 import numpy as np
-from tool import TOOLS, run_tool
+from tool import JOBS, InAFolder
 
-JOBS = TOOLS.parent / "jobs"
 GRAVITY = 9.80665  # [m/s2]
 
 
-class Written(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-record-")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_tool(self, *arguments):
-        return run_tool("synthetic_record", *arguments, cwd=self.folder)
+class Written(InAFolder):
+    TOOL = "synthetic_record"
 
     def write(self, *arguments, output="synthetic.AT2"):
         """Runs the tool, which must write this file; returns its bytes."""
-        run = self.run_tool(*arguments)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(run.stdout, output + "\n")
+        self.assertEqual(self.output_of(*arguments), output + "\n")
         return (self.folder / output).read_bytes()
 
     def values(self, *arguments):
@@ -74,8 +63,7 @@ class TestASyntheticRecord(Written):
 
 class TestASuite(Written):
     def suite(self):
-        run = self.run_tool("--suite", "20")
-        self.assertEqual((run.returncode, run.stdout), (0, "suite\n"), run.stderr)
+        self.assertEqual(self.output_of("--suite", "20"), "suite\n")
         return sorted((self.folder / "suite").iterdir())
 
     def test_consists_of_different_records(self):
@@ -109,10 +97,7 @@ class TestAPulse(Written):
 
 class TestASyntheticRecordRefused(Written):
     def refuses(self, code, sentence, *arguments):
-        run = self.run_tool(*arguments)
-        self.assertEqual(run.returncode, code, run.stderr)
-        self.assertIn(sentence, run.stderr)
-        self.assertNotIn("Traceback", run.stderr)
+        super().refuses(code, sentence, *arguments)
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_of_arguments_that_are_not_positive(self):
@@ -130,11 +115,9 @@ class TestASyntheticRecordRefused(Written):
             self.refuses(2, "is outside 0.001 to 1000", "--pga", pga)
 
     def test_of_a_suite_among_other_records(self):
-        self.assertEqual(self.run_tool("--suite", "5").returncode, 0)
-        refused = self.run_tool("--suite", "2")
-        self.assertEqual(refused.returncode, 74)
-        self.assertIn("it holds other records, such as 03.AT2", refused.stderr)
-        self.assertEqual(self.run_tool("--suite", "5").returncode, 0)
+        self.output_of("--suite", "5")
+        super().refuses(74, "it holds other records, such as 03.AT2", "--suite", "2")
+        self.output_of("--suite", "5")
 
     def test_of_a_pulse_that_does_not_fit_or_a_suite_of_none(self):
         self.refuses(2, "is above a quarter of the duration", "--pulse-period", "6")

@@ -1,5 +1,5 @@
-"""Running the tools in a given folder. Importing this module makes the package `overturn` of the tools
-importable."""
+"""Running the tools and the program in a folder. Importing this module makes the package `overturn` of the tools
+importable. Running the program requires OVERTURN (the binary) in the environment."""
 
 import contextlib
 import importlib
@@ -9,8 +9,11 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
+import unittest
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+JOBS = TOOLS.parent / "jobs"
 PATIENCE = 100  # [s] for one run of a tool; the longest takes a few seconds
 
 sys.dont_write_bytecode = True
@@ -25,12 +28,82 @@ def run_tool(name, *arguments, cwd, **how):
     if how or not command:
         return subprocess.run([sys.executable, TOOLS / name, *arguments], text=True, cwd=cwd,
                               capture_output=True, **{"timeout": PATIENCE, **how})
-    from overturn import result_file
+    from overturn import tool
     main = importlib.import_module(command[2]).main
     output, errors, code = io.StringIO(), io.StringIO(), 0
     with contextlib.chdir(cwd), contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         try:
-            result_file.run_tool(command[1], lambda: main([str(word) for word in arguments]))
+            tool.run_tool(command[1], lambda: main([str(word) for word in arguments]))
         except SystemExit as end:
             code = end.code or 0
     return subprocess.CompletedProcess([name, *arguments], code, output.getvalue(), errors.getvalue())
+
+
+def new_folder(add_cleanup):
+    folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+    add_cleanup(folder.cleanup)
+    return pathlib.Path(folder.name)
+
+
+def run_overturn(folder, command, job, name, *settings):
+    """Runs the program; `job` is a path, or the text of a job."""
+    if not isinstance(job, pathlib.Path):
+        (folder / "job.toml").write_text(job)
+        job = "job.toml"
+    subprocess.run([os.environ["OVERTURN"], command, job, "-o", name, *(f"--set={each}" for each in settings)],
+                   cwd=folder, check=True, capture_output=True, timeout=PATIENCE)
+
+
+class InAFolder(unittest.TestCase):
+    """A separate folder for each test, in which the tools and the program run."""
+
+    TOOL = None  # the tool that the class tests
+    FILE = ""  # the file that it draws
+    JOB = ""
+
+    def setUp(self):
+        self.folder = new_folder(self.addCleanup)
+
+    def overturn(self, command, name, *settings, job=None):
+        run_overturn(self.folder, command, job or self.JOB, name, *settings)
+
+    def run_tool(self, *arguments, tool=None, **how):
+        return run_tool(tool or self.TOOL, *arguments, cwd=self.folder, **how)
+
+    def output_of(self, *arguments, tool=None):
+        run = self.run_tool(*arguments, tool=tool)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def svg(self, *arguments, tool=None, file=None):
+        """Returns the picture as SVG."""
+        self.output_of(*filter(None, [file or self.FILE]), "-o", "picture.svg", *arguments, tool=tool)
+        return (self.folder / "picture.svg").read_text("utf-8")
+
+    def words(self, *arguments):
+        """Returns the texts of the picture."""
+        return re.findall(r"<text[^>]*>([^<]+)", self.svg(*arguments))
+
+    def picture(self, *arguments, tool=None, file=None):
+        """Returns the colours of the picture, from 0 to 255."""
+        self.output_of(file or self.FILE, "-o", "picture.png", *arguments, tool=tool)
+        from matplotlib import image
+        return (255 * image.imread(self.folder / "picture.png")[..., :3]).round().astype(int)
+
+    def refuses(self, code, sentence, *arguments, tool=None, **how):
+        run = self.run_tool(*arguments, tool=tool, **how)
+        self.assertEqual(run.returncode, code, run.stderr)
+        self.assertIn(sentence, run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+        return run
+
+
+class InOneFolder(InAFolder):
+    """A folder for all tests of a class."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = new_folder(cls.addClassCleanup)
+
+    def setUp(self):
+        pass

@@ -4,17 +4,16 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
-import subprocess
+import shutil
 import unittest
 
 import h5py
 import numpy as np
 import xarray
-from matplotlib import colors, image, pyplot
-from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, OVERTURN, S, U0_MINUS, add_coordinate,
-                                shares, where)
+from matplotlib import colors, pyplot
+from plot_spectrum_test import F_MINUS, S, U0_MINUS, add_coordinate, shares, where
 from recorded_spectra_test import Recorded
-from tool import TOOLS, run_tool  # first: adds the package to the path
+from tool import JOBS  # first: adds the package to the path
 import overturn
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot import boundaries, histories
@@ -58,24 +57,13 @@ def open_history(path):
 
 
 class Sized(Recorded):
+    JOB = JOB
+
     def sized(self, codes, pulse_period, pga, **axes):
         """Writes a spectrum over frequency and amplitude for blocks of known size."""
         self.spectrum(codes, size=0.95, **axes)
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            add_coordinate(file, "pulse_period", pulse_period, "frequency")
-            add_coordinate(file, "pga", pga, *["slenderness"] * (np.ndim(pga) - 1), "amplitude")
-
-    def overturn(self, command, name, *settings, job=JOB):
-        (self.folder / "job.toml").write_text(job)
-        subprocess.run([OVERTURN, command, "job.toml", "-o", name,
-                        *(f"--set={setting}" for setting in settings)], cwd=self.folder,
-                       check=True, capture_output=True, timeout=100)
-
-    def drawn(self, tool, *arguments):
-        """Returns the picture as SVG."""
-        run = run_tool(tool, *arguments, "-o", "picture.svg", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return (self.folder / "picture.svg").read_text("utf-8")
+        self.change(lambda file: add_coordinate(file, "pulse_period", pulse_period, "frequency"))
+        self.change(lambda file: add_coordinate(file, "pga", pga, *["slenderness"] * (np.ndim(pga) - 1), "amplitude"))
 
 
 class TestAPlaneInPhysicalUnits(Sized):
@@ -115,11 +103,6 @@ class TestAPlaneInPhysicalUnits(Sized):
         self.assertIn("a.AT2,  α = 5.73°,  r = 0.7 r_max = 0.625", words)  # not PGA 0.4 g
         self.assertIn("1.2", words)
 
-    def test_never_shows_points_not_computed_as_safe(self):
-        self.sized([[F_MINUS, NOT_COMPUTED]], [2.0, 1.0], [0.4])
-        self.assertEqual(np.count_nonzero(where(self.picture(*PHYSICAL), S)), 0)
-        self.assertIn("not computed yet", self.words(*PHYSICAL))
-
     def test_with_physical_axes_is_the_same_in_both_units(self):
         self.overturn("run", "spectrum.h5")
         words = self.words()
@@ -129,12 +112,13 @@ class TestAPlaneInPhysicalUnits(Sized):
             np.testing.assert_array_equal(*(where(picture, code) for picture in pictures))
 
     def test_needs_the_size_of_the_block(self):
-        for command, tool in (("run", "plot_spectrum"), ("boundary", "plot_boundary")):
-            self.overturn(command, f"{command}.h5", *SIZELESS)
-            run = run_tool(tool, f"{command}.h5", *PHYSICAL, cwd=self.folder)
-            self.assertEqual(run.returncode, 74)
-            self.assertIn("Add [block] with width and height to the job, or the half diagonal "
-                          "plane.size", run.stderr)
+        point = ("plane.frequency=3", "plane.amplitude=1.3")
+        for command, name, settings in (("run", "spectrum", ()), ("boundary", "boundary", ()),
+                                        ("history", "history", point)):
+            self.overturn(command, "spectrum.h5", *SIZELESS, *settings)
+            self.refuses(74, "Add [block] with width and height to the job, or the half diagonal plane.size", *PHYSICAL,
+                         tool=f"plot_{name}")
+            (self.folder / "spectrum.h5").unlink()
 
 
 class TestAPhysicalBoundary(Sized):
@@ -162,19 +146,16 @@ class TestAPhysicalBoundary(Sized):
         # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most.
         self.overturn("boundary", "boundary.h5", *DIMENSIONLESS, "plane.frequency.values=[1.2,7.5]",
                       "plane.amplitude.last=6")
-        run = run_tool("plot_boundary", "boundary.h5", *PHYSICAL, "-o", "picture.png",
-                       cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        picture = image.imread(self.folder / "picture.png")[..., :3]
+        how = {"tool": "plot_boundary", "file": "boundary.h5"}
+        picture = self.picture(*PHYSICAL, **how) / 255
         halves = np.split(picture[150:-100, 120:-50], 2, axis=1)
         safe, unsafe = ([np.isclose(half, colors.to_rgb(shade), atol=1 / 255).all(axis=2).mean()
                          for half in halves] for shade in ("#8bc77f", "#f4e3b0"))
         self.assertGreater(safe[0], 0.95)
         self.assertGreater(unsafe[1], 0.7)
-        picture = self.drawn("plot_boundary", "boundary.h5", *PHYSICAL)
+        picture = self.svg(*PHYSICAL, **how)
         for words in ("pulse period [s]", "PGA [g]", "one-sine pulse,  α = 18.43°"):
             self.assertIn(f">{words}", picture)
-
 
     def test_of_a_single_frequency_is_a_column_named_with_what_is_scanned(self):
         frequency = np.random.default_rng(1).uniform(2, 6)
@@ -245,7 +226,7 @@ class TestAnOverlaidBoundary(Sized):
 
     def test_under_a_record_must_have_the_same_record(self):
         for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
-            (self.folder / name).write_bytes((TOOLS.parent / "jobs" / name).read_bytes())
+            shutil.copy(JOBS / name, self.folder)
         over_pga = "plane.pga={first=0.3, last=1, count=5}"
         self.overturn("run", "spectrum.h5", over_pga, job=RECORDED)
         self.overturn("boundary", "boundary.h5", job=RECORDED)
@@ -275,7 +256,7 @@ class TestAPhysicalHistory(Sized):
             self.assertAlmostEqual(history.limits("velocity")[1], fastest)
             self.assertAlmostEqual(history.limits("q")[1], fastest**2)
         self.assertAlmostEqual(history.end_of_ground_motion, 0.5)
-        picture = self.drawn("plot_history", "history.h5", *PHYSICAL)
+        picture = self.svg(*PHYSICAL, tool="plot_history", file="history.h5")
         for words in ("time since the start of the pulse  [s]", "tilt [degrees]",
                       "velocity [degrees/s]", "ground [g]", "limits for an upright block that does not overturn"):
             self.assertIn(f">{words}<", picture)
@@ -292,17 +273,11 @@ class TestAPhysicalHistory(Sized):
                 self.assertEqual("period" in words, settings == self.AT)
                 self.assertEqual("omega_p" in words, settings != self.AT)
 
-    def test_needs_the_size_of_the_block(self):
-        self.overturn("history", "history.h5", *SIZELESS, "plane.frequency=3", "plane.amplitude=1.3")
-        run = run_tool("plot_history", "history.h5", *PHYSICAL, cwd=self.folder)
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("Add [block] with width and height", run.stderr)
-
 
 class TestPhysicalAxesInOtherTools(Sized):
     def test_are_columns_of_a_table_and_dimensions(self):
         self.overturn("run", "spectrum.h5")
-        self.assertEqual(run_tool("to_csv", "spectrum.h5", cwd=self.folder).returncode, 0)
+        self.output_of("spectrum.h5", tool="to_csv")
         with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
             header, *rows = csv.reader(text)
         self.assertEqual(header[:2], ["pulse_period", "pga"])

@@ -5,24 +5,18 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
-import os
-import pathlib
-import re
-import subprocess
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
-from matplotlib import colors, image
+from matplotlib import colors
 from plot_spectrum_test import Picture
-from tool import run_tool  # first: adds the package to the path
+from tool import InAFolder  # first: adds the package to the path
 from overturn.fields import read_field
 from overturn.regions import NOT_COMPUTED, REGIONS
 from overturn.result_file import open_result
 from overturn.spectrum_file import open_spectrum
 
-OVERTURN = os.environ["OVERTURN"]
 SAFE = 0
 ROWS, COLUMNS = 100, 150
 # Every block overturns during the pulse; 2 x 3 tiles.
@@ -40,19 +34,11 @@ fields = ["region", "angle", "velocity", "margin", "impacts", "steps", "status"]
 UNMARKED = slice(64, 100), slice(64, 128)  # tile 4
 
 
-class TestATileWithoutAMark(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        (self.folder / "job.toml").write_text(JOB)
-
-    def overturn(self, *arguments):
-        subprocess.run([OVERTURN, *arguments], cwd=self.folder, check=True, capture_output=True,
-                       timeout=100)
+class TestATileWithoutAMark(InAFolder):
+    TOOL, FILE, JOB = "plot_spectrum", "spectrum.h5", JOB
 
     def compute(self):
-        self.overturn("run", "job.toml", "-o", "spectrum.h5")
+        self.overturn("run", "spectrum.h5")
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             self.assertNotIn(SAFE, file["region"][...])
             file["run/checksum"][4] = 0
@@ -60,15 +46,8 @@ class TestATileWithoutAMark(unittest.TestCase):
                 if getattr(data, "ndim", 0) == 2:
                     data[UNMARKED] = 0
 
-    def run_tool(self, *arguments):
-        run = run_tool(*arguments, cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run
-
-    def count(self, colour):
-        picture = np.round(255 * image.imread(self.folder / "picture.png")[..., :3])
-        there = picture == np.round(255 * np.array(colors.to_rgb(colour)))
-        return np.count_nonzero(there.all(axis=2))
+    def count(self, colour, picture):
+        return np.count_nonzero((picture == np.round(255 * np.array(colors.to_rgb(colour)))).all(axis=2))
 
     def test_reads_as_not_computed_in_every_field(self):
         self.compute()
@@ -86,27 +65,23 @@ class TestATileWithoutAMark(unittest.TestCase):
 
     def test_is_hatched_in_the_map(self):
         self.compute()
-        self.run_tool("plot_spectrum", "spectrum.h5", "-o", "picture.png")
-        self.assertEqual(self.count(REGIONS[SAFE][2]), 0)
-        self.run_tool("plot_spectrum", "spectrum.h5", "-o", "picture.svg")
-        words = re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+        self.assertEqual(self.count(REGIONS[SAFE][2], self.picture()), 0)
+        words = self.words()
         self.assertIn("not computed yet", words)
         self.assertFalse([word for word in words if "safe" in word])
         self.assertIn("unfinished: 5 of 6 tiles computed", " ".join(words))
 
     def test_has_no_end_states(self):
         self.compute()
-        self.run_tool("plot_landing", "spectrum.h5", "-o", "picture.png")
-        self.assertGreater(self.count("0.8"), 1000)  # the colour of points not computed
-        with_zeros = image.imread(self.folder / "picture.png")
+        with_zeros = self.picture(tool="plot_landing")
+        self.assertGreater(self.count("0.8", with_zeros), 1000)  # the colour of points not computed
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             file["region"][UNMARKED] = NOT_COMPUTED
-        self.run_tool("plot_landing", "spectrum.h5", "-o", "picture.png")
-        np.testing.assert_array_equal(image.imread(self.folder / "picture.png"), with_zeros)
+        np.testing.assert_array_equal(self.picture(tool="plot_landing"), with_zeros)
 
     def test_is_a_row_of_fill_values_in_a_table(self):
         self.compute()
-        self.run_tool("to_csv", "spectrum.h5", "-o", "table.csv")
+        self.output_of("spectrum.h5", "-o", "table.csv", tool="to_csv")
         with open(self.folder / "table.csv", newline="", encoding="ascii") as text:
             rows = list(csv.DictReader(text))
         for i, row in enumerate(rows):
@@ -116,9 +91,9 @@ class TestATileWithoutAMark(unittest.TestCase):
                               row["steps"] == "4294967295"), (within,) * 3, i)
 
     def test_has_no_flips(self):
-        self.overturn("boundary", "job.toml", "-o", "boundary.h5", "--set=plane.frequency.count=20",
-                      "--set=plane.frequency.first=3", "--set=plane.frequency.last=8",
-                      "--set=plane.amplitude.first=1")
+        self.overturn("boundary", "boundary.h5", "plane.frequency={first=3, last=8, count=20}",
+                      "plane.amplitude.first=1")
+        how = {"tool": "plot_boundary", "file": "boundary.h5"}
         with h5py.File(self.folder / "boundary.h5", "a") as file:
             self.assertEqual(len(file["run/checksum"]), 20)
             file["run/checksum"][7] = 0
@@ -127,26 +102,19 @@ class TestATileWithoutAMark(unittest.TestCase):
         with open_result(self.folder / "boundary.h5", "overturning boundary", "a boundary") as file:
             self.assertTrue(np.isnan(read_field(file, "flip_amplitude")[:, 7]).all())
             self.assertEqual(set(read_field(file, "region_above")[:, 7]), {NOT_COMPUTED})
-        self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.png")
-        with_zeros = image.imread(self.folder / "picture.png")
+        with_zeros = self.picture(**how)
         with h5py.File(self.folder / "boundary.h5", "a") as file:
             for name in ("region_below", "region_above", "flip_amplitude"):
                 file[name][..., 7] = file[name].fillvalue
-        self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.png")
-        np.testing.assert_array_equal(image.imread(self.folder / "picture.png"), with_zeros)
-        self.run_tool("plot_boundary", "boundary.h5", "-o", "picture.svg")
-        self.assertIn(">not computed yet<", (self.folder / "picture.svg").read_text("utf-8"))
+        np.testing.assert_array_equal(self.picture(**how), with_zeros)
+        self.assertIn(">not computed yet<", self.svg(**how))
 
 
 class TestAFileWhoseTilesDoNotMatch(Picture):
     def test_is_damaged(self):
         self.spectrum(np.zeros((2, 2)))
-        with h5py.File(self.folder / "spectrum.h5", "a") as file:
-            del file["run/checksum"].attrs["tile_shape"]
-            file["run/checksum"].attrs["tile_shape"] = [1, 1, 2, 1]
-        run = self.plot("spectrum.h5")
-        self.assertEqual(run.returncode, 74)
-        self.assertIn("is damaged: it has 4 checksums", run.stderr)
+        self.change(lambda file: file["run/checksum"].attrs.update({"tile_shape": [1, 1, 2, 1]}))
+        self.refuses(74, "is damaged: it has 4 checksums", "spectrum.h5")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Builds and runs the benchmark programs."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -26,14 +27,23 @@ def add_build_argument(parser):
                         help="folder to build in (default: build-bench in the checkout)")
 
 
+def add_output_argument(parser, name, more=""):
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path(name),
+                        help=f"JSON file for the results{more} (default: {name})")
+
+
+def write_results(path, results):
+    path.write_text(json.dumps(results, indent=2) + "\n")
+    print(f"written: {path}")
+
+
 def build(folder, target):
     """Installs missing dependencies and builds one of the programs in tools/benchmarks."""
     print("installing missing dependencies and building (a few minutes the first time)", flush=True)
     folder = folder.resolve()
     run_or_fail([SOURCE / "tools" / "install_dependencies", "build", "bench"], "installing")
     run_or_fail(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                 "-DOVERTURN_TESTS=OFF",
-                 "-DOVERTURN_KERNELS=all", "-DOVERTURN_BENCHMARKS=ON"], "configuring",
+                 "-DOVERTURN_TESTS=OFF", "-DOVERTURN_KERNELS=all", "-DOVERTURN_BENCHMARKS=ON"], "configuring",
                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     run_or_fail(["cmake", "--build", folder, "--target", target, "--parallel", os.cpu_count()],
                 "building", stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

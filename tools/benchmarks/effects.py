@@ -1,14 +1,12 @@
 """The effects benchmark: the cost of each field, theory and pulse of a scene, in instructions."""
 
 import json
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import tempfile
 
-from building import add_build_argument, build, fail, run_or_fail
+from building import add_build_argument, add_output_argument, build, fail, run_or_fail, write_results
 
 METHODS = ("rk45", "taylor")
 FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
@@ -29,8 +27,7 @@ def add_arguments(parser):
                         help="points of the frequency and of the amplitude axis (default: 64)")
     parser.add_argument("--tolerance", type=float, default=1e-9,
                         help="tolerance of the integration (default: 1e-9)")
-    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_effects.json"),
-                        help="JSON file for the results (default: bench_effects.json)")
+    add_output_argument(parser, "bench_effects.json")
     add_build_argument(parser)
 
 
@@ -103,7 +100,5 @@ def run(options):
         fail("--points must be at least 2 and --tolerance between 0 and 1")
     rows, compiler = records(build(options.build, "bench_effects"), options)
     print_table(rows, options)
-    options.output.write_text(json.dumps(
-        {"benchmark": "effects", "kernel": KERNEL, "compiler": compiler, "points": options.points ** 2,
-         "tolerance": options.tolerance, "records": rows}, indent=2) + "\n")
-    print(f"written: {options.output}")
+    write_results(options.output, {"benchmark": "effects", "kernel": KERNEL, "compiler": compiler,
+                                   "points": options.points ** 2, "tolerance": options.tolerance, "records": rows})

@@ -1,12 +1,11 @@
 """The fill benchmark: time of filled spectra against the number of points on a side, beside that of
 spectra of which every point is integrated."""
 
-import json
 import math
 import pathlib
 import statistics
 
-from building import SOURCE
+from building import SOURCE, add_output_argument, write_results
 from launching import add_program_argument, measured_run, program
 
 EXPLANATION = """\
@@ -30,9 +29,7 @@ def add_arguments(parser):
     parser.add_argument("--jobs", nargs="+", type=pathlib.Path,
                         default=sorted((SOURCE / "jobs").glob("figure_*.toml")),
                         help="the planes (default: those of the paper)")
-    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_fill.json"),
-                        help="JSON file for the results; the picture has the same name and ends in "
-                             ".png (default: bench_fill.json)")
+    add_output_argument(parser, "bench_fill.json", "; the picture has the same name and ends in .png")
 
 
 def measured(overturn, job, side, *settings):
@@ -103,6 +100,6 @@ def run(options):
                   for row in rows if row["side"] == side]
         print(f"{side:>6} points a side: {statistics.mean(ratios):.1f} times faster in the kernel "
               f"(mean; {min(ratios):.1f} to {max(ratios):.1f})")
-    options.output.write_text(json.dumps({"benchmark": "fill", "rows": rows}, indent=2) + "\n")
+    write_results(options.output, {"benchmark": "fill", "rows": rows})
     plot(rows, options.output.with_suffix(".png"))
-    print(f"written: {options.output} and {options.output.with_suffix('.png')}")
+    print(f"written: {options.output.with_suffix('.png')}")

@@ -1,7 +1,6 @@
 """Runs overturn as a separate process for the benchmarks, with or without mpirun."""
 
 import json
-import os
 import pathlib
 import shutil
 import subprocess
@@ -9,6 +8,8 @@ import tempfile
 import time
 
 from building import SOURCE, fail
+
+from overturn.checkout import find_overturn, mpi_environment
 
 JOB, AXES = SOURCE / "jobs" / "figure_07a.toml", ("frequency", "amplitude")
 RECORD_JOB, RECORD_AXES = SOURCE / "jobs" / "synthetic.toml", ("size", "scale")
@@ -21,13 +22,6 @@ def launcher(ranks):
     return [mpirun, "-n", str(ranks)]
 
 
-def environment():
-    extra = {}
-    if os.geteuid() == 0:  # Open MPI requires both variables
-        extra = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    return {**os.environ, **extra}
-
-
 def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES):
     """Runs a job at side x side points with further settings; `start` is the command prefix.
     Returns the wall time from the start of the command to its exit, and the sidecar."""
@@ -36,7 +30,7 @@ def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES):
                *(word for setting in settings for word in ("--set", setting))]
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()
-        finished = subprocess.run(command, cwd=folder, env=environment(), text=True,
+        finished = subprocess.run(command, cwd=folder, env=mpi_environment(), text=True,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         wall = time.perf_counter() - begin
         if finished.returncode != 0:
@@ -46,12 +40,8 @@ def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES):
 
 
 def add_program_argument(parser):
-    parser.add_argument("--overturn", type=pathlib.Path, default=SOURCE / "build" / "overturn",
-                        help="the program to measure (default: build/overturn)")
+    parser.add_argument("--overturn", help="path of the program to measure (default: build/overturn)")
 
 
 def program(options):
-    path = options.overturn.resolve()
-    if not path.exists():
-        fail(f"{path} does not exist; build it (tools/quickstart) or give its path by --overturn")
-    return path
+    return find_overturn(options.overturn)

@@ -1,8 +1,7 @@
 // bench_peers: the measuring program of `tools/bench peers`. Each call performs one command and
 // prints one JSON object. The caller controls the order of calls, searches for the tolerances and
 // prints the table.
-#include "measured.hpp"
-#include "operation_count.hpp"
+#include "peer.hpp"
 
 #include "overturn/sweep/compute_tile.hpp"
 
@@ -12,11 +11,14 @@
 #include <gsl/gsl_version.h>
 #include <sundials/sundials_config.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -26,10 +28,8 @@ namespace {
 
 constexpr std::string_view usage =
     "usage: bench_peers about GROUND\n"
-    "       bench_peers fma-peak\n"
     "       bench_peers reference GROUND POINTS TOLERANCE CHECK_TOLERANCE FILE\n"
     "       bench_peers measure GROUND POINTS FILE SOLVER TOLERANCE SECONDS\n"
-    "       bench_peers operations POINTS METHOD TOLERANCE\n"
     "GROUND: pulse, or the path of a record\n";
 
 constexpr std::string_view pulse_name = "pulse";
@@ -59,10 +59,26 @@ PeerProblem problem_of(const std::string& ground, int points)
     return ground == pulse_name ? paper_block_problem(points) : record_problem(ground, points);
 }
 
+/// Overturn's methods for pulses or for records first, then the peers.
+std::vector<Solver> all_solvers(bool recorded)
+{
+    std::vector<Solver> solvers = overturn_solvers(recorded);
+    solvers.push_back({"odeint_dopri5", solve_by_odeint_dopri5});
+    solvers.push_back(
+        {"odeint_dopri5_restepping", solve_by_odeint_dopri5_restepping<Sines::library>});
+    solvers.push_back(
+        {"odeint_dopri5_restepping_our_sines", solve_by_odeint_dopri5_restepping<Sines::overturn>});
+    solvers.push_back({"gsl_rk8pd", solve_by_gsl_rk8pd<Sines::library>});
+    solvers.push_back({"gsl_rk8pd_our_sines", solve_by_gsl_rk8pd<Sines::overturn>});
+    solvers.push_back({"arkode_dopri5", solve_by_arkode});
+    if (!recorded) { // a multistep method is a hundred times slower with a kink at every sample
+        solvers.push_back({"cvode_adams", solve_by_cvode_adams});
+    }
+    return solvers;
+}
+
 int about(const std::string& ground)
 {
-    const Kernel kernel = widest_kernel();
-    const int lanes = kernel == Kernel::avx512 ? 8 : kernel == Kernel::avx2 ? 4 : 1;
     const bool recorded = ground != pulse_name;
     std::string solvers;
     for (const Solver& solver : all_solvers(recorded)) {
@@ -74,13 +90,56 @@ int about(const std::string& ground)
         samples =
             fmt::format("{:.17g}", fmt::join(problem.scene.records.front()->horizontal(), ", "));
     }
-    fmt::print("{{\"samples\": [{}], \"solvers\": [{}], \"kernel\": \"{}\", \"lanes\": {}, "
-               "\"compiler\": \"{}\", "
+    fmt::print("{{\"samples\": [{}], \"solvers\": [{}], \"kernel\": \"{}\", \"compiler\": \"{}\", "
                "\"boost\": \"{}.{}.{}\", \"gsl\": \"{}\", \"sundials\": \"{}\"}}\n",
-               samples, solvers, name_of(kernel), lanes, OVERTURN_BENCHMARK_COMPILER,
+               samples, solvers, name_of(widest_kernel()), OVERTURN_BENCHMARK_COMPILER,
                BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, GSL_VERSION,
                SUNDIALS_VERSION);
     return 0;
+}
+
+/// The end of a point in the reference.
+struct ReferenceEnd : PeerEnd<long double> {
+    /// Whether solvers are compared at this point: not if its error grows so much that the verdict
+    /// is almost a matter of chance.
+    bool compared;
+};
+
+struct Errors {
+    double p99;               ///< of the points compared that are safe in the reference
+    double largest;           ///< of the points compared that are safe in the reference
+    int safe_points;          ///< number of points compared that are safe in the reference
+    int verdicts_that_differ; ///< of all points compared: safe, unsafe or undecided
+};
+
+/// The error of a point is max(|d theta|, |d theta'|) at the end of the ground motion over `unit`
+/// [rad]; p99 is the smallest error that 99 of 100 points do not exceed. A point at which the
+/// solver failed has an infinite error.
+template <class S>
+Errors errors_of(const std::vector<PeerEnd<S>>& ends, const std::vector<ReferenceEnd>& reference,
+                 double unit)
+{
+    std::vector<double> errors;
+    int differ = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const ReferenceEnd& truth = reference[i];
+        if (!truth.compared) {
+            continue;
+        }
+        differ += is_safe(ends[i].region) != is_safe(truth.region) ||
+                  is_unsafe(ends[i].region) != is_unsafe(truth.region);
+        if (is_safe(truth.region)) {
+            const double error = double(std::max(std::abs(ends[i].angle - truth.angle),
+                                                 std::abs(ends[i].velocity - truth.velocity))) /
+                                 unit;
+            errors.push_back(error >= 0 ? error : std::numeric_limits<double>::infinity());
+        }
+    }
+    std::sort(errors.begin(), errors.end());
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t within = errors.empty() ? 0 : (errors.size() * 99 + 99) / 100 - 1;
+    return {errors.empty() ? none : errors[within], errors.empty() ? none : errors.back(),
+            int(errors.size()), differ};
 }
 
 using Ends = std::vector<ReferenceEnd>;
@@ -181,37 +240,11 @@ int measure(const PeerProblem& problem, const std::string& path, std::string_vie
     throw UsageError(fmt::format("there is no solver \"{}\"; `about` lists them", name));
 }
 
-/// The operations per point of one of overturn's methods.
-int operations(int points, std::string_view method, double tolerance)
-{
-    for (std::size_t i = 0; i < method_names.size(); ++i) {
-        if (method_names[i] != method) {
-            continue;
-        }
-        const PeerProblem problem = paper_block_problem(points);
-        const OperationCount count =
-            count_operations(problem, {.method = Method(i), .tolerance = tolerance});
-        const auto per_point = [&](std::int64_t number) {
-            return double(number) / double(problem.points.size());
-        };
-        fmt::print("{{\"fused\": {:.1f}, \"plain\": {:.1f}, \"divided\": {:.1f}, "
-                   "\"ends_that_differ\": {}}}\n",
-                   per_point(count.operations.fused), per_point(count.operations.plain),
-                   per_point(count.operations.divided), count.ends_that_differ);
-        return 0;
-    }
-    throw UsageError(fmt::format("there is no method \"{}\"", method));
-}
-
 int run(const std::vector<std::string>& words)
 {
     const std::string command = words.empty() ? "" : words[0];
     if (command == "about" && words.size() == 2) {
         return about(words[1]);
-    }
-    if (command == "fma-peak" && words.size() == 1) {
-        fmt::print("{{\"fma_peak_per_second\": {:.6e}}}\n", fma_peak_per_second());
-        return 0;
     }
     if (command == "reference" && words.size() == 6) {
         return reference(problem_of(words[1], number_from<int>(words[2])),
@@ -220,9 +253,6 @@ int run(const std::vector<std::string>& words)
     if (command == "measure" && words.size() == 7) {
         return measure(problem_of(words[1], number_from<int>(words[2])), words[3], words[4],
                        number_from<double>(words[5]), number_from<double>(words[6]));
-    }
-    if (command == "operations" && words.size() == 4) {
-        return operations(number_from<int>(words[1]), words[2], number_from<double>(words[3]));
     }
     throw UsageError("invalid arguments");
 }

@@ -28,8 +28,6 @@ std::vector<End> ends_of_tiles(const Problem& problem, const EndOf& end_of)
     return ends;
 }
 
-} // namespace
-
 std::vector<PeerEnd<double>> solve_by_overturn(const PeerProblem& problem, const Numerics& numerics)
 {
     return ends_of_tiles<PeerEnd<double>>(
@@ -43,6 +41,8 @@ std::vector<PeerEnd<double>> solve_by_overturn(const PeerProblem& problem, const
                     Region(std::get<std::vector<std::uint8_t>>(values[0])[i])};
         });
 }
+
+} // namespace
 
 std::vector<PointEffort> efforts_of_overturn(const PeerProblem& problem, const Numerics& numerics)
 {

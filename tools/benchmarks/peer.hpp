@@ -46,12 +46,8 @@ struct Solver {
     Solve solve;
 };
 
-/// Overturn's methods for pulses or for records first, then the peers.
-std::vector<Solver> all_solvers(bool recorded);
-
+/// Overturn's methods for pulses or for records.
 std::vector<Solver> overturn_solvers(bool recorded);
-std::vector<PeerEnd<double>> solve_by_overturn(const PeerProblem& problem,
-                                               const Numerics& numerics);
 
 /// What overturn knows about its solution of a point.
 struct PointEffort {
@@ -75,9 +71,5 @@ std::vector<PeerEnd<double>> solve_by_cvode_adams(const PeerProblem& problem, do
 
 /// The reference solution: in long double, by a third-party method and implementation.
 std::vector<PeerEnd<long double>> solve_reference(const PeerProblem& problem, double tolerance);
-
-/// The best of several samples of the fused multiply-adds per second of this core at full width,
-/// vectors times lanes [1/s].
-double fma_peak_per_second();
 
 } // namespace overturn::benchmarks

@@ -8,7 +8,7 @@ import platform
 import statistics
 import typing
 
-from building import SOURCE, add_build_argument, build, fail, run_or_fail
+from building import SOURCE, add_build_argument, add_output_argument, build, fail, run_or_fail, write_results
 from matching import PER_DECADE, matched_tolerance
 
 PULSE = "pulse"
@@ -26,8 +26,7 @@ a one-sine pulse, frequency 0.5 to 8 by amplitude 1.2 to 12. For each solver and
 finds the loosest tolerance whose error is within the target (99th percentile, over the points that
 do not overturn, of the larger of the errors of angle and velocity at the end of the pulse), then
 times all solvers in turns and prints medians of processor time. Errors are differences in rad
-from a reference in long double by a third-party method, which is checked by a second reference. For
-overturn's methods, it prints the share of the core's peak of fused multiply-adds.
+from a reference in long double by a third-party method, which is checked by a second reference.
 
 --record: blocks of slenderness 0.245, size 0.2 to 3 m, under a record with a scale of 0.5 to 2.5.
 Errors are divided by the slenderness and taken at the points whose `error` at a tolerance of 1e-12
@@ -54,8 +53,7 @@ def add_arguments(parser):
                         help="points of each axis of the plane (default: 64; with --record 32)")
     parser.add_argument("--rounds", type=int, default=5,
                         help="samples for each solver and target (default: 5)")
-    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_peers.json"),
-                        help="JSON file for the results (default: bench_peers.json)")
+    add_output_argument(parser, "bench_peers.json")
     add_build_argument(parser)
 
 
@@ -171,8 +169,7 @@ def machine(about):
     model = next((line.split(":", 1)[1].strip()
                   for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                   if line.startswith("model name")), platform.processor())
-    return {"cpu": model, "kernel": about["kernel"], "lanes": about["lanes"],
-            "compiler": about["compiler"],
+    return {"cpu": model, "kernel": about["kernel"], "compiler": about["compiler"],
             "libraries": {"boost": about["boost"], "gsl": about["gsl"],
                           "sundials": about["sundials"], "scipy": scipy.__version__,
                           "numpy": numpy.__version__, "python": platform.python_version()}}
@@ -193,45 +190,19 @@ def find_tolerances(solvers, targets):
 
 
 def time_in_turns(program, solvers, matched, rounds):
-    """(solver, target) -> median of microseconds per point, None if the target cannot be reached;
-    and the best rate of fused multiply-adds of the core during the measurement."""
+    """(solver, target) -> median of microseconds per point, None if the target cannot be reached."""
     samples = {key: [] for key, (tolerance, _) in matched.items() if tolerance}
-    peak = 0.0
     for number in range(rounds):
         print(f"  round {number + 1} of {rounds}", flush=True)
-        peak = max(peak, program.ask("fma-peak")["fma_peak_per_second"])
         for target in program.ground.targets:
             for solver in solvers:
                 if (solver.name, target) in samples:
                     tolerance = matched[solver.name, target][0]
                     samples[solver.name, target].append(solver.microseconds(tolerance))
-    return {key: statistics.median(samples[key]) if key in samples else None
-            for key in matched}, peak
+    return {key: statistics.median(samples[key]) if key in samples else None for key in matched}
 
 
-def count_operations(program, matched):
-    """(solver, target) -> operations per point, for overturn's methods."""
-    counts = {}
-    for (name, target), (tolerance, _) in matched.items():
-        if name.startswith("overturn_") and tolerance:
-            method = name.removeprefix("overturn_")
-            found = program.ask("operations", program.ground.points, method, f"{tolerance:.6e}")
-            if found.pop("ends_that_differ"):
-                fail(f"with counted operations, {method} does not give the ends of the kernel")
-            counts[name, target] = found
-    return counts
-
-
-def shares_of_peak(count, microseconds, peak):
-    """The shares of the peak of the core in the same time: of its floating-point operations, and of
-    its slots for fused multiply-adds, which single additions and multiplications also use."""
-    slots = count["fused"] + count["plain"]
-    operations = 2 * count["fused"] + count["plain"] + count["divided"]
-    possible = peak * microseconds / 1e6
-    return operations / (2 * possible), slots / possible
-
-
-def records(matched, medians, counts, peak, samples):
+def records(matched, medians, samples):
     def per_sample(key):
         return 1e3 * medians[key] / samples if samples and medians[key] else None
 
@@ -239,16 +210,11 @@ def records(matched, medians, counts, peak, samples):
         mine, theirs = medians[name, target], medians.get((other, target))
         return mine / theirs if mine and theirs else None
 
-    def shares(key):
-        return shares_of_peak(counts[key], medians[key], peak) if key in counts else (None, None)
-
     return [{"solver": name, "target_error": target, "achieved_p99": matched[name, target][1],
              "us_per_point": medians[name, target],
              "ns_per_point_and_sample": per_sample((name, target)),
              "ratio_to_overturn_rk45": ratio(name, "overturn_rk45", target),
-             "ratio_to_overturn_taylor": ratio(name, "overturn_taylor", target),
-             "share_of_fma_peak": shares((name, target))[0],
-             "fma_units_share": shares((name, target))[1]}
+             "ratio_to_overturn_taylor": ratio(name, "overturn_taylor", target)}
             for name, target in matched]
 
 
@@ -283,18 +249,6 @@ def print_times_per_sample(rows, samples, reference):
                   f"the error {row['achieved_p99']:.1e} of the slenderness")
 
 
-def print_shares(rows, peak, about):
-    print(f"\nThe core's peak: {peak / 1e9:.1f}e9 fused multiply-adds per second "
-          f"({about['lanes']} lanes, kernel {about['kernel']}).\nShare of its floating-point "
-          "operations (two per multiply-add) and of its multiply-add slots used by the kernels:")
-    for name in dict.fromkeys(row["solver"] for row in rows if row["share_of_fma_peak"]):
-        print(f"  {name}: " + ", ".join(
-            f"{row['share_of_fma_peak']:.0%} and {row['fma_units_share']:.0%} at "
-            f"{row['target_error']:.0e}" for row in rows
-            if row["solver"] == name and row["share_of_fma_peak"]))
-    print("Only the operations of the points are counted, not those of lanes that wait for others.")
-
-
 def run(options):
     ground = ground_of(options)
     if ground.points < 2 or options.rounds < 1:
@@ -312,18 +266,11 @@ def run(options):
     print("tolerances for the target errors:", flush=True)
     matched = find_tolerances(solvers, ground.targets)
     print("times:", flush=True)
-    medians, peak = time_in_turns(program, solvers, matched, options.rounds)
-    counts = {} if samples else count_operations(program, matched)
-    rows = records(matched, medians, counts, peak, len(samples))
+    medians = time_in_turns(program, solvers, matched, options.rounds)
+    rows = records(matched, medians, len(samples))
     print_table(rows, ground)
     if samples:
         print_times_per_sample(rows, len(samples), reference)
-    else:
-        print_shares(rows, peak, about)
-    options.output.write_text(json.dumps(
-        {"benchmark": "peers", "ground": ground.name, "samples": len(samples),
-         "machine": machine(about), "fma_peak_per_second": peak,
-         "operations_per_point": [{"solver": name, "target_error": target, **count}
-                                  for (name, target), count in counts.items()],
-         "reference": reference, "rounds": options.rounds, "records": rows}, indent=2) + "\n")
-    print(f"written: {options.output}")
+    write_results(options.output, {"benchmark": "peers", "ground": ground.name, "samples": len(samples),
+                                   "machine": machine(about), "reference": reference, "rounds": options.rounds,
+                                   "records": rows})

@@ -1,11 +1,10 @@
 """The run benchmark: a breakdown of the time of a whole run, from the start of the command to its
 exit."""
 
-import json
-import pathlib
 import resource
 import statistics
 
+from building import add_output_argument, write_results
 from launching import add_program_argument, launcher, measured_run, program
 
 METHODS = ("rk45", "taylor")
@@ -23,8 +22,7 @@ def add_arguments(parser):
     parser.add_argument("--rounds", type=int, default=3, help="runs of each case (default: 3)")
     parser.add_argument("--ranks", type=int, default=2,
                         help="ranks for the largest plane (default: 2)")
-    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("bench_run.json"),
-                        help="JSON file for the results (default: bench_run.json)")
+    add_output_argument(parser, "bench_run.json")
 
 
 def settings(method):
@@ -93,7 +91,5 @@ def run(options):
         print_saturation(found)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"largest memory use of a rank: {memory:.0f} MiB", flush=True)
-    options.output.write_text(json.dumps(
-        {"benchmark": "run", "seconds_of_100_x_100": small, "most_memory_mib": memory,
-         "one_rank": curve, "many_ranks": many}, indent=2) + "\n")
-    print(f"written: {options.output}")
+    write_results(options.output, {"benchmark": "run", "seconds_of_100_x_100": small, "most_memory_mib": memory,
+                                   "one_rank": curve, "many_ranks": many})

@@ -2,7 +2,6 @@
 """Compares rocking blocks with shake-table tests of rocks: fits a symmetric block to each rock on one set of
 tests, and predicts another set."""
 
-import argparse
 import concurrent.futures
 import json
 import pathlib
@@ -18,8 +17,8 @@ try:
     import h5py
     import numpy as np
     import overturn
-    from overturn.output_file import new_file, write_text
-    from overturn.result_file import write_picture
+    from overturn.output_file import new_file, write_picture, write_text
+    from overturn.tool import parser_of
     from scipy.optimize import differential_evolution, minimize
     from scipy.special import expit, ndtr
 except ImportError as error:
@@ -291,8 +290,7 @@ def read_model(path):
 
 
 def read_arguments():
-    parser = argparse.ArgumentParser(prog="shake_table.py", description=__doc__, epilog=EPILOG,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of("shake_table.py", __doc__, EPILOG)
     commands = parser.add_subparsers(dest="command", required=True)
     fitting = commands.add_parser("fit", help="fit a block to each rock; print the scores in cross-validation")
     fitting.add_argument("file", metavar="TESTS.h5")

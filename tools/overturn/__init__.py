@@ -22,7 +22,7 @@ _MODULE_OF = {
     "read_record": "records",
     "Record": "records",
     "RecordError": "records",
-    "PlotError": "result_file",
+    "ToolError": "tool",
 }
 __all__ = [*_MODULE_OF, "plot"]
 

@@ -17,11 +17,17 @@ def is_program(path):
     return os.access(path, os.X_OK) and not path.is_dir()
 
 
+def mpi_environment():
+    """Returns the environment; Open MPI runs as root only if both variables are set."""
+    allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    return os.environ | (allowed if os.geteuid() == 0 else {})
+
+
 def find_overturn(given):
     """Returns the program; `given` is the argument of a tool."""
-    from overturn.result_file import USAGE, PlotError
+    from overturn.tool import USAGE, ToolError
     path = overturn_path(given)
     if not is_program(path):
-        raise PlotError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
+        raise ToolError(f"there is no program \"{path}\". Build it (tools/quickstart does), or "
                         "pass another one with --overturn PATH.", USAGE)
     return path.resolve()

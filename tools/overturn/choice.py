@@ -5,8 +5,8 @@ import itertools
 import math
 
 from overturn.captions import value_text
-from overturn.result_file import USAGE, PlotError
 from overturn.spectrum_file import STRENGTHS, Plane
+from overturn.tool import USAGE, ToolError
 
 OPTIONS = ("motion", "slenderness", "restitution")
 
@@ -42,12 +42,12 @@ def chosen(file, arguments):
         if name == "restitution" and name not in file.dimensions:
             name = "restitution_of_maximum"
         if name not in file.dimensions or name == "crossing":
-            raise PlotError(f"{option}: \"{file.filename}\" has no dimension {name}, only "
+            raise ToolError(f"{option}: \"{file.filename}\" has no dimension {name}, only "
                             f"{', '.join(file.dimensions) or 'a single point'}.", USAGE)
         count = file.sizes[name]
         if not 0 <= index < count:
             first, last = value_text(file, name, 0), value_text(file, name, count - 1)
-            raise PlotError(f"{option} {index} is out of range; this file has 0 to {count - 1} "
+            raise ToolError(f"{option} {index} is out of range; this file has 0 to {count - 1} "
                             f"({name} {first} to {last}).", USAGE)
         choices[name] = index
     return choices
@@ -61,7 +61,7 @@ def axes_of(file, choices):
     if "crossing" in file.dimensions:
         return axes[-1] if axes else None, "crossing"
     if len(axes) < 2:
-        raise PlotError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has "
+        raise ToolError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has "
                         f"{axes[0] if axes else 'none'}{' only' * bool(axes)}. Give more axes in the job, or use "
                         "tools/to_csv or overturn.open() in Python.", USAGE)
     up, across = sorted(axes[-2:], key=free.index)
@@ -79,7 +79,7 @@ def planes_of(file, arguments, most=1):
     count = math.prod(several.values())
     if count > most:
         options = [f"{option_of(name)} (0 to {size - 1})" for name, size in several.items()]
-        raise PlotError(f"there are {count} spectra, but the output is limited to {most}; choose "
+        raise ToolError(f"there are {count} spectra, but the output is limited to {most}; choose "
                         f"with {' or '.join(options)}.", USAGE)
     planes = [Plane(file, dict(zip(others, places)), *axes) for places in itertools.product(*others.values())]
     lengths = list(several.values())

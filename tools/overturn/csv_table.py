@@ -1,9 +1,7 @@
 """Writes a spectrum as CSV, one row per point, for use without HDF5."""
 
-import argparse
 import csv
 import itertools
-import pathlib
 
 import numpy as np
 
@@ -12,6 +10,7 @@ from overturn.fields import read_field
 from overturn.output_file import new_file
 from overturn.result_file import damage_reported
 from overturn.spectrum_file import open_spectrum
+from overturn.tool import parse_with_output, parser_of
 from overturn.units import LABELS
 
 EXAMPLE = """\
@@ -68,16 +67,9 @@ def write(file, choices, path):
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="to_csv", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run")
-    parser.add_argument("-o", "--output", metavar="OUT.csv",
-                        help="the table (default: FILE.csv in the working directory)")
+    parser = parser_of("to_csv", __doc__, EXAMPLE, "overturn run")
     add_choice_arguments(parser)
-    arguments = parser.parse_args(argv)
-    if arguments.output is None:
-        arguments.output = pathlib.Path(arguments.file).stem + ".csv"
-    return arguments
+    return parse_with_output(parser, argv, "FILE.csv", "the table")
 
 
 def main(argv=None):

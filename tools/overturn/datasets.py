@@ -22,7 +22,7 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
         import xarray
     except ImportError as error:
         raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5py (Debian: "
-                          "python3-xarray and python3-h5py, for /usr/bin/python3).") from error
+                          "python3-xarray and python3-h5py, for /usr/bin/python3).", name=error.name) from error
     from overturn.lazy_variables import variable
     from overturn.result_file import FORMATS, Result
     file = h5py.File(path)

@@ -5,7 +5,7 @@ import functools
 
 import numpy as np
 
-from overturn.result_file import PlotError
+from overturn.tool import ToolError
 
 
 @functools.cache
@@ -15,7 +15,7 @@ def computed_tiles(file):
     sizes = file.sizes
     tiles = [-(-sizes[name] // side) for name, side in zip(file.dimensions, file.tile)]
     if len(checksums) != np.prod(tiles, dtype=int):
-        raise PlotError(f"\"{file.filename}\" is damaged: it has {len(checksums)} checksums, which is not its number "
+        raise ToolError(f"\"{file.filename}\" is damaged: it has {len(checksums)} checksums, which is not its number "
                         "of tiles.")
     return checksums.reshape(tiles) != 0
 

@@ -37,8 +37,7 @@ def run_command(name, module):
     module that it needs."""
     os.environ["MPLBACKEND"] = "Agg"  # writes files; needs no display
     try:
-        command = importlib.import_module(module)
-        from overturn.result_file import run_tool
+        from overturn.tool import run_tool
+        run_tool(name, importlib.import_module(module).main)
     except ImportError as error:
         run_elsewhere(error)
-    run_tool(name, command.main)

@@ -5,11 +5,13 @@ Only the standard library is imported here, because synthetic_record needs nothi
 
 import contextlib
 import os
+import pathlib
 import secrets
 import shutil
 import stat
 
 FILE = 74  # exit code, equal to that of overturn
+PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
 BEGINNING = 4096  # bytes of an existing file that show its kind
 
 
@@ -58,6 +60,31 @@ def write_text(path, text, kind, is_own):
     """Writes a text in UTF-8, see new_file()."""
     with new_file(path, kind, is_own) as part, open(part, "w", encoding="utf-8", newline="\n") as file:
         file.write(text)
+
+
+def make_folder(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise OutputError(path, error.strerror) from error
+
+
+def write_picture(figure, path, **how):
+    """Writes a figure of Matplotlib in the format that the suffix of the path names."""
+    import matplotlib
+    suffix = pathlib.Path(path).suffix
+    with new_file(path, f"a {suffix[1:].upper()} picture",
+                  lambda beginning: suffix in PICTURES and PICTURES[suffix] in beginning) as part, \
+            matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
+        figure.savefig(part, format=suffix[1:] or "png", **how)
+
+
+def save(figure, path, **how):
+    """Saves and closes a figure."""
+    from matplotlib import pyplot
+    write_picture(figure, path, **how)
+    pyplot.close(figure)
+    print(path)
 
 
 def _expect_own(path, kind, is_own):

@@ -5,8 +5,9 @@ import re
 import numpy as np
 from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
 from overturn.choice import axes_of
-from overturn.result_file import PlotError, job_text, open_result
+from overturn.result_file import job_text, open_result
 from overturn.spectrum_file import PHYSICAL, RECIPROCALS, Plane
+from overturn.tool import ToolError
 from overturn.units import NEEDING_A_SIZE, axis_of, expect_size, name_of_flips
 
 
@@ -16,22 +17,22 @@ def checksums_of_records(file):
 
 def expect_same_motion(file, spectrum):
     if is_recorded(file) != is_recorded(spectrum):
-        raise PlotError(f"\"{file.filename}\" is a boundary under a {ground_word(file)}, but the "
+        raise ToolError(f"\"{file.filename}\" is a boundary under a {ground_word(file)}, but the "
                         f"spectrum is one under a {ground_word(spectrum)}. Omit --boundary.")
     if is_recorded(file) and checksums_of_records(file) != checksums_of_records(spectrum):
-        raise PlotError(f"\"{file.filename}\" was computed under different records from the spectrum.")
+        raise ToolError(f"\"{file.filename}\" was computed under different records from the spectrum.")
 
 
 def expect_equal(file, spectrum, name, here, there):
     if here != there:
-        raise PlotError(f"\"{file.filename}\" has {name} {here or 'none'}, but the spectrum has {there or 'none'}.")
+        raise ToolError(f"\"{file.filename}\" has {name} {here or 'none'}, but the spectrum has {there or 'none'}.")
 
 
 def expect_overlap(boundary, plane, across):
     values = boundary.values(across, boundary.across)
     first, last = axis_of(plane, across, plane.across).limits()
     if not ((values >= first) & (values <= last)).any():
-        raise PlotError(f"\"{boundary.file.filename}\" covers {across} from {values.min():g} to "
+        raise ToolError(f"\"{boundary.file.filename}\" covers {across} from {values.min():g} to "
                         f"{values.max():g}, the spectrum only from {first:g} to {last:g}.")
 
 
@@ -56,14 +57,14 @@ def boundary_on(file, plane, units):
     missing = {name for name, size in file.sizes.items() if name in file.dimensions and size > 1} - {
         across, "crossing", *plane.index}
     if missing or across is None:
-        raise PlotError(f"\"{file.filename}\" is not along the axes of the spectrum.")
+        raise ToolError(f"\"{file.filename}\" is not along the axes of the spectrum.")
     boundary = Plane(file, {name: plane.index.get(name, 0) for name in file.dimensions
                             if name not in (across, "crossing")}, across, "crossing")
     # Over the frequency, boundaries of small and large blocks are the same; in s and Hz they are not.
     shown = plane.quantities(units)[0]
     for name in ("slenderness", "restitution", *["size"] * (shown in RECIPROCALS)):
         if boundary.value(name) != plane.value(name):
-            raise PlotError(f"\"{file.filename}\" has different blocks from the spectrum: {name} differs.")
+            raise ToolError(f"\"{file.filename}\" has different blocks from the spectrum: {name} differs.")
     expect_overlap(boundary, plane, shown)
     return boundary
 

@@ -1,26 +1,14 @@
-"""Reading of result files by the tools, and their error messages."""
+"""Reading of result files by the tools."""
 
 import contextlib
 import os
-import pathlib
-import sys
 
 import h5py
 from overturn.file_variables import Result, text_of
-from overturn.output_file import FILE, OutputError, new_file
+from overturn.tool import ToolError
 
-USAGE = 2  # exit code, equal to that of overturn
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 FORMATS = (3, 4)
-PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
-
-
-class PlotError(Exception):
-    """An error with a message for the user and an exit code."""
-
-    def __init__(self, message, code=FILE):
-        super().__init__(message)
-        self.code = code
 
 
 def job_text(file, name):
@@ -63,15 +51,15 @@ def open_result(path, kind, wanted):
         with open(path, "rb") as file:
             signature = file.read(len(HDF5_SIGNATURE))
         if signature != HDF5_SIGNATURE:
-            raise PlotError(f"\"{path}\" is not an HDF5 file.")
+            raise ToolError(f"\"{path}\" is not an HDF5 file.")
         file = h5py.File(path, "r")
     except OSError as error:
-        raise PlotError(f"cannot read \"{path}\": {error.strerror or error}.") from error
+        raise ToolError(f"cannot read \"{path}\": {error.strerror or error}.") from error
     if text_of(file, "kind") != kind:
-        raise PlotError(f"\"{path}\" is not {wanted}.")
+        raise ToolError(f"\"{path}\" is not {wanted}.")
     version = file.attrs.get("format_version", 1)
     if version not in FORMATS:
-        raise PlotError(f"\"{path}\" has format version {version}; this tool reads versions 3 and 4. Use the tools of "
+        raise ToolError(f"\"{path}\" has format version {version}; this tool reads versions 3 and 4. Use the tools of "
                         f"{'a newer overturn' if version > FORMATS[-1] else 'the overturn that wrote it'}.")
     with damage_reported(path):
         return Result(file)
@@ -97,43 +85,4 @@ def damage_reported(path, *also):
     try:
         yield
     except (OSError, KeyError, *also) as error:
-        raise PlotError(f"\"{path}\" is damaged: {error}.") from error
-
-
-def add_picture_argument(parser, default="FILE.png"):
-    parser.add_argument("-o", "--output", metavar="OUT",
-                        help=f"picture: .png, .pdf or .svg (default: {default} in the working directory)")
-
-
-def name_picture(parser, arguments, default=None):
-    """Sets the default name of the picture and checks its suffix."""
-    if arguments.output is None:
-        arguments.output = default or pathlib.Path(arguments.file).stem + ".png"
-    if pathlib.Path(arguments.output).suffix not in PICTURES:
-        parser.error(f"\"{arguments.output}\" must end in .png, .pdf or .svg")
-
-
-def write_picture(figure, path, **how):
-    """Writes a figure in the format that the suffix of the path names."""
-    import matplotlib
-    suffix = pathlib.Path(path).suffix
-    with new_file(path, f"a {suffix[1:].upper()} picture",
-                  lambda beginning: suffix in PICTURES and PICTURES[suffix] in beginning) as part, \
-            matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
-        figure.savefig(part, format=suffix[1:] or "png", **how)
-
-
-def save(figure, path, **how):
-    """Saves and closes a figure."""
-    from matplotlib import pyplot
-    write_picture(figure, path, **how)
-    pyplot.close(figure)
-    print(path)
-
-
-def run_tool(name, main):
-    try:
-        main()
-    except (PlotError, OutputError) as error:
-        print(f"{name}: {error}", file=sys.stderr)
-        sys.exit(error.code)
+        raise ToolError(f"\"{path}\" is damaged: {error}.") from error

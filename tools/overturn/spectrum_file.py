@@ -3,7 +3,8 @@
 import numpy as np
 
 from overturn.fields import read_field
-from overturn.result_file import USAGE, PlotError, open_result
+from overturn.result_file import open_result
+from overturn.tool import USAGE, ToolError
 
 STRENGTHS = ("amplitude", "scale", "pga")
 RATES = ("frequency", "pulse_period", "pulse_frequency")
@@ -17,7 +18,7 @@ def open_spectrum(path, fields=("region",)):
     file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
     for field in fields:
         if field not in file:
-            raise PlotError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
+            raise ToolError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
     return file
 
 
@@ -61,7 +62,7 @@ class Plane:
         if name in RECIPROCALS and name not in self.file:
             return 1 / self.values(RECIPROCALS[name], dimension)
         if not self.knows(name, [dimension]):
-            raise PlotError(f"\"{self.file.filename}\" has no {name} along {dimension} alone. Draw it in the units of "
+            raise ToolError(f"\"{self.file.filename}\" has no {name} along {dimension} alone. Draw it in the units of "
                             "the job, or choose other axes.", USAGE)
         coordinate = self.file[name]
         values = coordinate[tuple(self.index.get(each, slice(None)) for each in coordinate.dimensions)]

@@ -2,8 +2,9 @@
 
 import numpy as np
 from overturn.captions import is_linear, is_recorded
-from overturn.result_file import USAGE, PlotError, escaped
+from overturn.result_file import escaped
 from overturn.spectrum_file import JOB, PHYSICAL, Axis, scanned_quantity
+from overturn.tool import USAGE, ToolError
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
           "amplitude": r"pulse amplitude  $a_p\,/\,(g\,{threshold})$",
@@ -33,7 +34,7 @@ def add_units_argument(parser, physical=PLANE_IN_PHYSICAL_UNITS):
 def expect_size(file, units):
     """Raises an error if physical units need a size of the block that the job does not give."""
     if units == PHYSICAL and not is_recorded(file) and not {"size", "frequency_parameter"} & {*file, *file.attrs}:
-        raise PlotError(f"\"{file.filename}\" cannot be drawn in physical units, because its job does "
+        raise ToolError(f"\"{file.filename}\" cannot be drawn in physical units, because its job does "
                         "not give the size of the block. Add [block] with width and height to the "
                         "job, or the half diagonal plane.size, in metres, and compute it again.")
 
@@ -80,7 +81,7 @@ def scan_of(plane, quantity):
     name = "record_pga" if is_recorded(file) else "slenderness"
     value = plane.value(name)
     if value is None:
-        raise PlotError(f"\"{file.filename}\" cannot be drawn over {quantity}, because {name} varies along "
+        raise ToolError(f"\"{file.filename}\" cannot be drawn over {quantity}, because {name} varies along "
                         f"{plane.across}. Draw it in the units of the job.", USAGE)
     return scan * (value if is_recorded(file) else uplift_threshold(file, value))
 

@@ -1,14 +1,12 @@
 """Plots an accuracy study: error and share of wrong verdicts against time per point."""
 
-import argparse
-
 import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_text
-from overturn.result_file import (PlotError, add_picture_argument, damage_reported, name_picture,
-                                  open_result, plain, save,
-                                  title_of)
+from overturn.output_file import save
+from overturn.result_file import damage_reported, open_result, plain, title_of
 from overturn.ticks import name_ticks
+from overturn.tool import ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -114,7 +112,7 @@ def draw_wrong_verdicts(axes, curves, points):
 
 def draw(file):
     if not file.attrs["points_settled"] or not file.attrs["points_in_50_digits"]:
-        raise PlotError(f"\"{file.filename}\" has no point whose verdict and end state are known: "
+        raise ToolError(f"\"{file.filename}\" has no point whose verdict and end state are known: "
                         "there is no reference to compare with.")
     curves = read_curves(file)
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.5, 4.9))
@@ -132,13 +130,8 @@ def draw(file):
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_accuracy", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn accuracy")
-    add_picture_argument(parser)
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
-    return arguments
+    parser = parser_of("plot_accuracy", __doc__, EXAMPLE, "overturn accuracy")
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

@@ -3,7 +3,6 @@ flips."""
 
 from __future__ import annotations
 
-import argparse
 import textwrap
 from collections.abc import Mapping
 from types import SimpleNamespace
@@ -16,12 +15,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
+from overturn.output_file import save
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.regions import REGIONS
-from overturn.result_file import (add_picture_argument, damage_reported, name_picture, open_result,
-                                  path_of, plain, save)
+from overturn.result_file import damage_reported, open_result, path_of, plain
 from overturn.spectrum_file import Axis
 from overturn.ticks import set_axes
+from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 
 EXAMPLE = """\
@@ -232,22 +232,17 @@ def boundary(result, *, motion: int | None = None, slenderness: int | None = Non
     restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. ax: axes of Matplotlib to draw into, without a legend.
 
-    Returns the axes; a list of them for several boundaries. Raises overturn.PlotError."""
+    Returns the axes; a list of them for several boundaries. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units)
     return draw(path_of(result), arguments, ax)
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_boundary", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn boundary")
-    add_picture_argument(parser)
+    parser = parser_of("plot_boundary", __doc__, EXAMPLE, "overturn boundary")
     add_choice_arguments(parser)
     add_units_argument(parser)
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
-    return arguments
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

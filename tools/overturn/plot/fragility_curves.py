@@ -1,7 +1,6 @@
 """Plots fragility curves of a result under records: the fraction of the blocks that overturn against
 intensity measures, with lognormal fits and their confidence."""
 
-import argparse
 import dataclasses
 import itertools
 import pathlib
@@ -11,10 +10,10 @@ import numpy as np
 import overturn
 from matplotlib import pyplot
 from overturn.block_groups import groups_of
-from overturn.interpreter import run_elsewhere
-from overturn.result_file import (USAGE, PlotError, add_picture_argument, escaped, name_picture, plain,
-                                  save, shortened)
+from overturn.output_file import save
+from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -112,9 +111,7 @@ def draw_fit(ax, curve, colour, line, count):
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_fragility", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run under records")
+    parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
                         help="intensity measures: pga, pgv, arias_intensity or significant_duration "
                              "(default: pgv)")
@@ -131,29 +128,21 @@ def read_arguments(argv):
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
                              "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
-    add_picture_argument(parser, "FILE_fragility.png")
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments, pathlib.Path(arguments.file).stem + "_fragility.png")
-    return arguments
+    return parse_with_picture(parser, argv, "FILE_fragility.png")
 
 
 def compute(arguments):
     """Returns the title, and the curves of each measure, one for each group of blocks."""
-    try:
-        import h5py  # noqa: F401 (for overturn.open)
-        import scipy  # noqa: F401 (for overturn.fragility)
-        import xarray  # noqa: F401 (for overturn.open)
-    except ImportError as error:
-        run_elsewhere(error)
+    import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
     try:
         dataset = overturn.open(arguments.file)
     except (OSError, ValueError) as error:
-        raise PlotError(f"cannot read \"{arguments.file}\": {error}") from error
+        raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
     with dataset:
         try:
             return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
         except ValueError as error:
-            raise PlotError(f"\"{arguments.file}\": {error}", USAGE) from error
+            raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
 
 
 def curves_of(dataset, im, arguments):

@@ -3,7 +3,6 @@ and q; under a record the ground and the tilt."""
 
 from __future__ import annotations
 
-import argparse
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,11 +10,12 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from overturn.captions import SIZES, ground_text, ground_word, is_linear, is_recorded, slenderness_text
 from overturn.file_variables import text_of
+from overturn.output_file import save
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import (PlotError, add_picture_argument, damage_reported, name_picture, open_result,
-                                  path_of, plain, save, title_of)
+from overturn.result_file import damage_reported, open_result, path_of, plain, title_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
+from overturn.tool import ToolError, parse_with_picture, parser_of
 from overturn.units import add_units_argument, expect_size
 
 EXAMPLE = """\
@@ -76,7 +76,7 @@ class History:
         self.start, self.time = start, time[shown]
         if not len(self.time):
             unit = " s" if self.is_in_seconds else "/p"
-            raise PlotError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
+            raise ToolError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
                             f"{until:g}{unit}.")
         rate = per_time / per_angle
         factors = {"ground": 1, "angle": 1 / per_angle, "velocity": rate,
@@ -238,23 +238,18 @@ def history(result, *, start: float = 0, until: float = np.inf, units: str = "jo
     [1/p]; under a record or in physical units [s]. units: "job", or "physical" for s and degrees. ax:
     axes of Matplotlib to draw the tilt into.
 
-    Returns a list of axes, from the ground motion down, or ax. Raises overturn.PlotError."""
+    Returns a list of axes, from the ground motion down, or ax. Raises overturn.ToolError."""
     return draw(path_of(result), SimpleNamespace(start=start, until=until, units=units), ax)
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_history", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn history")
+    parser = parser_of("plot_history", __doc__, EXAMPLE, "overturn history")
     parser.add_argument("--until", type=float, metavar="TIME", default=np.inf,
                         help="last time to draw [1/p]; under a record or in physical units [s]")
     parser.add_argument("--from", dest="start", type=float, metavar="TIME", default=0,
                         help="first time to draw, in the same unit (default: 0)")
     add_units_argument(parser, "time in s, angles in degrees, PGA in g")
-    add_picture_argument(parser)
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
-    return arguments
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

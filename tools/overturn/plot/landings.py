@@ -1,21 +1,19 @@
 """Plots the end states in phase space: the angles and velocities at the end of the ground motion,
 coloured by the points of the plane."""
 
-import argparse
-import pathlib
-
 import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_linear, is_recorded, subtitle
 from overturn.choice import add_choice_arguments, planes_of
+from overturn.output_file import save
 from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_libration,
                                   name_phase_axes)
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
-from overturn.result_file import (USAGE, PlotError, add_picture_argument, damage_reported, name_picture,
-                                  plain, save)
+from overturn.result_file import damage_reported, plain
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 
 EXAMPLE = """\
@@ -79,7 +77,7 @@ class Spectrum:
         self.across, self.up = axes_of_plane(plane)
         block = [plane.value(name) for name in ("slenderness", "restitution")]
         if None in block:
-            raise PlotError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
+            raise ToolError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
                             "are those of one block. Choose it with --index.", USAGE)
         self.block = FreeBlock(*block, is_linear(plane.file))
 
@@ -203,17 +201,12 @@ def draw(plane, title, labels):
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_landing", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run")
-    add_picture_argument(parser, "FILE_landing.png")
+    parser = parser_of("plot_landing", __doc__, EXAMPLE, "overturn run")
     add_choice_arguments(parser)
     add_label_argument(parser)
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the name "
                                         "of its record)")
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments, pathlib.Path(arguments.file).stem + "_landing.png")
-    return arguments
+    return parse_with_picture(parser, argv, "FILE_landing.png")
 
 
 def main(argv=None):

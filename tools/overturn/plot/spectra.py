@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Mapping
 from types import SimpleNamespace
 
@@ -11,14 +10,15 @@ from matplotlib.lines import Line2D
 from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
+from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
-from overturn.result_file import (add_picture_argument, damage_reported, name_picture, path_of,
-                                  plain, save)
+from overturn.result_file import damage_reported, path_of, plain
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
+from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
 EXAMPLE = """\
@@ -138,7 +138,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
     practice: mark what published practice misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes
     of Matplotlib for one spectrum without a legend.
 
-    Returns the axes; a list of them for several spectra. Raises overturn.PlotError."""
+    Returns the axes; a list of them for several spectra. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units, boundary=boundary, practice=practice,
                                 label=[Label(words) for words in labels], title=title)
@@ -150,10 +150,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
 
 
 def read_arguments(argv):
-    parser = argparse.ArgumentParser(prog="plot_spectrum", description=__doc__, epilog=EXAMPLE,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", metavar="FILE.h5", help="written by overturn run")
-    add_picture_argument(parser)
+    parser = parser_of("plot_spectrum", __doc__, EXAMPLE, "overturn run")
     add_choice_arguments(parser)
     add_label_argument(parser)
     add_units_argument(parser)
@@ -164,9 +161,7 @@ def read_arguments(argv):
                              "published practice calls overturned; needs the field peak")
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
                                         "names of its records)")
-    arguments = parser.parse_args(argv)
-    name_picture(parser, arguments)
-    return arguments
+    return parse_with_picture(parser, argv)
 
 
 def main(argv=None):

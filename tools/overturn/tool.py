@@ -1,0 +1,52 @@
+"""What the commands in tools/ have in common: their arguments and their errors. Only the standard library is
+imported here, because synthetic_record needs nothing else but NumPy."""
+
+import argparse
+import pathlib
+import sys
+
+from overturn.output_file import FILE, PICTURES, OutputError
+
+USAGE = 2  # exit code, equal to that of overturn
+
+
+class ToolError(Exception):
+    """An error with a message for the user and an exit code."""
+
+    def __init__(self, message, code=FILE):
+        super().__init__(message)
+        self.code = code
+
+
+def parser_of(name, description, example, written_by=None):
+    """Returns the parser of a tool; with the argument FILE.h5 if it reads a file that a command writes."""
+    parser = argparse.ArgumentParser(prog=name, description=description, epilog=example,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    if written_by:
+        parser.add_argument("file", metavar="FILE.h5", help=f"written by {written_by}")
+    return parser
+
+
+def parse_with_output(parser, argv, default, what):
+    """Parses the arguments, with -o for the output. FILE in its default name is the name of the file."""
+    parser.add_argument("-o", "--output", metavar="OUT", help=f"{what} (default: {default} in the working directory)")
+    arguments = parser.parse_args(argv)
+    if arguments.output is None:
+        arguments.output = default.replace("FILE", pathlib.Path(getattr(arguments, "file", "")).stem)
+    return arguments
+
+
+def parse_with_picture(parser, argv, default="FILE.png"):
+    arguments = parse_with_output(parser, argv, default, "picture: .png, .pdf or .svg")
+    if pathlib.Path(arguments.output).suffix not in PICTURES:
+        parser.error(f"\"{arguments.output}\" must end in .png, .pdf or .svg")
+    return arguments
+
+
+def run_tool(name, main):
+    """Runs the function of a tool; an error ends the process with a message and an exit code."""
+    try:
+        main()
+    except (ToolError, OutputError) as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        sys.exit(error.code)
