@@ -1,8 +1,8 @@
 #include "block_table.hpp"
 
 #include "motion_names.hpp"
-#include "overturn/record/read_table.hpp"
-#include "overturn/record/text_file.hpp"
+#include "overturn/text/table.hpp"
+#include "overturn/text/text_file.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/utf8.hpp"
 #include "toml_reading.hpp"

@@ -1,6 +1,6 @@
 #include "overturn/job/job.hpp"
 
-#include "overturn/record/text_file.hpp"
+#include "overturn/text/text_file.hpp"
 #include "overturn/text/error.hpp"
 
 #include "deep_key.hpp"

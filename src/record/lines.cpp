@@ -1,27 +1,10 @@
 #include "lines.hpp"
 
-#include "overturn/record/read_record.hpp"
 #include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace overturn {
-
-namespace {
-
-constexpr char lower(char letter)
-{
-    return 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
-}
-
-} // namespace
-
-void refuse_record(const std::string& name, std::string_view reason)
-{
-    throw Error(exit_code::job, "{}: {}", name, reason);
-}
 
 bool Lines::next()
 {
@@ -41,6 +24,11 @@ bool Lines::next()
 void Lines::refuse(std::string_view reason) const
 {
     throw Error(exit_code::job, "{}:{}: {}", *name_, number_, reason);
+}
+
+void Lines::refuse_file(std::string_view reason) const
+{
+    throw Error(exit_code::job, "{}: {}", *name_, reason);
 }
 
 Lines ahead_by(Lines lines, std::size_t count)
@@ -75,17 +63,24 @@ void Header::take(Lines& lines, std::size_t count)
     }
 }
 
-std::size_t place_after(std::string_view text, std::string_view words)
+std::string lower(std::string_view text)
 {
-    const auto found =
-        std::search(text.begin(), text.end(), words.begin(), words.end(),
-                    [](char left, char right) { return lower(left) == lower(right); });
-    return found == text.end() ? text.npos : std::size_t(found - text.begin()) + words.size();
+    std::string result(text);
+    for (char& letter : result) {
+        letter = 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+    }
+    return result;
 }
 
 bool contains(std::string_view text, std::string_view words)
 {
     return place_after(text, words) != text.npos;
+}
+
+std::size_t place_after(std::string_view text, std::string_view words)
+{
+    const std::size_t place = lower(text).find(lower(words));
+    return place == text.npos ? place : place + words.size();
 }
 
 } // namespace overturn

@@ -11,9 +11,6 @@
 
 namespace overturn {
 
-/// Throws an Error about a file as a whole.
-[[noreturn]] void refuse_record(const std::string& name, std::string_view reason);
-
 /// A cursor over the lines of a text. A copy looks ahead. The text and the name must outlive it.
 class Lines {
 public:
@@ -30,6 +27,9 @@ public:
 
     /// Throws an Error with the file and the current line.
     [[noreturn]] void refuse(std::string_view reason) const;
+
+    /// The same for the file as a whole.
+    [[noreturn]] void refuse_file(std::string_view reason) const;
 
 private:
     std::string_view rest_;
@@ -57,7 +57,10 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether the text contains the words, ignoring the case of ASCII letters.
+/// In lower case, if the letters are ASCII.
+std::string lower(std::string_view text);
+
+/// Whether the text contains the words, ignoring case.
 bool contains(std::string_view text, std::string_view words);
 
 /// The place after the first occurrence of the words, ignoring case; npos if there is none.

@@ -14,13 +14,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::string_view blanks = " \t";
-
-constexpr bool is_sign(char letter)
-{
-    return letter == '+' || letter == '-';
-}
-
 struct Parsed {
     double value;
     std::errc error; ///< none, invalid_argument or result_out_of_range
@@ -46,32 +39,17 @@ Parsed parse(std::string_view word)
     return {value, end == word.data() + word.size() ? error : std::errc::invalid_argument};
 }
 
-/// The length of the first number of a text without blanks: up to the next sign that does not
-/// belong to an exponent.
+/// The length of the first number of a text: up to a blank, or to a sign that does not belong to an
+/// exponent.
 std::size_t length_of_number(std::string_view text)
 {
-    for (std::size_t i = 1; i < text.size(); ++i) {
-        constexpr std::string_view exponents = "eEdD";
-        if (is_sign(text[i]) && exponents.find(text[i - 1]) == exponents.npos) {
-            return i;
+    for (std::size_t end = 1; end < text.size(); ++end) {
+        const bool is_exponent = std::string_view("eEdD").find(text[end - 1]) != text.npos;
+        if (std::string_view(is_exponent ? " \t" : " \t+-").find(text[end]) != text.npos) {
+            return end;
         }
     }
     return text.size();
-}
-
-/// Calls visit(word) for each number of a line.
-template <class Visit>
-void for_each_free_number(std::string_view line, const Visit& visit)
-{
-    std::size_t begin = 0;
-    while ((begin = line.find_first_not_of(blanks, begin)) != line.npos) {
-        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-        while (begin < end) {
-            const std::size_t length = length_of_number(line.substr(begin, end - begin));
-            visit(line.substr(begin, length));
-            begin += length;
-        }
-    }
 }
 
 std::string_view plural(std::size_t count)
@@ -132,7 +110,8 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
 {
     std::vector<double> values;
     while (lines.next()) {
-        for_each_free_number(lines.line(), [&](std::string_view word) {
+        for (std::string_view rest = trimmed(lines.line()); !rest.empty();) {
+            const std::string_view word = rest.substr(0, length_of_number(rest));
             if (values.size() == announced.count) {
                 lines.refuse(fmt::format("{} follows the last of the {} sample{} that {} announces "
                                          "in line {}. Correct {} or remove the rest.",
@@ -141,7 +120,8 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
                                          announced.name));
             }
             values.push_back(number_of(lines, word));
-        });
+            rest = trimmed(rest.substr(word.size()));
+        }
     }
     if (values.size() < announced.count) {
         lines.refuse(fmt::format("the file ends after {} sample{}, but {} announces {} in line {}. "
@@ -169,7 +149,7 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
                                      announced.line));
         }
         const std::string_view line =
-            lines.line().substr(0, lines.line().find_last_not_of(blanks) + 1);
+            lines.line().substr(0, lines.line().find_last_not_of(" \t") + 1);
         const std::size_t found = (line.size() + columns.width - 1) / columns.width;
         const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
         if (found != expected) {

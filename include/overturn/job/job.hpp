@@ -3,7 +3,7 @@
 
 #include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/problem/problem.hpp"
-#include "overturn/record/read_table.hpp"
+#include "overturn/text/table.hpp"
 
 #include <memory>
 #include <optional>
