@@ -1,22 +1,15 @@
 #include "overturn/job/job.hpp"
 
-#include "overturn/text/text_file.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/text_file.hpp"
 
 #include "deep_key.hpp"
 #include "read_steps.hpp"
-#include "toml_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <system_error>
 
 namespace overturn {
 

@@ -3,7 +3,6 @@
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/text/error.hpp"
-#include "toml_text.hpp"
 
 #include <fmt/format.h>
 
@@ -141,9 +140,10 @@ std::int64_t integer_of(const Entry& entry)
     return value_of<std::int64_t>(entry, "an integer, such as 100");
 }
 
-bool boolean_of(const Entry& entry)
+bool boolean_of(const Entry& table, std::string_view name, bool otherwise)
 {
-    return value_of<bool>(entry, "true or false");
+    const auto entry = find(table, name);
+    return entry ? value_of<bool>(*entry, "true or false") : otherwise;
 }
 
 double number_of(const Entry& entry)
@@ -168,6 +168,12 @@ std::size_t index_of_name(const Entry& entry, Names names)
                                   suggestion("", name, names), joined(names)));
     }
     return std::size_t(found - names.begin());
+}
+
+std::string float_text(double value)
+{
+    std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
 } // namespace overturn

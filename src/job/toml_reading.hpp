@@ -2,6 +2,8 @@
 // that names the place, what was found, what is allowed and what to do.
 #pragma once
 
+#include "overturn/text/quoting.hpp"
+
 #include <toml++/toml.h>
 
 #include <cstddef>
@@ -49,10 +51,15 @@ Entry element(const Entry& array, std::size_t i);
 
 std::string string_of(const Entry& entry);
 std::int64_t integer_of(const Entry& entry);
-bool boolean_of(const Entry& entry);
 
 /// A finite number; integers are accepted, and -0 becomes 0.
 double number_of(const Entry& entry);
+
+/// A key of a table; `otherwise` if it is missing.
+bool boolean_of(const Entry& table, std::string_view name, bool otherwise);
+
+/// The shortest text from which the same double is read, always with the syntax of a float.
+std::string float_text(double value);
 
 /// The index of the string in `names`.
 std::size_t index_of_name(const Entry& entry, Names names);
@@ -62,6 +69,14 @@ template <class Enumeration>
 Enumeration choice_of(const Entry& entry, Names names)
 {
     return Enumeration(index_of_name(entry, names));
+}
+
+/// The same for a key of a table; `otherwise` if it is missing.
+template <class Enumeration>
+Enumeration choice_of(const Entry& table, std::string_view name, Names names, Enumeration otherwise)
+{
+    const auto entry = find(table, name);
+    return entry ? choice_of<Enumeration>(*entry, names) : otherwise;
 }
 
 } // namespace overturn

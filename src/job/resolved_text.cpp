@@ -1,8 +1,6 @@
-#include "toml_text.hpp"
+#include "read_steps.hpp"
 
-#include "overturn/job/job.hpp"
 #include "overturn/problem/coordinates.hpp"
-#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 
@@ -130,12 +128,6 @@ std::string resolved_text(const Job& job)
             list_text(fields, [](Field field) { return in_quotes(name_of(field)); }));
     }
     return text;
-}
-
-std::string float_text(double value)
-{
-    std::string text = fmt::format("{}", value);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
 } // namespace overturn
