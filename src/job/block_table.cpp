@@ -74,9 +74,9 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
     if (const TableColumn* texts = with_length(blocks.table, name)) {
-        refuse_name(fmt::format(" is the name of the dimension of the texts of {} in the result. "
-                                "Rename the column.",
-                                texts->name));
+        refuse_name(fmt::format(
+            " is the name of the dimension of the texts of {} in the result. Rename the column.",
+            texts->name));
     }
     const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
     const char* reason = name.size() > longest_name              ? "it is too long"
@@ -86,13 +86,12 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
                          : has_white_space(name)                 ? "it contains a blank"
                                                                  : nullptr;
     if (reason != nullptr) {
-        throw Error(
-            exit_code::job,
-            "{}:1:{}: the column {} cannot be a variable of a result file, because {}. Allowed "
-            "are up to {} bytes without blanks, slashes and control characters, and without a "
-            "dot at the beginning. Rename the column.",
-            blocks.file, blocks.table.find(name) - blocks.table.columns.data() + 1,
-            in_quotes(shortened(name, 40)), reason, longest_name);
+        throw Error(exit_code::job,
+                    "{}:1:{}: the column {} cannot be a variable of a result file, because {}. "
+                    "Allowed are up to {} bytes without blanks, slashes and control characters, "
+                    "and without a dot at the beginning. Rename the column.",
+                    blocks.file, blocks.table.find(name) - blocks.table.columns.data() + 1,
+                    in_quotes(shortened(name, 40)), reason, longest_name);
     }
 }
 
@@ -107,12 +106,13 @@ void expect_values(const BlockTable& blocks, const TableColumn& column, const Qu
     for (std::size_t row = 0; row < column.numbers.size(); ++row) {
         const double value = column.numbers[row];
         if (!quantity.allows(value)) {
-            refuse(blocks,
-                   {std::int64_t(row), column.name,
-                    std::isnan(value) ? " is empty or not a number. Give a value in every row, or "
-                                        "rename the column."
-                                      : fmt::format(" = {} is outside {}. {}", value,
-                                                    quantity.interval, quantity.reason)});
+            refuse(
+                blocks,
+                {std::int64_t(row), column.name,
+                 std::isnan(value)
+                     ? " is empty or not a number. Give a value in every row, or rename the column."
+                     : fmt::format(" = {} is outside {}. {}", value, quantity.interval,
+                                   quantity.reason)});
         }
     }
 }
@@ -156,15 +156,14 @@ std::vector<double> motion_numbers(const BlockTable& blocks, const TableColumn& 
             };
             const std::vector<std::size_t> found = motions_named(name, motions);
             if (found.empty()) {
-                refuse_name(fmt::format("not a record of the job. Give the name of a file in "
-                                        "scene.record, such as {}.",
-                                        quoted(0)));
+                refuse_name(fmt::format(
+                    "not a record of the job. Give the name of a file in scene.record, such as {}.",
+                    quoted(0)));
             }
             if (found.size() > 1) {
-                refuse_name(fmt::format("the name of several records: {} and {}{}. Give one of "
-                                        "these names.",
-                                        quoted(found[0]), quoted(found[1]),
-                                        found.size() > 2 ? " and others" : ""));
+                refuse_name(fmt::format(
+                    "the name of several records: {} and {}{}. Give one of these names.",
+                    quoted(found[0]), quoted(found[1]), found.size() > 2 ? " and others" : ""));
             }
             known[name] = found[0];
         }

@@ -27,9 +27,12 @@ std::string place_of_argument(const std::string& argument)
     return on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
 }
 
-[[noreturn]] void refuse_argument(const std::string& argument, std::string_view text)
+template <class... Arguments>
+[[noreturn]] void refuse_argument(const std::string& argument,
+                                  fmt::format_string<Arguments...> text, Arguments&&... arguments)
 {
-    throw Error(exit_code::job, "{}: {}", place_of_argument(argument), text);
+    throw Error(exit_code::job, "{}: {}", place_of_argument(argument),
+                fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 
 /// Whether a text can only be a string without quotes: it begins with a letter and has no quotes,
@@ -54,11 +57,10 @@ Path path_of(const std::string& argument, std::string_view dotted_key)
         const std::size_t dot = dotted_key.find('.');
         const std::string_view key = trimmed(dotted_key.substr(0, dot));
         if (key.empty() || !std::ranges::all_of(key, is_allowed)) {
-            refuse_argument(
-                argument,
-                fmt::format("the key {} is {}. Keys consist of letters, digits, '_' and '-', "
+            refuse_argument(argument,
+                            "the key {} is {}. Keys consist of letters, digits, '_' and '-', "
                             "joined by dots, such as plane.frequency.count.",
-                            in_quotes(key), key.empty() ? "empty" : "invalid"));
+                            in_quotes(key), key.empty() ? "empty" : "invalid");
         }
         path.emplace_back(key);
         if (dot == dotted_key.npos) {
@@ -91,9 +93,9 @@ toml::table job_of(const std::string& argument, const Path& path, std::string_vi
         job = parsed(in_quotes(value));
     }
     if (!job) {
-        refuse_argument(argument, fmt::format("this is not valid TOML: {}. Give a number, a "
-                                              "\"string\", or a [list].",
-                                              problem));
+        refuse_argument(argument,
+                        "this is not valid TOML: {}. Give a number, a \"string\", or a [list].",
+                        problem);
     }
     return *std::move(job);
 }
@@ -125,9 +127,8 @@ void move_value(toml::table& job, toml::table& given, const Path& path, const st
         }
         if (!present->is_table()) {
             const auto end = path.begin() + std::ptrdiff_t(depth + 1);
-            refuse_argument(argument, fmt::format("{} is not a table in the job, so it has no keys "
-                                                  "to set.",
-                                                  fmt::join(path.begin(), end, ".")));
+            refuse_argument(argument, "{} is not a table in the job, so it has no keys to set.",
+                            fmt::join(path.begin(), end, "."));
         }
         onto = present->as_table();
         from = entry->second.as_table();

@@ -71,9 +71,9 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     const bool is_recorded = job.problem.scene.is_recorded();
     if (!find(entry, "block") && !find(entry, "blocks")) {
         require(entry, "plane",
-                is_recorded ? "Add [plane] with scale, size, restitution and slenderness."
-                            : "Add [plane] with frequency, amplitude, restitution and "
-                              "slenderness.");
+                is_recorded
+                    ? "Add [plane] with scale, size, restitution and slenderness."
+                    : "Add [plane] with frequency, amplitude, restitution and slenderness.");
     }
     std::vector<Given> given = given_coordinates(entry, is_recorded);
     if (find(entry, "blocks")) {

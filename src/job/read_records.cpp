@@ -54,8 +54,8 @@ const RecordComponent* chosen(const RecordFile& file, const Entry& choice)
         names += fmt::format("{}{}{}", i == 0 ? "" : ", ", i + 1,
                              name.empty() ? "" : fmt::format(" ({})", in_quotes(name)));
     }
-    refuse(choice, fmt::format(" = {} is not a component of {}. It has the components {}.",
-                               component_text(choice), in_quotes(file), names));
+    refuse(choice, " = {} is not a component of {}. It has the components {}.",
+           component_text(choice), in_quotes(file), names);
 }
 
 /// The name of a component, or its number if it has none, or none of its own, or one that looks
@@ -103,14 +103,13 @@ std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
     }
     globfree(&found);
     if (files.empty()) {
-        refuse(entry, fmt::format(" = {} matches no file. It is relative to the job file.",
-                                  in_quotes(text)));
+        refuse(entry, " = {} matches no file. It is relative to the job file.", in_quotes(text));
     }
     std::ranges::sort(files);
     const auto other = std::ranges::find_if_not(files, is_utf8);
     if (other != files.end()) {
-        refuse(entry, fmt::format(" = {} matches the file {}, whose name is not UTF-8. Rename it.",
-                                  in_quotes(text), as_utf8(*other)));
+        refuse(entry, " = {} matches the file {}, whose name is not UTF-8. Rename it.",
+               in_quotes(text), as_utf8(*other));
     }
     return files;
 }
@@ -129,10 +128,10 @@ std::vector<std::optional<Entry>> choices_of(const Entry& scene, std::string_vie
         array_size(*entry, "a component, or an array with one for each record", "Remove the key.");
     if (size != count) {
         refuse(*entry,
-               fmt::format(
-                   " has length {}; the number of records is {}. Give one for each record, or a "
-                   "single value for all.",
-                   size, count));
+
+               " has length {}; the number of records is {}. Give one for each record, or a single "
+               "value for all.",
+               size, count);
     }
     for (std::size_t i = 0; i < size; ++i) {
         choices[i] = element(*entry, i);
@@ -182,15 +181,15 @@ std::vector<double> upwards_of(const GivenRecord& given, const RecordFile& conte
     if (component->time_step != horizontal.time_step ||
         component->acceleration.size() != horizontal.acceleration.size()) {
         refuse(choice,
-               fmt::format(" has {} samples at {} s, but the horizontal component has {} at {} "
-                           "s. Both must be equal.",
-                           component->acceleration.size(), component->time_step,
-                           horizontal.acceleration.size(), horizontal.time_step));
+               " has {} samples at {} s, but the horizontal component has {} at {} s. Both must be "
+               "equal.",
+               component->acceleration.size(), component->time_step, horizontal.acceleration.size(),
+               horizontal.time_step);
     }
     if (component->acceleration == horizontal.acceleration) {
-        refuse(choice, fmt::format(" = {} has the accelerations of the horizontal component. Give "
-                                   "the vertical one.",
-                                   component_text(choice)));
+        refuse(choice,
+               " = {} has the accelerations of the horizontal component. Give the vertical one.",
+               component_text(choice));
     }
     return over_gravity(*component, reading.gravity);
 }
@@ -206,8 +205,8 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
         refuse_component(*given.component, content, given.file);
     }
     if (horizontal->acceleration.size() < 2) {
-        refuse(given.entry, fmt::format(" = {} has one sample. A record needs two or more.",
-                                        in_quotes(given.file)));
+        refuse(given.entry, " = {} has one sample. A record needs two or more.",
+               in_quotes(given.file));
     }
     auto record = std::make_shared<const Accelerogram>(
         over_gravity(*horizontal, reading.gravity),
@@ -224,8 +223,7 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
         .checksum = checksum_of(*record)};
     std::ranges::transform(horizontal->header, std::back_inserter(motion.header), as_utf8);
     if (!(motion.measures.pga > 0)) {
-        refuse(given.entry,
-               fmt::format(" = {} is zero at all times. Remove it.", in_quotes(given.file)));
+        refuse(given.entry, " = {} is zero at all times. Remove it.", in_quotes(given.file));
     }
     return {std::move(motion), std::move(record)};
 }
@@ -257,8 +255,8 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
         }
     }
     if (records.size() > most_records) {
-        refuse(entry, fmt::format(" names {} files, but at most {} are allowed. Split the suite.",
-                                  records.size(), most_records));
+        refuse(entry, " names {} files, but at most {} are allowed. Split the suite.",
+               records.size(), most_records);
     }
     const auto components = choices_of(scene, "component", records.size());
     const auto verticals = choices_of(scene, "vertical", records.size());
@@ -304,9 +302,9 @@ RecordedMotions read_motions(const Entry& scene, const std::string& folder, doub
         const std::string path = fs::weakly_canonical(reading.folder / given.file).string();
         if (!known.insert(fmt::format("{}:{}:{}", path, motion.label, motion.checksum)).second) {
             refuse(given.entry,
-                   fmt::format(" = {} is listed more than once with the same component, and would "
-                               "count as several motions. List each motion once.",
-                               in_quotes(given.file)));
+                   " = {} is listed more than once with the same component, and would count as "
+                   "several motions. List each motion once.",
+                   in_quotes(given.file));
         }
         recorded.motions.push_back(std::move(motion));
         recorded.records.push_back(std::move(record));

@@ -71,9 +71,8 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
         choice_of(entry, "method", method_names, is_recorded ? Method::taylor : numerics.method);
     if (is_recorded && numerics.method != Method::taylor) {
         refuse(*find(entry, "method"),
-               fmt::format(" = \"{}\" is for pulses only. Under a record, use \"taylor\", the "
-                           "default.",
-                           name_of(numerics.method)));
+               " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",
+               name_of(numerics.method));
     }
     numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);
     numerics.tolerance = quantity_of(
@@ -91,8 +90,7 @@ void expect_fillable(const Entry& entry, const Problem& problem)
     const std::string reason = problem.numerics.fill ? reason_not_to_fill(problem) : "";
     if (!reason.empty()) {
         refuse(*find(*find(entry, "numerics"), "fill"),
-               fmt::format(" = true is not possible: {}. Remove it to integrate every point.",
-                           reason));
+               " = true is not possible: {}. Remove it to integrate every point.", reason);
     }
 }
 
@@ -103,11 +101,11 @@ void expect_known_errors(const Entry& job, const Problem& problem)
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && !knows_errors(numerics)) {
         refuse(*find(*find(job, "numerics"), "tolerance"),
-               fmt::format(
-                   " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
-                   "reliable error bounds. Lower it, or use method = \"taylor\".",
-                   numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
-                   largest_rk45_tolerance_with_error));
+
+               " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
+               "reliable error bounds. Lower it, or use method = \"taylor\".",
+               numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
+               largest_rk45_tolerance_with_error);
     }
 }
 
@@ -124,8 +122,8 @@ std::vector<Field> read_fields(const Entry& job)
     for (std::size_t i = 0; i < size; ++i) {
         const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names());
         if (std::ranges::count(fields, field) > 0) {
-            refuse(element(*entry, i),
-                   fmt::format(" = \"{}\" is listed twice. List each field once.", name_of(field)));
+            refuse(element(*entry, i), " = \"{}\" is listed twice. List each field once.",
+                   name_of(field));
         }
         fields.push_back(field);
     }

@@ -4,6 +4,7 @@
 
 #include "overturn/text/quoting.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace overturn {
 
@@ -32,6 +34,15 @@ std::string place_of(const toml::source_region& source);
 
 /// Throws an Error with the place, the key, and the text that follows the key.
 [[noreturn]] void refuse(const Entry& entry, std::string_view text);
+
+/// The same with a text that is formatted as by fmt::format().
+template <class Argument, class... Others>
+[[noreturn]] void refuse(const Entry& entry, fmt::format_string<Argument, Others...> text,
+                         Argument&& argument, Others&&... others)
+{
+    refuse(entry, std::string_view(fmt::format(text, std::forward<Argument>(argument),
+                                               std::forward<Others>(others)...)));
+}
 
 /// Throws Error unless the entry is a table with these keys only. `or_else` precedes "a table"
 /// in the message, and names other allowed types.

@@ -1,9 +1,5 @@
 #include "lines.hpp"
 
-#include "overturn/text/error.hpp"
-
-#include <fmt/format.h>
-
 namespace overturn {
 
 bool Lines::next()
@@ -21,16 +17,6 @@ bool Lines::next()
     return true;
 }
 
-void Lines::refuse(std::string_view reason) const
-{
-    throw Error(exit_code::job, "{}:{}: {}", *name_, number_, reason);
-}
-
-void Lines::refuse_file(std::string_view reason) const
-{
-    throw Error(exit_code::job, "{}: {}", *name_, reason);
-}
-
 Lines ahead_by(Lines lines, std::size_t count)
 {
     while (count > 0 && lines.next()) {
@@ -44,9 +30,8 @@ void Header::add(const Lines& lines)
     constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
     size_ += lines.line().size() + 1;
     if (size_ > most) {
-        lines.refuse(fmt::format("header and comments are larger than {} KiB, the maximum. Remove "
-                                 "comments.",
-                                 most >> 10));
+        lines.refuse("header and comments are larger than {} KiB, the maximum. Remove comments.",
+                     most >> 10);
     }
     kept_.emplace_back(lines.line());
 }
@@ -55,9 +40,9 @@ void Header::take(Lines& lines, std::size_t count)
 {
     for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next()) {
-            lines.refuse(fmt::format("the file ends after {} of the {} lines of the header. Give "
-                                     "the complete file.",
-                                     i, count));
+            lines.refuse(
+                "the file ends after {} of the {} lines of the header. Give the complete file.", i,
+                count);
         }
         add(lines);
     }

@@ -1,7 +1,10 @@
 // The lines of a file, one after another, and the refusal of a line.
 #pragma once
 
+#include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
+
+#include <fmt/format.h>
 
 #include <cstddef>
 #include <string>
@@ -25,11 +28,24 @@ public:
     /// Counted from 1; 0 before the first line.
     std::size_t number() const { return number_; }
 
-    /// Throws an Error with the file and the current line.
-    [[noreturn]] void refuse(std::string_view reason) const;
+    /// Throws an Error with the file and the current line. The reason is formatted as by
+    /// fmt::format().
+    template <class... Arguments>
+    [[noreturn]] void refuse(fmt::format_string<Arguments...> reason,
+                             Arguments&&... arguments) const
+    {
+        throw Error(exit_code::job, "{}:{}: {}", *name_, number_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
+    }
 
     /// The same for the file as a whole.
-    [[noreturn]] void refuse_file(std::string_view reason) const;
+    template <class... Arguments>
+    [[noreturn]] void refuse_file(fmt::format_string<Arguments...> reason,
+                                  Arguments&&... arguments) const
+    {
+        throw Error(exit_code::job, "{}: {}", *name_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
+    }
 
 private:
     std::string_view rest_;

@@ -68,17 +68,15 @@ double number_of(const Lines& lines, std::string_view word)
 {
     const auto [value, error] = parse(word);
     if (error == std::errc::invalid_argument) {
-        lines.refuse(fmt::format("{} is not a number. Write numbers as in 0.5, -.5E-01 or "
-                                 "-.5D-01.",
-                                 quoted_bytes(word)));
+        lines.refuse("{} is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01.",
+                     quoted_bytes(word));
     }
     if (error == std::errc::result_out_of_range) {
-        lines.refuse(fmt::format("{} is outside the range of double precision. Correct it.",
-                                 quoted_bytes(word)));
+        lines.refuse("{} is outside the range of double precision. Correct it.",
+                     quoted_bytes(word));
     }
     if (!std::isfinite(value)) {
-        lines.refuse(
-            fmt::format("{} is not finite. Give a record without gaps.", quoted_bytes(word)));
+        lines.refuse("{} is not finite. Give a record without gaps.", quoted_bytes(word));
     }
     return value;
 }
@@ -90,9 +88,9 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc() || end != word.data() + word.size() || count < least ||
         count > most_samples) {
-        lines.refuse(fmt::format("{} is {}, but must be an integer from {} to {}. Correct it, or "
-                                 "give another record.",
-                                 what, quoted_bytes(word), least, most_samples));
+        lines.refuse(
+            "{} is {}, but must be an integer from {} to {}. Correct it, or give another record.",
+            what, quoted_bytes(word), least, most_samples);
     }
     return count;
 }
@@ -101,7 +99,7 @@ double time_step_of(const Lines& lines, std::string_view word)
 {
     const double step = number_of(lines, word);
     if (!(step > 0)) {
-        lines.refuse(fmt::format("the time step is {} s, but must be above 0. Correct it.", step));
+        lines.refuse("the time step is {} s, but must be above 0. Correct it.", step);
     }
     return step;
 }
@@ -113,21 +111,20 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
         for (std::string_view rest = trimmed(lines.line()); !rest.empty();) {
             const std::string_view word = rest.substr(0, length_of_number(rest));
             if (values.size() == announced.count) {
-                lines.refuse(fmt::format("{} follows the last of the {} sample{} that {} announces "
-                                         "in line {}. Correct {} or remove the rest.",
-                                         quoted_bytes(word), announced.count,
-                                         plural(announced.count), announced.name, announced.line,
-                                         announced.name));
+                lines.refuse("{} follows the last of the {} sample{} that {} announces in line {}. "
+                             "Correct {} or remove the rest.",
+                             quoted_bytes(word), announced.count, plural(announced.count),
+                             announced.name, announced.line, announced.name);
             }
             values.push_back(number_of(lines, word));
             rest = trimmed(rest.substr(word.size()));
         }
     }
     if (values.size() < announced.count) {
-        lines.refuse(fmt::format("the file ends after {} sample{}, but {} announces {} in line {}. "
-                                 "Give the complete file.",
-                                 values.size(), plural(values.size()), announced.name,
-                                 announced.count, announced.line));
+        lines.refuse("the file ends after {} sample{}, but {} announces {} in line {}. Give the "
+                     "complete file.",
+                     values.size(), plural(values.size()), announced.name, announced.count,
+                     announced.line);
     }
     return values;
 }
@@ -143,21 +140,20 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
     std::vector<double> values;
     while (values.size() < announced.count) {
         if (!lines.next()) {
-            lines.refuse(fmt::format("the file ends after {} of the {} values of {} that line {} "
-                                     "announces. Give the complete file.",
-                                     values.size(), announced.count, announced.name,
-                                     announced.line));
+            lines.refuse("the file ends after {} of the {} values of {} that line {} announces. "
+                         "Give the complete file.",
+                         values.size(), announced.count, announced.name, announced.line);
         }
         const std::string_view line =
             lines.line().substr(0, lines.line().find_last_not_of(" \t") + 1);
         const std::size_t found = (line.size() + columns.width - 1) / columns.width;
         const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
         if (found != expected) {
-            lines.refuse(fmt::format("the line has {} column{} of {} characters, but must have {}: "
-                                     "line {} announces {} values of {}, {} per line. Give the "
-                                     "file as it was published.",
-                                     found, plural(found), columns.width, expected, announced.line,
-                                     announced.count, announced.name, columns.per_line));
+            lines.refuse(
+                "the line has {} column{} of {} characters, but must have {}: line {} announces {} "
+                "values of {}, {} per line. Give the file as it was published.",
+                found, plural(found), columns.width, expected, announced.line, announced.count,
+                announced.name, columns.per_line);
         }
         for (std::size_t i = 0; i < found; ++i) {
             values.push_back(number_of(lines, column_of(line, columns.width, i)));

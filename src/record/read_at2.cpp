@@ -2,7 +2,6 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -42,16 +41,16 @@ std::string_view from_value(std::string_view line, std::string_view key)
 void expect_seconds(const Lines& lines, std::string_view step, std::string_view after)
 {
     if (after.starts_with(',') && after.size() > 1 && '0' <= after[1] && after[1] <= '9') {
-        lines.refuse(fmt::format("the time step {} has a decimal comma. Write it with a point, as "
-                                 "in DT= .01 SEC.",
-                                 quoted_bytes(std::string(step).append(after.substr(0, 2)))));
+        lines.refuse(
+            "the time step {} has a decimal comma. Write it with a point, as in DT= .01 SEC.",
+            quoted_bytes(std::string(step).append(after.substr(0, 2))));
     }
     const std::string_view unit = first_word(from_word(after));
     const std::string word = lower(unit.substr(0, unit.find_first_of(",;.")));
     if (!word.empty() && 'a' <= word[0] && word[0] <= 'z' && word[0] != 's' && word != "npts") {
-        lines.refuse(fmt::format("the unit {} of the time step is not understood. Write it in "
-                                 "seconds, as in DT= .01 SEC.",
-                                 quoted_bytes(unit)));
+        lines.refuse("the unit {} of the time step is not understood. Write it in seconds, as in "
+                     "DT= .01 SEC.",
+                     quoted_bytes(unit));
     }
 }
 
@@ -71,9 +70,9 @@ Sampling read_sampling(const Lines& lines)
         step = from_word(count.substr(first_word(count).size()));
     }
     if (count.empty() || step.empty()) {
-        lines.refuse(fmt::format("{} lacks the number of points or the time step. Write it as in "
-                                 "NPTS= 4000, DT= .01 SEC.",
-                                 quoted_bytes(line)));
+        lines.refuse("{} lacks the number of points or the time step. Write it as in NPTS= 4000, "
+                     "DT= .01 SEC.",
+                     quoted_bytes(line));
     }
     const std::string_view word = first_word(step);
     expect_seconds(lines, word, step.substr(word.size()));
@@ -88,9 +87,8 @@ void expect_acceleration(const Lines& lines)
     if (contains(line, "SPECTR") ||
         (!contains(line, "ACCELERATION") &&
          (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT")))) {
-        lines.refuse(
-            fmt::format("{} does not contain accelerations. Give the AT2 file of this record.",
-                        quoted_bytes(trimmed(line))));
+        lines.refuse("{} does not contain accelerations. Give the AT2 file of this record.",
+                     quoted_bytes(trimmed(line)));
     }
 }
 
@@ -115,11 +113,10 @@ std::optional<AccelerationUnit> unit_of_header(Lines lines,
             const std::string reason =
                 stated.unit ? fmt::format("contradicts {}", quoted_bytes(found->text))
                             : "is not understood";
-            lines.refuse(fmt::format("the unit {} {}. Understood are {} and their usual spellings, "
-                                     "such as CM/SEC/SEC. State the unit of the samples: {}.",
-                                     quoted_bytes(stated.text), reason,
-                                     fmt::join(acceleration_unit_names, ", "),
-                                     how_to_state("units")));
+            lines.refuse("the unit {} {}. Understood are {} and their usual spellings, such as "
+                         "CM/SEC/SEC. State the unit of the samples: {}.",
+                         quoted_bytes(stated.text), reason,
+                         fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
         }
     }
     return found ? found->unit : std::nullopt;

@@ -7,8 +7,6 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,15 +44,14 @@ bool next_content(Lines& lines)
 [[noreturn]] void refuse_format(Lines lines)
 {
     if (!next_content(lines)) {
-        lines.refuse_file(lines.number() == 0 ? "is empty. Give a file with a recorded motion."
-                                              : "has no samples. Give a file with a recorded "
-                                                "motion.");
+        lines.refuse_file("{}", lines.number() == 0
+                                    ? "is empty. Give a file with a recorded motion."
+                                    : "has no samples. Give a file with a recorded motion.");
     }
-    lines.refuse(fmt::format(
-        "{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, SMC, or "
-        "text of one or two columns, in which # or % precedes comments. "
-        "Convert the file to one of these.",
-        quoted_bytes(trimmed(lines.line()))));
+    lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
+                 "SMC, or text of one or two columns, in which # or % precedes comments. Convert "
+                 "the file to one of these.",
+                 quoted_bytes(trimmed(lines.line())));
 }
 
 /// Reads the samples in the format that the first lines have.
@@ -102,23 +99,21 @@ void expect_no_other_unit(const RecordFile& file, const Lines& lines)
             const std::string quoted = quoted_bytes(trimmed(line));
             for (const StatedUnit& stated : stated_units(line, places)) {
                 if (is_text && stated.is_time) {
-                    lines.refuse_file(fmt::format("the line {} states times in {}. Give times in "
-                                                  "seconds.",
-                                                  quoted, stated.text));
+                    lines.refuse_file("the line {} states times in {}. Give times in seconds.",
+                                      quoted, stated.text);
                 }
                 is_stated = is_stated || is_same(stated);
                 if (!is_same(stated) && refusal.empty() && (stated.unit || is_text)) {
-                    refusal =
-                        fmt::format("the line {} states the unit {}, but {} is {}. Correct "
-                                    "one of them.",
-                                    quoted, quoted_bytes(stated.text),
-                                    file.has_given_unit ? "the given unit" : "that of the format",
-                                    name_of(component.unit));
+                    refusal = fmt::format(
+                        "the line {} states the unit {}, but {} is {}. Correct one of them.",
+                        quoted, quoted_bytes(stated.text),
+                        file.has_given_unit ? "the given unit" : "that of the format",
+                        name_of(component.unit));
                 }
             }
         }
         if (!refusal.empty() && !is_stated) {
-            lines.refuse_file(refusal);
+            lines.refuse_file("{}", refusal);
         }
     }
 }
@@ -130,13 +125,13 @@ void expect_text(Lines lines)
         for (const char letter : lines.line()) {
             const auto code = static_cast<unsigned char>(letter);
             if (letter == '\r') {
-                lines.refuse("a carriage return is within the line. Convert line ends to LF or CR "
-                             "LF.");
+                lines.refuse(
+                    "a carriage return is within the line. Convert line ends to LF or CR LF.");
             }
             if (code < 0x20 && letter != '\t') {
-                lines.refuse(fmt::format("the character 0x{:02x} is not text. Give a file of text: "
-                                         "AT2, V2A, SMC or columns.",
-                                         code));
+                lines.refuse("the character 0x{:02x} is not text. Give a file of text: AT2, V2A, "
+                             "SMC or columns.",
+                             code);
             }
         }
     }
@@ -147,15 +142,13 @@ void expect_no_options(const RecordFile& file, const RecordOptions& options, con
 {
     const RecordComponent& component = file.components.front();
     if (options.unit && !file.has_given_unit) {
-        lines.refuse_file(
-            fmt::format("units = {} was given, but this {} file is in {}. Remove units.",
-                        name_of(*options.unit), file.format, name_of(component.unit)));
+        lines.refuse_file("units = {} was given, but this {} file is in {}. Remove units.",
+                          name_of(*options.unit), file.format, name_of(component.unit));
     }
     if (options.time_step) {
         lines.refuse_file(
-            fmt::format("time_step = {} was given, but the {} file states its own, {} s. Remove "
-                        "time_step.",
-                        *options.time_step, file.format, component.time_step));
+            "time_step = {} was given, but the {} file states its own, {} s. Remove time_step.",
+            *options.time_step, file.format, component.time_step);
     }
 }
 
@@ -185,9 +178,9 @@ RecordFile parse_record(std::string_view text, const std::string& name,
     }
     const Lines lines(text, name);
     if (options.time_step && !(*options.time_step > 0 && std::isfinite(*options.time_step))) {
-        lines.refuse_file(fmt::format("time_step = {} was given, but must be above 0 and finite. "
-                                      "Give the seconds between two samples.",
-                                      *options.time_step));
+        lines.refuse_file("time_step = {} was given, but must be above 0 and finite. Give the "
+                          "seconds between two samples.",
+                          *options.time_step);
     }
     expect_text(lines);
     RecordFile file = read_known_format(lines, options);

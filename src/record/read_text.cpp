@@ -2,8 +2,6 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -82,16 +80,16 @@ void EvenTimes::add(const Lines& lines, std::string_view word)
 {
     const double time = number_of(lines, word);
     if (std::abs(time) > largest_time) {
-        lines.refuse(fmt::format("the time {} s is outside {} to {} s. The first of two columns "
-                                 "must be the time in seconds.",
-                                 word, -largest_time, largest_time));
+        lines.refuse("the time {} s is outside {} to {} s. The first of two columns must be the "
+                     "time in seconds.",
+                     word, -largest_time, largest_time);
     }
     if (size_ == 0) {
         first_ = time;
     } else if (!(time > last_)) {
-        lines.refuse(fmt::format("the time {} s is not after the previous time, {} s. Give "
-                                 "ascending times with enough digits, or one column and time_step.",
-                                 word, last_));
+        lines.refuse("the time {} s is not after the previous time, {} s. Give ascending times "
+                     "with enough digits, or one column and time_step.",
+                     word, last_);
     } else {
         // Rounding: of both times, of their difference, of its sum with the half unit.
         constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
@@ -100,11 +98,10 @@ void EvenTimes::add(const Lines& lines, std::string_view word)
         const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
         const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
         if (!(least <= most)) {
-            lines.refuse(fmt::format(
-                "the time is {} s, but must be {:.9g} s to within half a unit of its last digit: "
-                "times must be evenly spaced, and those before have the step {:.9g} s. "
-                "Resample the record, or give one column and time_step.",
-                word, first_ + double(size_) * step(), step()));
+            lines.refuse("the time is {} s, but must be {:.9g} s to within half a unit of its last "
+                         "digit: times must be evenly spaced, and those before have the step "
+                         "{:.9g} s. Resample the record, or give one column and time_step.",
+                         word, first_ + double(size_) * step(), step());
         }
         least_ = least;
         most_ = most;
@@ -139,25 +136,23 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
                     const std::optional<double>& time_step)
 {
     if (found > 2) {
-        lines.refuse(fmt::format("the line has {} columns. Give one column of accelerations, or "
-                                 "two of times and accelerations; the decimal mark is a point.",
-                                 found));
+        lines.refuse("the line has {} columns. Give one column of accelerations, or two of times "
+                     "and accelerations; the decimal mark is a point.",
+                     found);
     }
     if (found != expected) {
-        lines.refuse(fmt::format("the line has {} column{}, but the previous lines have {}. "
-                                 "Correct it.",
-                                 found, found == 1 ? "" : "s", expected));
+        lines.refuse("the line has {} column{}, but the previous lines have {}. Correct it.", found,
+                     found == 1 ? "" : "s", expected);
     }
     if (found == 1 && !time_step) {
-        lines.refuse(fmt::format("the file has one column, so the time step is not known. Give "
-                                 "two columns with time in seconds first, or the time step in "
-                                 "seconds: {}.",
-                                 how_to_state("time_step")));
+        lines.refuse("the file has one column, so the time step is not known. Give two columns "
+                     "with time in seconds first, or the time step in seconds: {}.",
+                     how_to_state("time_step"));
     }
     if (found == 2 && time_step) {
-        lines.refuse(fmt::format("time_step = {} was given, but the file has two columns, which "
-                                 "state the times. Remove time_step.",
-                                 *time_step));
+        lines.refuse("time_step = {} was given, but the file has two columns, which state the "
+                     "times. Remove time_step.",
+                     *time_step);
     }
 }
 
@@ -189,10 +184,9 @@ void expect_decimal_points(Lines lines)
         }
     }
     if (doubtful) {
-        doubtful->refuse(fmt::format(
-            "{} may be a number with a decimal comma, because the file has no decimal point. Write "
-            "numbers with a point, and separate columns by blanks.",
-            quoted_bytes(trimmed(doubtful->line()))));
+        doubtful->refuse("{} may be a number with a decimal comma, because the file has no decimal "
+                         "point. Write numbers with a point, and separate columns by blanks.",
+                         quoted_bytes(trimmed(doubtful->line())));
     }
 }
 
@@ -202,9 +196,8 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
 {
     if (!options.unit) {
         lines.refuse_file(
-            fmt::format("files in text format do not state the unit of the accelerations. Give "
-                        "one of {}: {}.",
-                        fmt::join(acceleration_unit_names, ", "), how_to_state("units")));
+            "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
+            fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
     }
     expect_decimal_points(lines);
     RecordComponent component;
@@ -224,9 +217,8 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
         columns = columns == 0 ? row.size() : columns;
         expect_columns(lines, row.size(), columns, options.time_step);
         if (component.acceleration.size() == most_samples) {
-            lines.refuse(fmt::format("the file has more than {} samples, the maximum. Give a "
-                                     "shorter record.",
-                                     most_samples));
+            lines.refuse("the file has more than {} samples, the maximum. Give a shorter record.",
+                         most_samples);
         }
         if (columns == 2) {
             times.add(lines, row.front());

@@ -2,8 +2,6 @@
 
 #include "lines.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -407,9 +405,9 @@ std::vector<StatedUnit> stated_units(std::string_view line, UnitPlaces places)
 
 std::string how_to_state(std::string_view option)
 {
-    return fmt::format("scene.{0} in a job, --set scene.{0}=... on the command line, or {0}=... in "
-                       "Python",
-                       option);
+    return fmt::format(
+        "scene.{0} in a job, --set scene.{0}=... on the command line, or {0}=... in Python",
+        option);
 }
 
 } // namespace overturn

@@ -33,7 +33,7 @@ public:
         column_ = ends_row_ ? 1 : column_ + 1;
         const std::string_view value = rest_.starts_with('"') ? quoted_value() : plain_value();
         if (!is_utf8(value)) {
-            refuse(fmt::format("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value)));
+            refuse("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value));
         }
         ends_row_ = !rest_.starts_with(',');
         next_line_ += ends_row_ ? 1 : 0;
@@ -42,10 +42,15 @@ public:
     }
 
     /// Throws an Error about the value that was read last.
-    [[noreturn]] void refuse(std::string_view reason) const
+    template <class... Arguments>
+    [[noreturn]] void refuse(fmt::format_string<Arguments...> reason,
+                             Arguments&&... arguments) const
     {
-        throw Error(exit_code::job, "{}:{}:{}: {}", *name_, line_, column_, reason);
+        throw Error(exit_code::job, "{}:{}:{}: {}", *name_, line_, column_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
     }
+
+    /// The same about a row.
     [[noreturn]] void refuse_row(std::int64_t line, std::string_view reason) const
     {
         throw Error(exit_code::job, "{}:{}: {}", *name_, line, reason);
@@ -115,16 +120,15 @@ std::vector<TableColumn> read_names(Values& values)
         }
         const auto is_same = [&](const TableColumn& other) { return other.name == name; };
         if (std::any_of(columns.begin(), columns.end(), is_same)) {
-            values.refuse(fmt::format("the name {} is repeated. Give every column a name of its "
-                                      "own.",
-                                      quoted_bytes(name)));
+            values.refuse("the name {} is repeated. Give every column a name of its own.",
+                          quoted_bytes(name));
         }
         columns.push_back({std::move(name), {}, {}});
     } while (!values.ends_row());
     if (columns.size() == 1 && columns[0].name.find_first_of(";\t|") != std::string::npos) {
-        values.refuse(fmt::format("{} is one name. Separate names and values by commas, and write "
-                                  "numbers with a decimal point.",
-                                  quoted_bytes(columns[0].name)));
+        values.refuse("{} is one name. Separate names and values by commas, and write numbers with "
+                      "a decimal point.",
+                      quoted_bytes(columns[0].name));
     }
     return columns;
 }
@@ -174,8 +178,8 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
     }
     if (text.find('\0') != text.npos) {
         throw Error(exit_code::job,
-                    "{}: is not a table of text, because it contains NUL "
-                    "characters. Save it as comma-separated values in UTF-8.",
+                    "{}: is not a table of text, because it contains NUL characters. Save it as "
+                    "comma-separated values in UTF-8.",
                     name);
     }
     Table table;
