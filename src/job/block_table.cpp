@@ -1,12 +1,9 @@
-#include "block_table.hpp"
+#include "read_steps.hpp"
 
-#include "motion_names.hpp"
-#include "overturn/record/read_table.hpp"
-#include "overturn/record/text_file.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/table.hpp"
+#include "overturn/text/text_file.hpp"
 #include "overturn/text/utf8.hpp"
-#include "toml_reading.hpp"
-#include "toml_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace overturn {
 
@@ -45,10 +43,9 @@ bool is_one_of(std::string_view name, Names names)
 /// The text column whose texts have a length of this name, or nullptr.
 const TableColumn* with_length(const Table& table, std::string_view name)
 {
-    if (!name.ends_with(length_suffix)) {
-        return nullptr;
-    }
-    const TableColumn* column = table.find(name.substr(0, name.size() - length_suffix.size()));
+    const TableColumn* column = name.ends_with(length_suffix)
+                                    ? table.find(name.substr(0, name.size() - length_suffix.size()))
+                                    : nullptr;
     return column == nullptr || column->texts.empty() ? nullptr : column;
 }
 
@@ -67,114 +64,106 @@ std::string checksum_of(const Table& table)
     return fmt::format("{:016x}", hash);
 }
 
-} // namespace
+void expect_free_name(const BlockTable& blocks, const std::string& name, bool is_recorded)
+{
+    const auto refuse_name = [&](const std::string& reason) {
+        refuse(blocks, {GivenError::no_row, name, reason});
+    };
+    if (is_one_of(name, reserved_names) || is_one_of(name, field_names()) ||
+        (is_recorded && is_one_of(name, reserved_under_records))) {
+        refuse_name(" is the name of a variable of the result. Rename the column.");
+    }
+    if (const TableColumn* texts = with_length(blocks.table, name)) {
+        refuse_name(fmt::format(
+            " is the name of the dimension of the texts of {} in the result. Rename the column.",
+            texts->name));
+    }
+    const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
+    const char* reason = name.size() > longest_name              ? "it is too long"
+                         : name[0] == '.'                        ? "it begins with a dot"
+                         : name.find('/') != name.npos           ? "it contains a slash"
+                         : std::ranges::any_of(name, is_control) ? "it contains a control character"
+                         : has_white_space(name)                 ? "it contains a blank"
+                                                                 : nullptr;
+    if (reason != nullptr) {
+        throw Error(exit_code::job,
+                    "{}:1:{}: the column {} cannot be a variable of a result file, because {}. "
+                    "Allowed are up to {} bytes without blanks, slashes and control characters, "
+                    "and without a dot at the beginning. Rename the column.",
+                    blocks.file, blocks.table.find(name) - blocks.table.columns.data() + 1,
+                    in_quotes(shortened(name, 40)), reason, longest_name);
+    }
+}
 
-BlockTableReader::BlockTableReader(std::string file, const std::string& folder,
+/// Refuses values that are not numbers, or not allowed.
+void expect_values(const BlockTable& blocks, const TableColumn& column, const Quantity& quantity)
+{
+    if (column.first_text >= 0) {
+        const std::string& text = column.texts[std::size_t(column.first_text)];
+        refuse(blocks, {column.first_text, column.name,
+                        fmt::format(" = {} is not a number.", in_quotes(shortened(text, 40)))});
+    }
+    for (std::size_t row = 0; row < column.numbers.size(); ++row) {
+        const double value = column.numbers[row];
+        if (!quantity.allows(value)) {
+            refuse(
+                blocks,
+                {std::int64_t(row), column.name,
+                 std::isnan(value)
+                     ? " is empty or not a number. Give a value in every row, or rename the column."
+                     : fmt::format(" = {} is outside {}. {}", value, quantity.interval,
+                                   quantity.reason)});
+        }
+    }
+}
+
+/// The indices of the motions that have this name, in order: as in Motion::name, or with the file
+/// without its folder or also without its ending, or that of the file alone.
+std::vector<std::size_t> motions_named(const std::string& name, const std::vector<Motion>& motions)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        const Motion& motion = motions[i];
+        if (name == motion.name) {
+            return {i};
+        }
+        const std::filesystem::path path(motion.file);
+        const std::string suffix = motion.name.substr(motion.file.size());
+        for (const std::string& file :
+             {path.string(), path.filename().string(), path.stem().string()}) {
+            if (name == file || name == file + suffix) {
+                found.push_back(i);
+                break;
+            }
+        }
+    }
+    return found;
+}
+
+/// The numbers of the motions that a column names, from 1.
+std::vector<double> motion_numbers(const BlockTable& blocks, const TableColumn& column,
                                    const std::vector<Motion>& motions)
-    : file_(std::move(file)),
-      table_(read_table(text_of_file((std::filesystem::path(folder) / file_).string(), table_file),
-                        file_, motions.empty() ? "" : motion_column))
 {
-    const bool is_recorded = !motions.empty();
-    for (TableColumn& column : table_.columns) {
-        const Quantity* quantity = find_quantity(column.name);
-        if (is_recorded && column.name == motion_column) {
-            std::vector<double> numbers = motion_numbers(motions);
-            column = {"motion_number", numbers, {}};
-            columns_.push_back(
-                {quantity, std::string(motion_column), Axis(std::move(numbers)), GivenAs::column});
-            continue;
-        }
-        // Under a pulse, the motion is a column like any other.
-        if (quantity == nullptr || !quantity->is_coordinate() || quantity->role == Role::motion) {
-            expect_free_name(column.name, is_recorded);
-            continue;
-        }
-        if (column.first_text >= 0) {
-            const std::string& text = column.texts[std::size_t(column.first_text)];
-            refuse(column.first_text, column.name,
-                   fmt::format("{} = {} is not a number.", column.name,
-                               in_quotes(shortened(text, 40))));
-        }
-        for (std::size_t row = 0; row < column.numbers.size(); ++row) {
-            const double value = column.numbers[row];
-            if (std::isnan(value)) {
-                refuse(std::int64_t(row), column.name,
-                       fmt::format("{} is empty or not a number. Give a value in every row, or "
-                                   "rename the column.",
-                                   column.name));
-            }
-            if (!quantity->allows(value)) {
-                refuse(std::int64_t(row), column.name,
-                       fmt::format("{} = {} is outside {}. {}", column.name, value,
-                                   quantity->interval, quantity->reason));
-            }
-        }
-        if (applies_to(*quantity, is_recorded)) {
-            columns_.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});
-        }
-    }
-}
-
-std::vector<Given> BlockTableReader::columns() const
-{
-    return columns_;
-}
-
-BlockTable BlockTableReader::result() &&
-{
-    std::string checksum = checksum_of(table_);
-    return {std::move(file_), std::move(table_), std::move(checksum)};
-}
-
-void BlockTableReader::refuse(const GivenError& error) const
-{
-    const bool is_column = table_.find(error.quantity()) != nullptr;
-    refuse(error.row(), error.quantity(),
-           is_column && error.row() < 0 ? std::string_view(error.what()).substr(1)
-                                        : error.quantity() + error.what());
-}
-
-void BlockTableReader::refuse(std::int64_t row, std::string_view column,
-                              std::string_view reason) const
-{
-    const auto found = std::find_if(table_.columns.begin(), table_.columns.end(),
-                                    [&](const TableColumn& each) { return each.name == column; });
-    const std::int64_t line = row < 0 ? 1 : table_.lines[std::size_t(row)];
-    std::string place = fmt::format("{}:{}", file_, line);
-    if (found != table_.columns.end()) {
-        place += fmt::format(":{}", found - table_.columns.begin() + 1);
-    }
-    const bool names_column = row < 0 && found != table_.columns.end();
-    throw Error(exit_code::job, "{}: {}{}{}", place, names_column ? column : "",
-                names_column ? " " : "", reason);
-}
-
-std::vector<double> BlockTableReader::motion_numbers(const std::vector<Motion>& motions) const
-{
-    const TableColumn& column = *table_.find(motion_column);
-    std::map<std::string, std::int64_t> known;
+    std::map<std::string, std::size_t> known;
     std::vector<double> numbers;
-    for (std::int64_t row = 0; row < table_.rows(); ++row) {
-        const std::string& name = column.texts[std::size_t(row)];
+    for (const std::string& name : column.texts) {
         if (!known.contains(name)) {
-            const std::vector<std::int64_t> found = motions_named(name, motions);
+            const auto quoted = [&](std::size_t i) { return in_quotes(motions[i].name); };
+            const auto refuse_name = [&](const std::string& reason) {
+                refuse(blocks,
+                       {std::int64_t(numbers.size()), column.name,
+                        fmt::format(" = {} is {}", in_quotes(shortened(name, 40)), reason)});
+            };
+            const std::vector<std::size_t> found = motions_named(name, motions);
             if (found.empty()) {
-                refuse(
-                    row, motion_column,
-                    fmt::format("motion = {} is not a record of the job. Give the name of a file "
-                                "in scene.record, such as {}.",
-                                in_quotes(shortened(name, 40)), in_quotes(motions[0].name)));
+                refuse_name(fmt::format(
+                    "not a record of the job. Give the name of a file in scene.record, such as {}.",
+                    quoted(0)));
             }
             if (found.size() > 1) {
-                const auto name_of = [&](std::int64_t i) {
-                    return in_quotes(motions[std::size_t(i)].name);
-                };
-                refuse(row, motion_column,
-                       fmt::format("motion = {} is the name of several records: {} and {}{}. Give "
-                                   "one of these names.",
-                                   in_quotes(name), name_of(found[0]), name_of(found[1]),
-                                   found.size() > 2 ? " and others" : ""));
+                refuse_name(fmt::format(
+                    "the name of several records: {} and {}{}. Give one of these names.",
+                    quoted(found[0]), quoted(found[1]), found.size() > 2 ? " and others" : ""));
             }
             known[name] = found[0];
         }
@@ -183,38 +172,55 @@ std::vector<double> BlockTableReader::motion_numbers(const std::vector<Motion>& 
     return numbers;
 }
 
-void BlockTableReader::expect_free_name(const std::string& name, bool is_recorded) const
-{
-    if (is_one_of(name, reserved_names) || is_one_of(name, field_names()) ||
-        (is_recorded && is_one_of(name, reserved_under_records))) {
-        refuse(GivenError::no_row, name,
-               "is the name of a variable of the result. Rename the column.");
-    }
-    if (const TableColumn* texts = with_length(table_, name)) {
-        refuse(GivenError::no_row, name,
-               fmt::format("is the name of the dimension of the texts of {} in the result. "
-                           "Rename the column.",
-                           texts->name));
-    }
-    const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char letter) {
-        return letter < 0x20 || letter == 0x7f;
-    });
-    const char* reason = name.size() > longest_name    ? "it is too long"
-                         : name[0] == '.'              ? "it begins with a dot"
-                         : name.find('/') != name.npos ? "it contains a slash"
-                         : has_control                 ? "it contains a control character"
-                         : has_white_space(name)       ? "it contains a blank"
-                                                       : nullptr;
-    if (reason != nullptr) {
-        throw Error(
-            exit_code::job,
+} // namespace
 
-            "{}:1:{}: the column {} cannot be a variable of a result file, because {}. Allowed "
-            "are up to {} bytes without blanks, slashes and control characters, and without a "
-            "dot at the beginning. Rename the column.",
-            file_, table_.find(name) - table_.columns.data() + 1, in_quotes(shortened(name, 40)),
-            reason, longest_name);
+BlockTable read_block_table(const std::string& file, const std::string& folder,
+                            const std::vector<Motion>& motions)
+{
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    const bool is_recorded = !motions.empty();
+    BlockTable blocks{
+        file, read_table(text_of_file(path, table_file), file, is_recorded ? motion_column : ""),
+        ""};
+    for (TableColumn& column : blocks.table.columns) {
+        const Quantity* const quantity = find_quantity(column.name);
+        // Under a pulse, the motion is a column like any other.
+        if (is_recorded && column.name == motion_column) {
+            column = {"motion_number", motion_numbers(blocks, column, motions), {}};
+        } else if (quantity == nullptr || !quantity->is_coordinate() ||
+                   quantity->role == Role::motion) {
+            expect_free_name(blocks, column.name, is_recorded);
+        } else {
+            expect_values(blocks, column, *quantity);
+        }
     }
+    blocks.checksum = checksum_of(blocks.table);
+    return blocks;
+}
+
+std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded)
+{
+    std::vector<Given> columns;
+    for (const TableColumn& column : blocks.table.columns) {
+        const bool is_motion = is_recorded && column.name == "motion_number";
+        const std::string name(is_motion ? motion_column : column.name);
+        const Quantity* const quantity = find_quantity(name);
+        if (quantity != nullptr && (is_motion || quantity->role != Role::motion) &&
+            applies_to(*quantity, is_recorded)) {
+            columns.push_back({quantity, name, Axis(column.numbers), GivenAs::column});
+        }
+    }
+    return columns;
+}
+
+void refuse(const BlockTable& blocks, const GivenError& error)
+{
+    const Table& table = blocks.table;
+    const TableColumn* const column = table.find(error.quantity());
+    throw Error(exit_code::job, "{}:{}{}: {}{}", blocks.file,
+                error.row() < 0 ? 1 : table.lines[std::size_t(error.row())],
+                column == nullptr ? "" : fmt::format(":{}", column - table.columns.data() + 1),
+                error.quantity(), error.what());
 }
 
 } // namespace overturn

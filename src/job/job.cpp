@@ -1,22 +1,15 @@
 #include "overturn/job/job.hpp"
 
-#include "overturn/record/text_file.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/text_file.hpp"
 
 #include "deep_key.hpp"
 #include "read_steps.hpp"
-#include "toml_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <system_error>
 
 namespace overturn {
 
@@ -30,24 +23,24 @@ toml::table parse(const std::string& text, const std::string& path)
 {
     if (text.starts_with("\x89HDF\r\n")) {
         throw Error(exit_code::job,
-                    "{0}: this is a result file, not a job file. Give the job file; to "
-                    "resume its run, also -o {0}.",
+                    "{0}: this is a result file, not a job file. Give the job file; to resume its "
+                    "run, also -o {0}.",
                     path);
     }
     if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
         const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
         throw Error(exit_code::job,
-                    "{}:{}: a key has more than {} parts, but keys of a job have at "
-                    "most three, such as plane.frequency.count. Shorten the key.",
+                    "{}:{}: a key has more than {} parts, but keys of a job have at most three, "
+                    "such as plane.frequency.count. Shorten the key.",
                     path, line, most_key_parts);
     }
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
-        throw Error(exit_code::job,
-                    "{}: this is not TOML: {}. Fix it here or just before; strings "
-                    "need \"quotes\".",
-                    place_of(error.source()), on_one_line(std::string(error.description())));
+        throw Error(
+            exit_code::job,
+            "{}: this is not TOML: {}. Fix it here or just before; strings need \"quotes\".",
+            place_of(error.source()), on_one_line(std::string(error.description())));
     }
 }
 
@@ -126,9 +119,9 @@ Job read_job_text(std::string text, const std::string& name,
     if (const JobSize size = size_of(problem); size.bytes > most_bytes) {
         const auto plane = find(entry, "plane");
         refuse(plane ? *plane : entry,
-               fmt::format(" has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are "
-                           "allowed. Lower the counts.",
-                           size.points, size.bytes, most_bytes));
+               " has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are allowed. "
+               "Lower the counts.",
+               size.points, size.bytes, most_bytes);
     }
     job.resolved = resolved_text(job);
     return job;
@@ -139,21 +132,20 @@ Job boundary_of(Job job)
     Problem& problem = job.problem;
     if (job.blocks) {
         throw Error(exit_code::job,
-                    "blocks.table = {}: a boundary is computed over a plane, not for "
-                    "a list of blocks. Use `overturn run`, with many values of pga "
-                    "or scale.",
+                    "blocks.table = {}: a boundary is computed over a plane, not for a list of "
+                    "blocks. Use `overturn run`, with many values of pga or scale.",
                     in_quotes(job.blocks->file));
     }
     if (problem.numerics.fill) {
-        throw Error(exit_code::job,
-                    "numerics.fill = true is for spectra; a boundary is found without filling. "
-                    "Remove it.");
+        throw Error(
+            exit_code::job,
+            "numerics.fill = true is for spectra; a boundary is found without filling. Remove it.");
     }
     if (const Column& strength = *problem.grid.axis_or_number(Role::strength);
         strength.values.size() == 1) {
         throw Error(exit_code::job,
-                    "plane.{} has one value, {}, but flips are found between the "
-                    "first and the last. Give two or more values.",
+                    "plane.{} has one value, {}, but flips are found between the first and the "
+                    "last. Give two or more values.",
                     strength.quantity->name, strength.values.first());
     }
     problem.product = Product::boundary;
@@ -161,11 +153,11 @@ Job boundary_of(Job job)
     job.resolved = resolved_text(job);
     // With fewer strengths than crossings, the boundary is larger than the spectrum.
     if (const JobSize size = size_of(problem); size.bytes > most_bytes) {
-        throw Error(exit_code::job,
-                    "plane has {:.4g} lines of one frequency, restitution and "
-                    "slenderness, whose boundaries would take {:.4g} bytes, but at "
-                    "most {:.4g} are allowed. Lower the counts.",
-                    size.points / double(most_crossings(problem.scene)), size.bytes, most_bytes);
+        throw Error(
+            exit_code::job,
+            "plane has {:.4g} lines of one frequency, restitution and slenderness, whose "
+            "boundaries would take {:.4g} bytes, but at most {:.4g} are allowed. Lower the counts.",
+            size.points / double(most_crossings(problem.scene)), size.bytes, most_bytes);
     }
     return job;
 }

@@ -1,7 +1,6 @@
 #include "read_steps.hpp"
 
 #include "deep_key.hpp"
-#include "toml_text.hpp"
 
 #include "overturn/text/error.hpp"
 
@@ -28,16 +27,12 @@ std::string place_of_argument(const std::string& argument)
     return on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
 }
 
-[[noreturn]] void refuse_argument(const std::string& argument, std::string_view text)
+template <class... Arguments>
+[[noreturn]] void refuse_argument(const std::string& argument,
+                                  fmt::format_string<Arguments...> text, Arguments&&... arguments)
 {
-    throw Error(exit_code::job, "{}: {}", place_of_argument(argument), text);
-}
-
-bool is_bare_key(std::string_view key)
-{
-    return !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char letter) {
-        return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
-    });
+    throw Error(exit_code::job, "{}: {}", place_of_argument(argument),
+                fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 
 /// Whether a text can only be a string without quotes: it begins with a letter and has no quotes,
@@ -54,21 +49,18 @@ bool is_unquoted_string(std::string_view text)
 
 Path path_of(const std::string& argument, std::string_view dotted_key)
 {
+    const auto is_allowed = [](unsigned char letter) {
+        return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
+    };
     Path path;
     while (true) {
-        if (path.size() == most_key_parts) {
-            refuse_argument(argument, fmt::format("the key has more than {} parts, but keys of a "
-                                                  "job have at most three.",
-                                                  most_key_parts));
-        }
         const std::size_t dot = dotted_key.find('.');
         const std::string_view key = trimmed(dotted_key.substr(0, dot));
-        if (!is_bare_key(key)) {
-            refuse_argument(
-                argument,
-                fmt::format("the key {} is {}. Keys consist of letters, digits, '_' and '-', "
+        if (key.empty() || !std::ranges::all_of(key, is_allowed)) {
+            refuse_argument(argument,
+                            "the key {} is {}. Keys consist of letters, digits, '_' and '-', "
                             "joined by dots, such as plane.frequency.count.",
-                            in_quotes(key), key.empty() ? "empty" : "invalid"));
+                            in_quotes(key), key.empty() ? "empty" : "invalid");
         }
         path.emplace_back(key);
         if (dot == dotted_key.npos) {
@@ -101,25 +93,23 @@ toml::table job_of(const std::string& argument, const Path& path, std::string_vi
         job = parsed(in_quotes(value));
     }
     if (!job) {
-        refuse_argument(argument, fmt::format("the value is not valid TOML: {}. Give a number, a "
-                                              "\"string\", or a [list].",
-                                              problem));
+        refuse_argument(argument,
+                        "this is not valid TOML: {}. Give a number, a \"string\", or a [list].",
+                        problem);
     }
     return *std::move(job);
 }
 
-/// The value at the end of the path. Refuses the argument if a table on the path has other keys.
-const toml::node& value_at(const toml::table& given, const Path& path, const std::string& argument)
+/// Refuses the argument if it gives more than the value at the end of the path.
+void expect_one_value(const toml::table& given, const Path& path, const std::string& argument)
 {
-    const toml::node* node = &given;
+    const toml::table* table = &given;
     for (std::size_t depth = 0; depth < path.size(); ++depth) {
-        const toml::table& table = *node->as_table();
-        if (table.size() != 1) {
+        if (table->size() != 1) {
             refuse_argument(argument, "there is more than one value. Use one --set for each.");
         }
-        node = &table.begin()->second;
+        table = table->begin()->second.as_table();
     }
-    return *node;
 }
 
 /// Moves the value at the end of the path to the same path in the job. A moved node keeps its
@@ -137,33 +127,18 @@ void move_value(toml::table& job, toml::table& given, const Path& path, const st
         }
         if (!present->is_table()) {
             const auto end = path.begin() + std::ptrdiff_t(depth + 1);
-            refuse_argument(argument, fmt::format("{} is not a table in the job, so it has no keys "
-                                                  "to set.",
-                                                  fmt::join(path.begin(), end, ".")));
+            refuse_argument(argument, "{} is not a table in the job, so it has no keys to set.",
+                            fmt::join(path.begin(), end, "."));
         }
         onto = present->as_table();
         from = entry->second.as_table();
     }
 }
 
-void erase_keys(toml::table* table, std::initializer_list<std::string_view> keys)
+void erase(toml::table& job, std::string_view table, std::string_view key)
 {
-    for (const std::string_view key : keys) {
-        if (table != nullptr) {
-            table->erase(key);
-        }
-    }
-}
-
-/// Removes the coordinates of points, except that at this path, for which is_erased(name) is true.
-void erase_coordinates(toml::table& job, const Path& path, const auto& is_erased)
-{
-    for (const std::string_view table : coordinate_tables) {
-        for (const std::string_view name : keys_of(table)) {
-            if (!(table == path[0] && path.size() > 1 && name == path[1]) && is_erased(name)) {
-                erase_keys(job[table].as_table(), {name});
-            }
-        }
+    if (toml::table* const present = job[table].as_table()) {
+        present->erase(key);
     }
 }
 
@@ -173,87 +148,75 @@ bool is_coordinate(const Path& path)
            find_quantity(path[1]) != nullptr;
 }
 
-/// Whether the job gives the coordinate at this path, or one that excludes it, outside a table of
-/// blocks.
-bool has_alternative(const toml::table& job, const Path& path)
+/// Removes the coordinates of points that a new value at this path contradicts.
+void drop_coordinates(toml::table& job, const Path& path)
 {
-    return std::ranges::any_of(coordinate_tables, [&](std::string_view table) {
-        const std::vector<std::string_view> names = keys_of(table);
-        return std::ranges::any_of(names, [&](std::string_view name) {
-            return exclude_each_other(name, path[1]) && job[table][name];
-        });
-    });
-}
-
-/// Removes the keys of the job that a new value at this path contradicts.
-void drop_contradictions(toml::table& job, const Path& path, const toml::node& value)
-{
-    if (path[0] == "blocks") {
-        erase_coordinates(job, path, [](std::string_view name) {
-            return quantity(name).role == Role::block || quantity(name).role == Role::loss;
-        });
-    }
-    if (is_coordinate(path)) {
-        // A new shape replaces the table that describes the blocks; a size alone is none.
-        const bool is_shape =
-            quantity(path[1]).role == Role::block && !are_equivalent(path[1], "size");
-        if (is_shape && !has_alternative(job, path)) {
-            erase_keys(&job, {"blocks"});
-        }
-        erase_coordinates(job, path,
-                          [&](std::string_view name) { return exclude_each_other(name, path[1]); });
-        toml::table* axis = job[path[0]][path[1]].as_table();
-        if (path.size() == 3 && path[2] == "values") {
-            erase_keys(axis, {"first", "last", "count", "spacing"});
-        } else if (path.size() == 3 &&
-                   (path[2] == "first" || path[2] == "last" || path[2] == "count")) {
-            erase_keys(axis, {"values"});
-        }
-    }
-    toml::table* scene = job["scene"].as_table();
     const bool is_record = path == Path{"scene", "record"};
-    const bool replaces_record = path == Path{"scene", "pulse"} && job["scene"]["record"];
-    if (is_record || replaces_record) {
-        for (const std::string_view key : scene_keys_of(is_record ? KeyOf::pulse : KeyOf::record)) {
-            erase_keys(scene, {key});
-        }
-        erase_coordinates(job, path, [&](std::string_view name) {
-            return !applies_to(quantity(name), is_record);
-        });
-    }
-    if (path == Path{"scene", "pulse"}) {
-        const auto name =
-            std::find(pulse_names.begin(), pulse_names.end(), value.value_or<std::string_view>(""));
-        if (name != pulse_names.end()) {
-            const auto pulse = PulseKind(name - pulse_names.begin());
-            for (const auto& [number, member] : shape_numbers) {
-                if (!has_number(pulse, member)) {
-                    erase_keys(scene, {number});
+    const bool is_other_motion =
+        is_record || (path == Path{"scene", "pulse"} && job["scene"]["record"]);
+    const auto is_contradicted = [&](const Quantity& other) {
+        return path[0] == "blocks"   ? other.role == Role::block || other.role == Role::loss
+               : is_coordinate(path) ? exclude_each_other(other.name, path[1])
+                                     : is_other_motion && !applies_to(other, is_record);
+    };
+    bool is_alternative = false;
+    for (const std::string_view table : coordinate_tables) {
+        for (const std::string_view name : keys_of(table)) {
+            if (job[table][name] && is_contradicted(quantity(name))) {
+                is_alternative = true;
+                if (path[0] != table || path[1] != name) {
+                    erase(job, table, name);
                 }
             }
         }
     }
+    // A new shape replaces the table that describes the blocks; a size alone is none.
+    if (is_coordinate(path) && !is_alternative && quantity(path[1]).role == Role::block &&
+        !are_equivalent(path[1], "size")) {
+        job.erase("blocks");
+    }
 }
 
-/// Removes an axis that the job gives as a number, before a key of it is set. If the key is `of` or
-/// `spacing`, the number is kept as the list of values.
-void replace_number(toml::table& job, toml::table& given, const Path& path)
+/// Removes the keys of [scene] that a new value at this path contradicts.
+void drop_scene(toml::table& job, const Path& path, const toml::table& given)
 {
-    toml::table* table = job[path[0]].as_table();
-    toml::node* axis = table == nullptr ? nullptr : table->get(path[1]);
-    if (axis == nullptr || !axis->is_number()) {
-        return;
+    const bool is_record = path == Path{"scene", "record"};
+    const bool is_pulse = path == Path{"scene", "pulse"};
+    if (is_record || (is_pulse && job["scene"]["record"])) {
+        for (const std::string_view key : scene_keys_of(is_record ? KeyOf::pulse : KeyOf::record)) {
+            erase(job, "scene", key);
+        }
     }
-    if (path[2] == "of" || path[2] == "spacing") {
-        toml::array values; // of moved nodes, which keep their source position
-        axis->visit([&](auto& number) {
-            if constexpr (toml::is_number<decltype(number)>) {
-                values.push_back(std::move(number));
+    const auto pulse =
+        std::ranges::find(pulse_names, given["scene"]["pulse"].value_or<std::string_view>(""));
+    for (const auto& [number, member] : shape_numbers) {
+        if (is_pulse && pulse != pulse_names.end() &&
+            !has_number(PulseKind(pulse - pulse_names.begin()), member)) {
+            erase(job, "scene", number);
+        }
+    }
+}
+
+/// Removes what contradicts a new value of this key of an axis: its values if it becomes a range,
+/// or the reverse, or the axis if it is a number. For `of` and `spacing`, the number is kept as the
+/// list of values.
+void drop_parts(toml::table& job, toml::table& given, const Path& path)
+{
+    const auto axis = job[path[0]][path[1]];
+    const bool keeps_values = path[2] == "of" || path[2] == "spacing";
+    if (axis.is_number()) {
+        if (keeps_values) {
+            given[path[0]][path[1]].as_table()->insert("values",
+                                                       toml::array{std::move(*axis.node())});
+        }
+        erase(job, path[0], path[1]);
+    } else if (toml::table* const table = axis.as_table(); table != nullptr && !keeps_values) {
+        for (const std::string_view part : axis_keys()) {
+            if ((part == "values") != (path[2] == "values")) {
+                table->erase(part);
             }
-        });
-        given[path[0]][path[1]].as_table()->insert("values", std::move(values));
+        }
     }
-    table->erase(path[1]);
 }
 
 } // namespace
@@ -272,9 +235,11 @@ void apply_override(toml::table& job, const std::string& argument)
                         "the value is missing. Give it after the '='; an empty string is \"\".");
     }
     toml::table given = job_of(argument, path, value);
-    drop_contradictions(job, path, value_at(given, path, argument));
+    expect_one_value(given, path, argument);
+    drop_coordinates(job, path);
+    drop_scene(job, path, given);
     if (path.size() == 3 && is_coordinate(path)) {
-        replace_number(job, given, path);
+        drop_parts(job, given, path);
     }
     move_value(job, given, path, argument);
 }

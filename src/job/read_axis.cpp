@@ -1,7 +1,5 @@
 #include "read_steps.hpp"
 
-#include "toml_text.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,13 +13,6 @@ namespace {
 // bytes for each value.
 constexpr std::int64_t most_values = 10'000'000;
 
-double read_value(const Entry& entry, const Quantity& rule)
-{
-    const double value = number_of(entry);
-    expect_allowed(entry, rule, value);
-    return value;
-}
-
 AxisList read_list(const Entry& entry, const Quantity& rule)
 {
     const std::size_t size =
@@ -30,13 +21,12 @@ AxisList read_list(const Entry& entry, const Quantity& rule)
     values.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {
         const Entry entry_of_value = element(entry, i);
-        const double value = read_value(entry_of_value, rule);
+        const double value = quantity_of(entry_of_value, rule);
         if (i > 0 && !(value > values.back())) {
             refuse(entry_of_value,
-                   fmt::format(" = {} {} the value before it, {}. Sort the values in ascending "
-                               "order, and give each once.",
-                               value, value == values.back() ? "repeats" : "is below",
-                               values.back()));
+                   " = {} {} the value before it, {}. Sort the values in ascending order, and give "
+                   "each once.",
+                   value, value == values.back() ? "repeats" : "is below", values.back());
         }
         values.push_back(value);
     }
@@ -73,40 +63,40 @@ void check_range(const Entry& entry, const AxisRange& range)
     const Entry first_entry = *find(entry, "first");
     const Entry count_entry = *find(entry, "count");
     if (first > last) {
-        refuse(first_entry,
-               fmt::format(" = {} is above last = {}. Axes must ascend. Swap first and last.",
-                           first, last));
+        refuse(first_entry, " = {} is above last = {}. Axes must ascend. Swap first and last.",
+               first, last);
     }
     if (count == 1 && first != last) {
-        refuse(count_entry, fmt::format(" = 1 needs first = last, but first = {} and last = {}. "
-                                        "Raise count, or make them equal.",
-                                        first, last));
+        refuse(count_entry,
+               " = 1 needs first = last, but first = {} and last = {}. Raise count, or make them "
+               "equal.",
+               first, last);
     }
     if (count > 1 && first == last) {
-        refuse(count_entry,
-               fmt::format(" = {} needs first below last, but both are {}. Set count = 1, "
-                           "or change one of them.",
-                           count, first));
+        refuse(
+            count_entry,
+            " = {} needs first below last, but both are {}. Set count = 1, or change one of them.",
+            count, first);
     }
     if (spacing == Spacing::log && !(first > 0)) {
         refuse(first_entry,
-               fmt::format(" = {} cannot start a logarithmic range. Raise it above 0, or "
-                           "use spacing = \"linear\".",
-                           first));
+               " = {} cannot start a logarithmic range. Raise it above 0, or use spacing = "
+               "\"linear\".",
+               first);
     }
     // The values and intermediate results must not overflow.
     const double widest =
         spacing == Spacing::log ? last / first : (last - first) * double(count - 1);
     if (!std::isfinite(widest)) {
         refuse(first_entry,
-               fmt::format(" = {} is too far from last = {} for double precision. Move "
-                           "them closer together.",
-                           first, last));
+               " = {} is too far from last = {} for double precision. Move them closer together.",
+               first, last);
     }
     if (!surely_ascends(range)) {
-        refuse(count_entry, fmt::format(" = {} is too large: neighbouring values between {} and {} "
-                                        "would coincide in double precision. Lower it.",
-                                        count, first, last));
+        refuse(count_entry,
+               " = {} is too large: neighbouring values between {} and {} would coincide in double "
+               "precision. Lower it.",
+               count, first, last);
     }
 }
 
@@ -114,38 +104,51 @@ AxisRange read_range(const Entry& entry, const Quantity& rule)
 {
     constexpr std::string_view advice = "Give first, last and count, or values.";
     AxisRange range;
-    range.first = read_value(require(entry, "first", advice), rule);
-    range.last = read_value(require(entry, "last", advice), rule);
+    range.first = quantity_of(require(entry, "first", advice), rule);
+    range.last = quantity_of(require(entry, "last", advice), rule);
     const Entry count = require(entry, "count", advice);
     range.count = integer_of(count);
     if (range.count < 1) {
-        refuse(count,
-               fmt::format(" = {} is below 1. An axis has at least one value.", range.count));
+        refuse(count, " = {} is below 1. An axis has at least one value.", range.count);
     }
-    if (const auto spacing = find(entry, "spacing")) {
-        range.spacing = choice_of<Spacing>(*spacing, spacing_names);
-    }
+    range.spacing = choice_of(entry, "spacing", spacing_names, range.spacing);
     check_range(entry, range);
     if (range.count > most_values) {
-        refuse(count, fmt::format(" = {} is above {}, the maximum for one axis. Lower it.",
-                                  range.count, most_values));
+        refuse(count, " = {} is above {}, the maximum for one axis. Lower it.", range.count,
+               most_values);
     }
     return range;
 }
 
 } // namespace
 
-void expect_allowed(const Entry& entry, const Quantity& rule, double value)
+Entry table_of(const Entry& job, std::string_view name)
 {
+    static const toml::table empty;
+    const Entry entry = find(job, name).value_or(Entry{&empty, std::string(name)});
+    expect_table(entry, keys_of(name));
+    return entry;
+}
+
+double quantity_of(const Entry& entry, const Quantity& rule)
+{
+    const double value = number_of(entry);
     if (!rule.allows(value)) {
-        refuse(entry, fmt::format(" = {} is outside {}. {}", value, rule.interval, rule.reason));
+        refuse(entry, " = {} is outside {}. {}", value, rule.interval, rule.reason);
     }
+    return value;
+}
+
+double quantity_of(const Entry& table, std::string_view name, double otherwise)
+{
+    const auto entry = find(table, name);
+    return entry ? quantity_of(*entry, quantity(name)) : otherwise;
 }
 
 Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
 {
     if (entry.node->is_number()) {
-        return Axis(AxisList{read_value(entry, rule)});
+        return Axis(AxisList{quantity_of(entry, rule)});
     }
     expect_table(entry, keys, "a number, or ");
     const auto values = find(entry, "values");
@@ -154,8 +157,7 @@ Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
     }
     for (const std::string_view key : {"first", "last", "count", "spacing"}) {
         if (const auto other = find(entry, key)) {
-            refuse(*other, fmt::format(" cannot be combined with {}.values. Remove one of them.",
-                                       entry.key));
+            refuse(*other, " cannot be combined with {}.values. Remove one of them.", entry.key);
         }
     }
     return Axis(read_list(*values, rule));

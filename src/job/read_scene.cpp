@@ -32,16 +32,11 @@ PulseShape read_shape(const Entry& scene, PulseKind pulse)
 
 Scene read_scene(const Entry& job)
 {
-    const Entry entry = require(job, "scene", "Add [scene] with a pulse or a record.");
-    expect_table(entry, keys_of("scene"));
+    require(job, "scene", "Add [scene] with a pulse or a record.");
+    const Entry entry = table_of(job, "scene");
     Scene scene;
-    if (const auto theory = find(entry, "theory")) {
-        scene.theory = choice_of<Theory>(*theory, theory_names);
-    }
-    if (const auto gravity = find(entry, "gravity")) {
-        scene.gravity = number_of(*gravity);
-        expect_allowed(*gravity, quantity("gravity"), scene.gravity);
-    }
+    scene.theory = choice_of(entry, "theory", theory_names, scene.theory);
+    scene.gravity = quantity_of(entry, "gravity", scene.gravity);
     const bool is_recorded = find(entry, "record").has_value();
     for (const std::string_view key : scene_keys_of(is_recorded ? KeyOf::pulse : KeyOf::record)) {
         if (const auto other = find(entry, key)) {
@@ -53,11 +48,11 @@ Scene read_scene(const Entry& job)
     if (is_recorded) {
         return scene;
     }
-    scene.pulse = choice_of<PulseKind>(
+    const Entry pulse =
         require(entry, "pulse",
                 fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
-                            fmt::join(pulse_names, ", "))),
-        pulse_names);
+                            fmt::join(pulse_names, ", ")));
+    scene.pulse = choice_of<PulseKind>(pulse, pulse_names);
     scene.shape = read_shape(entry, scene.pulse);
     return scene;
 }
@@ -70,42 +65,22 @@ double cut_by_window(const Scene& scene)
 
 Numerics read_numerics(const Entry& job, bool is_recorded)
 {
+    const Entry entry = table_of(job, "numerics");
     Numerics numerics;
-    if (is_recorded) {
-        numerics.method = Method::taylor;
+    numerics.method =
+        choice_of(entry, "method", method_names, is_recorded ? Method::taylor : numerics.method);
+    if (is_recorded && numerics.method != Method::taylor) {
+        refuse(*find(entry, "method"),
+               " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",
+               name_of(numerics.method));
     }
-    const auto entry = find(job, "numerics");
-    if (!entry) {
-        return numerics;
-    }
-    expect_table(*entry, keys_of("numerics"));
-    if (const auto method = find(*entry, "method")) {
-        numerics.method = choice_of<Method>(*method, method_names);
-        if (is_recorded && numerics.method != Method::taylor) {
-            refuse(*method, fmt::format(" = \"{}\" is for pulses only. Under a record, use "
-                                        "\"taylor\", the default.",
-                                        name_of(numerics.method)));
-        }
-    }
-    if (const auto resolve = find(*entry, "resolve")) {
-        numerics.resolve = boolean_of(*resolve);
-    }
-    if (numerics.resolve) {
-        numerics.tolerance = tolerance_to_resolve_from;
-    }
-    if (const auto tolerance = find(*entry, "tolerance")) {
-        numerics.tolerance = number_of(*tolerance);
-        expect_allowed(*tolerance, quantity("tolerance"), numerics.tolerance);
-    }
-    if (const auto fill = find(*entry, "fill")) {
-        numerics.fill = boolean_of(*fill);
-    }
-    if (const auto audit = find(*entry, "audit")) {
-        numerics.audit = number_of(*audit);
-        expect_allowed(*audit, quantity("audit"), numerics.audit);
-        if (!numerics.fill) {
-            refuse(*audit, " needs fill = true: without filling, every point is integrated.");
-        }
+    numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);
+    numerics.tolerance = quantity_of(
+        entry, "tolerance", numerics.resolve ? tolerance_to_resolve_from : numerics.tolerance);
+    numerics.fill = boolean_of(entry, "fill", numerics.fill);
+    numerics.audit = quantity_of(entry, "audit", numerics.audit);
+    if (const auto audit = find(entry, "audit"); audit && !numerics.fill) {
+        refuse(*audit, " needs fill = true: without filling, every point is integrated.");
     }
     return numerics;
 }
@@ -115,8 +90,7 @@ void expect_fillable(const Entry& entry, const Problem& problem)
     const std::string reason = problem.numerics.fill ? reason_not_to_fill(problem) : "";
     if (!reason.empty()) {
         refuse(*find(*find(entry, "numerics"), "fill"),
-               fmt::format(" = true is not possible: {}. Remove it to integrate every point.",
-                           reason));
+               " = true is not possible: {}. Remove it to integrate every point.", reason);
     }
 }
 
@@ -127,21 +101,17 @@ void expect_known_errors(const Entry& job, const Problem& problem)
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && !knows_errors(numerics)) {
         refuse(*find(*find(job, "numerics"), "tolerance"),
-               fmt::format(
-                   " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
-                   "reliable error bounds. Lower it, or use method = \"taylor\".",
-                   numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
-                   largest_rk45_tolerance_with_error));
+
+               " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
+               "reliable error bounds. Lower it, or use method = \"taylor\".",
+               numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
+               largest_rk45_tolerance_with_error);
     }
 }
 
 std::vector<Field> read_fields(const Entry& job)
 {
-    const auto output = find(job, "output");
-    if (output) {
-        expect_table(*output, keys_of("output"));
-    }
-    const auto entry = output ? find(*output, "fields") : std::nullopt;
+    const auto entry = find(table_of(job, "output"), "fields");
     if (!entry) {
         return {Field::region};
     }
@@ -151,9 +121,9 @@ std::vector<Field> read_fields(const Entry& job)
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
         const auto field = choice_of<Field>(element(*entry, i), spectrum_field_names());
-        if (std::find(fields.begin(), fields.end(), field) != fields.end()) {
-            refuse(element(*entry, i),
-                   fmt::format(" = \"{}\" is listed twice. List each field once.", name_of(field)));
+        if (std::ranges::count(fields, field) > 0) {
+            refuse(element(*entry, i), " = \"{}\" is listed twice. List each field once.",
+                   name_of(field));
         }
         fields.push_back(field);
     }

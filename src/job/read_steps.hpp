@@ -38,12 +38,33 @@ void expect_known_errors(const Entry& job, const Problem& problem);
 /// Throws Error if the job asks for filling but cannot be filled.
 void expect_fillable(const Entry& entry, const Problem& problem);
 
+/// Reads the table of the blocks of a job. file: relative to the folder. Under records, the column
+/// `motion` contains their names, or those of their files, and becomes a column of their numbers
+/// from 1, `motion_number`. Throws Error.
+BlockTable read_block_table(const std::string& file, const std::string& folder,
+                            const std::vector<Motion>& motions);
+
+/// The columns that describe points.
+std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded);
+
+/// Throws Error with file, line and column, of which the latter two may be unknown.
+[[noreturn]] void refuse(const BlockTable& blocks, const GivenError& error);
+
 /// Reads [plane], [block] and [blocks] with the table that it names. folder: of the job file. The
 /// scene and the motions of the job must have been read.
 void read_points(const Entry& entry, const std::string& folder, bool is_suite, Job& job);
 
-/// Throws Error if the value is outside the interval of the quantity.
-void expect_allowed(const Entry& entry, const Quantity& rule, double value);
+/// The canonical text of a job: in fixed order, with all defaults.
+std::string resolved_text(const Job& job);
+
+/// A table of the job, with the keys of its name only; an empty one if it is missing.
+Entry table_of(const Entry& job, std::string_view name);
+
+/// A number in the interval of the quantity.
+double quantity_of(const Entry& entry, const Quantity& rule);
+
+/// The same for a key with the name of a quantity; `otherwise` if it is missing.
+double quantity_of(const Entry& table, std::string_view name, double otherwise);
 
 /// Reads a number, which gives an axis of one value, or an axis: a table with these keys only,
 /// { values = [...] } or { first, last, count, spacing }.

@@ -3,7 +3,6 @@
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/text/error.hpp"
-#include "toml_text.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +53,7 @@ std::string description_of(const toml::node& node)
 
 [[noreturn]] void refuse_type(const Entry& entry, std::string_view wanted)
 {
-    refuse(entry, fmt::format(" is {}, but must be {}.", description_of(*entry.node), wanted));
+    refuse(entry, " is {}, but must be {}.", description_of(*entry.node), wanted);
 }
 
 template <class Value>
@@ -109,7 +108,7 @@ Entry require(const Entry& table, std::string_view name, std::string_view advice
 {
     std::optional<Entry> entry = find(table, name);
     if (!entry) {
-        refuse({table.node, dotted(table.key, name)}, fmt::format(" is missing. {}", advice));
+        refuse({table.node, dotted(table.key, name)}, " is missing. {}", advice);
     }
     return *std::move(entry);
 }
@@ -121,7 +120,7 @@ std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_
         refuse_type(entry, wanted);
     }
     if (array->empty()) {
-        refuse(entry, fmt::format(" is empty. {}", advice));
+        refuse(entry, " is empty. {}", advice);
     }
     return array->size();
 }
@@ -141,9 +140,10 @@ std::int64_t integer_of(const Entry& entry)
     return value_of<std::int64_t>(entry, "an integer, such as 100");
 }
 
-bool boolean_of(const Entry& entry)
+bool boolean_of(const Entry& table, std::string_view name, bool otherwise)
 {
-    return value_of<bool>(entry, "true or false");
+    const auto entry = find(table, name);
+    return entry ? value_of<bool>(*entry, "true or false") : otherwise;
 }
 
 double number_of(const Entry& entry)
@@ -153,7 +153,7 @@ double number_of(const Entry& entry)
     }
     const auto number = value_of<double>(entry, "a number, such as 0.5");
     if (!std::isfinite(number)) {
-        refuse(entry, fmt::format(" = {} is not finite. Give a number.", number));
+        refuse(entry, " = {} is not finite. Give a number.", number);
     }
     return number + 0.0;
 }
@@ -163,11 +163,17 @@ std::size_t index_of_name(const Entry& entry, Names names)
     const std::string name = string_of(entry);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-        refuse(entry, fmt::format(" = {} is unknown.{} Allowed: {}.",
-                                  in_quotes(shortened(name, longest_quotation)),
-                                  suggestion("", name, names), joined(names)));
+        refuse(entry, " = {} is unknown.{} Allowed: {}.",
+               in_quotes(shortened(name, longest_quotation)), suggestion("", name, names),
+               joined(names));
     }
     return std::size_t(found - names.begin());
+}
+
+std::string float_text(double value)
+{
+    std::string text = fmt::format("{}", value);
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
 } // namespace overturn

@@ -2,6 +2,9 @@
 // that names the place, what was found, what is allowed and what to do.
 #pragma once
 
+#include "overturn/text/quoting.hpp"
+
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cstddef>
@@ -10,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace overturn {
 
@@ -31,6 +35,15 @@ std::string place_of(const toml::source_region& source);
 /// Throws an Error with the place, the key, and the text that follows the key.
 [[noreturn]] void refuse(const Entry& entry, std::string_view text);
 
+/// The same with a text that is formatted as by fmt::format().
+template <class Argument, class... Others>
+[[noreturn]] void refuse(const Entry& entry, fmt::format_string<Argument, Others...> text,
+                         Argument&& argument, Others&&... others)
+{
+    refuse(entry, std::string_view(fmt::format(text, std::forward<Argument>(argument),
+                                               std::forward<Others>(others)...)));
+}
+
 /// Throws Error unless the entry is a table with these keys only. `or_else` precedes "a table"
 /// in the message, and names other allowed types.
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else = "");
@@ -49,10 +62,15 @@ Entry element(const Entry& array, std::size_t i);
 
 std::string string_of(const Entry& entry);
 std::int64_t integer_of(const Entry& entry);
-bool boolean_of(const Entry& entry);
 
 /// A finite number; integers are accepted, and -0 becomes 0.
 double number_of(const Entry& entry);
+
+/// A key of a table; `otherwise` if it is missing.
+bool boolean_of(const Entry& table, std::string_view name, bool otherwise);
+
+/// The shortest text from which the same double is read, always with the syntax of a float.
+std::string float_text(double value);
 
 /// The index of the string in `names`.
 std::size_t index_of_name(const Entry& entry, Names names);
@@ -62,6 +80,14 @@ template <class Enumeration>
 Enumeration choice_of(const Entry& entry, Names names)
 {
     return Enumeration(index_of_name(entry, names));
+}
+
+/// The same for a key of a table; `otherwise` if it is missing.
+template <class Enumeration>
+Enumeration choice_of(const Entry& table, std::string_view name, Names names, Enumeration otherwise)
+{
+    const auto entry = find(table, name);
+    return entry ? choice_of<Enumeration>(*entry, names) : otherwise;
 }
 
 } // namespace overturn

@@ -18,7 +18,7 @@ RecordFile read_v2a(Lines lines);
 /// USGS: 27 lines of header, comments that begin with |, then numbers in cm/s2.
 RecordFile read_smc(Lines lines);
 
-/// One column of accelerations, or two of times and accelerations; options.unit must be set.
+/// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 
 /// Whether a line of text is a comment.

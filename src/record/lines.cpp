@@ -1,27 +1,6 @@
 #include "lines.hpp"
 
-#include "overturn/record/read_record.hpp"
-#include "overturn/text/error.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace overturn {
-
-namespace {
-
-constexpr char lower(char letter)
-{
-    return 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
-}
-
-} // namespace
-
-void refuse_record(const std::string& name, std::string_view reason)
-{
-    throw Error(exit_code::job, "{}: {}", name, reason);
-}
 
 bool Lines::next()
 {
@@ -38,11 +17,6 @@ bool Lines::next()
     return true;
 }
 
-void Lines::refuse(std::string_view reason) const
-{
-    throw Error(exit_code::job, "{}:{}: {}", *name_, number_, reason);
-}
-
 Lines ahead_by(Lines lines, std::size_t count)
 {
     while (count > 0 && lines.next()) {
@@ -56,9 +30,8 @@ void Header::add(const Lines& lines)
     constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
     size_ += lines.line().size() + 1;
     if (size_ > most) {
-        lines.refuse(fmt::format("header and comments are larger than {} KiB, the maximum. Remove "
-                                 "comments.",
-                                 most >> 10));
+        lines.refuse("header and comments are larger than {} KiB, the maximum. Remove comments.",
+                     most >> 10);
     }
     kept_.emplace_back(lines.line());
 }
@@ -67,25 +40,32 @@ void Header::take(Lines& lines, std::size_t count)
 {
     for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next()) {
-            lines.refuse(fmt::format("the file ends after {} of the {} lines of the header. Give "
-                                     "the complete file.",
-                                     i, count));
+            lines.refuse(
+                "the file ends after {} of the {} lines of the header. Give the complete file.", i,
+                count);
         }
         add(lines);
     }
 }
 
-std::size_t place_after(std::string_view text, std::string_view words)
+std::string lower(std::string_view text)
 {
-    const auto found =
-        std::search(text.begin(), text.end(), words.begin(), words.end(),
-                    [](char left, char right) { return lower(left) == lower(right); });
-    return found == text.end() ? text.npos : std::size_t(found - text.begin()) + words.size();
+    std::string result(text);
+    for (char& letter : result) {
+        letter = 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+    }
+    return result;
 }
 
 bool contains(std::string_view text, std::string_view words)
 {
     return place_after(text, words) != text.npos;
+}
+
+std::size_t place_after(std::string_view text, std::string_view words)
+{
+    const std::size_t place = lower(text).find(lower(words));
+    return place == text.npos ? place : place + words.size();
 }
 
 } // namespace overturn

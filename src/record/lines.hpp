@@ -1,7 +1,10 @@
 // The lines of a file, one after another, and the refusal of a line.
 #pragma once
 
+#include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
+
+#include <fmt/format.h>
 
 #include <cstddef>
 #include <string>
@@ -10,9 +13,6 @@
 #include <vector>
 
 namespace overturn {
-
-/// Throws an Error about a file as a whole.
-[[noreturn]] void refuse_record(const std::string& name, std::string_view reason);
 
 /// A cursor over the lines of a text. A copy looks ahead. The text and the name must outlive it.
 class Lines {
@@ -28,8 +28,24 @@ public:
     /// Counted from 1; 0 before the first line.
     std::size_t number() const { return number_; }
 
-    /// Throws an Error with the file and the current line.
-    [[noreturn]] void refuse(std::string_view reason) const;
+    /// Throws an Error with the file and the current line. The reason is formatted as by
+    /// fmt::format().
+    template <class... Arguments>
+    [[noreturn]] void refuse(fmt::format_string<Arguments...> reason,
+                             Arguments&&... arguments) const
+    {
+        throw Error(exit_code::job, "{}:{}: {}", *name_, number_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
+    }
+
+    /// The same for the file as a whole.
+    template <class... Arguments>
+    [[noreturn]] void refuse_file(fmt::format_string<Arguments...> reason,
+                                  Arguments&&... arguments) const
+    {
+        throw Error(exit_code::job, "{}: {}", *name_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
+    }
 
 private:
     std::string_view rest_;
@@ -57,7 +73,10 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether the text contains the words, ignoring the case of ASCII letters.
+/// In lower case, if the letters are ASCII.
+std::string lower(std::string_view text);
+
+/// Whether the text contains the words, ignoring case.
 bool contains(std::string_view text, std::string_view words);
 
 /// The place after the first occurrence of the words, ignoring case; npos if there is none.

@@ -14,13 +14,6 @@ namespace overturn {
 
 namespace {
 
-constexpr std::string_view blanks = " \t";
-
-constexpr bool is_sign(char letter)
-{
-    return letter == '+' || letter == '-';
-}
-
 struct Parsed {
     double value;
     std::errc error; ///< none, invalid_argument or result_out_of_range
@@ -46,32 +39,17 @@ Parsed parse(std::string_view word)
     return {value, end == word.data() + word.size() ? error : std::errc::invalid_argument};
 }
 
-/// The length of the first number of a text without blanks: up to the next sign that does not
-/// belong to an exponent.
+/// The length of the first number of a text: up to a blank, or to a sign that does not belong to an
+/// exponent.
 std::size_t length_of_number(std::string_view text)
 {
-    for (std::size_t i = 1; i < text.size(); ++i) {
-        constexpr std::string_view exponents = "eEdD";
-        if (is_sign(text[i]) && exponents.find(text[i - 1]) == exponents.npos) {
-            return i;
+    for (std::size_t end = 1; end < text.size(); ++end) {
+        const bool is_exponent = std::string_view("eEdD").find(text[end - 1]) != text.npos;
+        if (std::string_view(is_exponent ? " \t" : " \t+-").find(text[end]) != text.npos) {
+            return end;
         }
     }
     return text.size();
-}
-
-/// Calls visit(word) for each number of a line.
-template <class Visit>
-void for_each_free_number(std::string_view line, const Visit& visit)
-{
-    std::size_t begin = 0;
-    while ((begin = line.find_first_not_of(blanks, begin)) != line.npos) {
-        const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-        while (begin < end) {
-            const std::size_t length = length_of_number(line.substr(begin, end - begin));
-            visit(line.substr(begin, length));
-            begin += length;
-        }
-    }
 }
 
 std::string_view plural(std::size_t count)
@@ -90,17 +68,15 @@ double number_of(const Lines& lines, std::string_view word)
 {
     const auto [value, error] = parse(word);
     if (error == std::errc::invalid_argument) {
-        lines.refuse(fmt::format("{} is not a number. Write numbers as in 0.5, -.5E-01 or "
-                                 "-.5D-01.",
-                                 quoted_bytes(word)));
+        lines.refuse("{} is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01.",
+                     quoted_bytes(word));
     }
     if (error == std::errc::result_out_of_range) {
-        lines.refuse(fmt::format("{} is outside the range of double precision. Correct it.",
-                                 quoted_bytes(word)));
+        lines.refuse("{} is outside the range of double precision. Correct it.",
+                     quoted_bytes(word));
     }
     if (!std::isfinite(value)) {
-        lines.refuse(
-            fmt::format("{} is not finite. Give a record without gaps.", quoted_bytes(word)));
+        lines.refuse("{} is not finite. Give a record without gaps.", quoted_bytes(word));
     }
     return value;
 }
@@ -112,9 +88,9 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc() || end != word.data() + word.size() || count < least ||
         count > most_samples) {
-        lines.refuse(fmt::format("{} is {}, but must be an integer from {} to {}. Correct it, or "
-                                 "give another record.",
-                                 what, quoted_bytes(word), least, most_samples));
+        lines.refuse(
+            "{} is {}, but must be an integer from {} to {}. Correct it, or give another record.",
+            what, quoted_bytes(word), least, most_samples);
     }
     return count;
 }
@@ -123,7 +99,7 @@ double time_step_of(const Lines& lines, std::string_view word)
 {
     const double step = number_of(lines, word);
     if (!(step > 0)) {
-        lines.refuse(fmt::format("the time step is {} s, but must be above 0. Correct it.", step));
+        lines.refuse("the time step is {} s, but must be above 0. Correct it.", step);
     }
     return step;
 }
@@ -132,22 +108,23 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
 {
     std::vector<double> values;
     while (lines.next()) {
-        for_each_free_number(lines.line(), [&](std::string_view word) {
+        for (std::string_view rest = trimmed(lines.line()); !rest.empty();) {
+            const std::string_view word = rest.substr(0, length_of_number(rest));
             if (values.size() == announced.count) {
-                lines.refuse(fmt::format("{} follows the last of the {} sample{} that {} announces "
-                                         "in line {}. Correct {} or remove the rest.",
-                                         quoted_bytes(word), announced.count,
-                                         plural(announced.count), announced.name, announced.line,
-                                         announced.name));
+                lines.refuse("{} follows the last of the {} sample{} that {} announces in line {}. "
+                             "Correct {} or remove the rest.",
+                             quoted_bytes(word), announced.count, plural(announced.count),
+                             announced.name, announced.line, announced.name);
             }
             values.push_back(number_of(lines, word));
-        });
+            rest = trimmed(rest.substr(word.size()));
+        }
     }
     if (values.size() < announced.count) {
-        lines.refuse(fmt::format("the file ends after {} sample{}, but {} announces {} in line {}. "
-                                 "Give the complete file.",
-                                 values.size(), plural(values.size()), announced.name,
-                                 announced.count, announced.line));
+        lines.refuse("the file ends after {} sample{}, but {} announces {} in line {}. Give the "
+                     "complete file.",
+                     values.size(), plural(values.size()), announced.name, announced.count,
+                     announced.line);
     }
     return values;
 }
@@ -163,21 +140,20 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
     std::vector<double> values;
     while (values.size() < announced.count) {
         if (!lines.next()) {
-            lines.refuse(fmt::format("the file ends after {} of the {} values of {} that line {} "
-                                     "announces. Give the complete file.",
-                                     values.size(), announced.count, announced.name,
-                                     announced.line));
+            lines.refuse("the file ends after {} of the {} values of {} that line {} announces. "
+                         "Give the complete file.",
+                         values.size(), announced.count, announced.name, announced.line);
         }
         const std::string_view line =
-            lines.line().substr(0, lines.line().find_last_not_of(blanks) + 1);
+            lines.line().substr(0, lines.line().find_last_not_of(" \t") + 1);
         const std::size_t found = (line.size() + columns.width - 1) / columns.width;
         const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
         if (found != expected) {
-            lines.refuse(fmt::format("the line has {} column{} of {} characters, but must have {}: "
-                                     "line {} announces {} values of {}, {} per line. Give the "
-                                     "file as it was published.",
-                                     found, plural(found), columns.width, expected, announced.line,
-                                     announced.count, announced.name, columns.per_line));
+            lines.refuse(
+                "the line has {} column{} of {} characters, but must have {}: line {} announces {} "
+                "values of {}, {} per line. Give the file as it was published.",
+                found, plural(found), columns.width, expected, announced.line, announced.count,
+                announced.name, columns.per_line);
         }
         for (std::size_t i = 0; i < found; ++i) {
             values.push_back(number_of(lines, column_of(line, columns.width, i)));

@@ -1,23 +1,15 @@
 #include "overturn/record/read_record.hpp"
 
-#include "overturn/record/text_file.hpp"
+#include "overturn/text/text_file.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
-#include "unit_spelling.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <system_error>
 
 namespace overturn {
 
@@ -29,11 +21,6 @@ double units_per_m_per_s2(AccelerationUnit unit)
     constexpr std::array<double, acceleration_unit_names.size()> numbers{0, 1, 100, 1000, 100};
     return numbers[std::size_t(unit)];
 }
-
-enum class Format { at2, v2a, smc, text, unknown };
-
-constexpr std::size_t at2_sampling_line = 4;
-constexpr std::size_t v2a_count_line = 10;
 
 /// Whether a line is like `2 CORRECTED ACCELEROGRAM`: the digit and the name of a kind of data.
 bool is_smc_title(std::string_view text)
@@ -54,160 +41,114 @@ bool next_content(Lines& lines)
     return false;
 }
 
-Format format_of(const Lines& lines)
+[[noreturn]] void refuse_format(Lines lines)
+{
+    if (!next_content(lines)) {
+        lines.refuse_file("{}", lines.number() == 0
+                                    ? "is empty. Give a file with a recorded motion."
+                                    : "has no samples. Give a file with a recorded motion.");
+    }
+    lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
+                 "SMC, or text of one or two columns, in which # or % precedes comments. Convert "
+                 "the file to one of these.",
+                 quoted_bytes(trimmed(lines.line())));
+}
+
+/// Reads the samples in the format that the first lines have.
+RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
 {
     constexpr std::string_view points = "Number of points";
-    for (Lines head = lines; head.next() && head.number() <= v2a_count_line;) {
+    for (Lines head = lines; head.next() && head.number() <= 10;) {
         const std::string_view line = trimmed(head.line());
         if (head.number() == 1 && is_smc_title(line)) {
-            return Format::smc;
+            return read_smc(lines);
         }
-        if (head.number() == at2_sampling_line && contains(line, "NPTS") && !is_comment(line)) {
-            return Format::at2;
+        if (head.number() == 4 && contains(line, "NPTS") && !is_comment(line)) {
+            return read_at2(lines, options.unit);
         }
-        if (head.number() == v2a_count_line && place_after(line, points) == points.size()) {
-            return Format::v2a;
+        if (head.number() == 10 && place_after(line, points) == points.size()) {
+            return read_v2a(lines);
         }
     }
     Lines data = lines;
     if (next_content(data)) {
         const std::string_view line = trimmed(data.line());
         if (is_number(line.substr(0, line.find_first_of(" \t,")))) {
-            return Format::text;
+            return read_text(lines, options);
         }
     }
-    return Format::unknown;
+    refuse_format(lines);
 }
 
 /// Refuses a file whose header or comments state another unit than that of its samples, and not
 /// this one as well, as "converted from cm/s2, units: g" does.
-void expect_no_other_unit(const RecordFile& file, const std::string& name)
+void expect_no_other_unit(const RecordFile& file, const Lines& lines)
 {
     // Comments of a text describe its columns, as in "time [s], acceleration [g]"; the header of a
     // station contains other brackets.
     const bool is_text = file.format == "text";
     const auto places = is_text ? UnitPlaces::title : UnitPlaces::after_units;
     for (const RecordComponent& component : file.components) {
-        std::optional<std::pair<StatedUnit, std::string>> other;
+        const auto is_same = [&](const StatedUnit& stated) {
+            return stated.unit &&
+                   units_per_m_per_s2(*stated.unit) == units_per_m_per_s2(component.unit);
+        };
+        std::string refusal;
         bool is_stated = false;
         for (const std::string& line : component.header) {
+            const std::string quoted = quoted_bytes(trimmed(line));
             for (const StatedUnit& stated : stated_units(line, places)) {
-                if (is_text && is_time(simplified(stated.text))) {
-                    refuse_record(name, fmt::format("the line {} states times in {}. Give times in "
-                                                    "seconds.",
-                                                    quoted_bytes(trimmed(std::string_view(line))),
-                                                    stated.text));
+                if (is_text && stated.is_time) {
+                    lines.refuse_file("the line {} states times in {}. Give times in seconds.",
+                                      quoted, stated.text);
                 }
-                const bool is_same = stated.unit && units_per_m_per_s2(*stated.unit) ==
-                                                        units_per_m_per_s2(component.unit);
-                is_stated = is_stated || is_same;
-                if (!is_same && !other && (stated.unit || is_text)) {
-                    other = {stated, line};
+                is_stated = is_stated || is_same(stated);
+                if (!is_same(stated) && refusal.empty() && (stated.unit || is_text)) {
+                    refusal = fmt::format(
+                        "the line {} states the unit {}, but {} is {}. Correct one of them.",
+                        quoted, quoted_bytes(stated.text),
+                        file.has_given_unit ? "the given unit" : "that of the format",
+                        name_of(component.unit));
                 }
             }
         }
-        if (other && !is_stated) {
-            refuse_record(
-                name, fmt::format("the line {} states the unit {}, but {} is {}. Correct one of "
-                                  "them.",
-                                  quoted_bytes(trimmed(std::string_view(other->second))),
-                                  quoted_bytes(std::string_view(other->first.text)),
-                                  file.has_given_unit ? "the given unit" : "that of the format",
-                                  name_of(component.unit)));
+        if (!refusal.empty() && !is_stated) {
+            lines.refuse_file("{}", refusal);
         }
     }
 }
 
 /// Refuses characters that no text has. A carriage return may only precede the end of a line.
-void expect_text(std::string_view text, const std::string& name)
+void expect_text(Lines lines)
 {
-    const auto is_allowed = [&](const char& letter) {
-        const auto code = static_cast<unsigned char>(letter);
-        const std::size_t next = std::size_t(&letter - text.data()) + 1;
-        return code >= 0x20 || letter == '\t' || letter == '\n' ||
-               (letter == '\r' &&
-                (next == text.size() || text[next] == '\n' || text[next] == '\r'));
-    };
-    const auto found = std::find_if_not(text.begin(), text.end(), is_allowed);
-    if (found == text.end()) {
-        return;
-    }
-    Lines lines(text, name);
-    for (auto ends = std::count(text.begin(), found, '\n'); ends >= 0; --ends) {
-        lines.next();
-    }
-    if (*found == '\r') {
-        lines.refuse("a carriage return is within the line. Convert line ends to LF or CR LF.");
-    }
-    lines.refuse(fmt::format("the character 0x{:02x} is not text. Give a file of text: AT2, V2A, "
+    while (lines.next()) {
+        for (const char letter : lines.line()) {
+            const auto code = static_cast<unsigned char>(letter);
+            if (letter == '\r') {
+                lines.refuse(
+                    "a carriage return is within the line. Convert line ends to LF or CR LF.");
+            }
+            if (code < 0x20 && letter != '\t') {
+                lines.refuse("the character 0x{:02x} is not text. Give a file of text: AT2, V2A, "
                              "SMC or columns.",
-                             static_cast<unsigned char>(*found)));
-}
-
-void expect_valid(const RecordOptions& options, const std::string& name)
-{
-    if (options.time_step && !(*options.time_step > 0 && std::isfinite(*options.time_step))) {
-        refuse_record(name, fmt::format("time_step = {} was given, but must be above 0 and finite. "
-                                        "Give the seconds between two samples.",
-                                        *options.time_step));
+                             code);
+            }
+        }
     }
-}
-
-/// The text without the byte-order mark of UTF-8 and without the character that ends DOS files.
-std::string_view without_marks(std::string_view text)
-{
-    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-    if (text.starts_with(byte_order_mark)) {
-        text.remove_prefix(byte_order_mark.size());
-    }
-    if (text.ends_with('\x1a')) {
-        text.remove_suffix(1);
-    }
-    return text;
-}
-
-RecordFile read_text_with_unit(const Lines& lines, const std::string& name,
-                               const RecordOptions& options)
-{
-    if (!options.unit) {
-        refuse_record(
-            name,
-            fmt::format("files in text format do not state the unit of the accelerations. Give "
-                        "one of {}: {}.",
-                        fmt::join(acceleration_unit_names, ", "), how_to_state("units")));
-    }
-    return read_text(lines, options);
-}
-
-[[noreturn]] void refuse_format(Lines lines, const std::string& name)
-{
-    if (!next_content(lines)) {
-        refuse_record(name, lines.number() == 0
-                                ? "is empty. Give a file with a recorded motion."
-                                : "has no samples. Give a file with a recorded motion.");
-    }
-    lines.refuse(fmt::format(
-        "{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, SMC, or "
-        "text of one or two columns, in which # or % precedes comments. "
-        "Convert the file to one of these.",
-        quoted_bytes(trimmed(lines.line()))));
 }
 
 /// Refuses options that a file states itself.
-void expect_no_options(const RecordFile& file, const RecordOptions& options,
-                       const std::string& name)
+void expect_no_options(const RecordFile& file, const RecordOptions& options, const Lines& lines)
 {
     const RecordComponent& component = file.components.front();
     if (options.unit && !file.has_given_unit) {
-        refuse_record(name,
-                      fmt::format("units = {} was given, but this {} file is in {}. Remove units.",
-                                  name_of(*options.unit), file.format, name_of(component.unit)));
+        lines.refuse_file("units = {} was given, but this {} file is in {}. Remove units.",
+                          name_of(*options.unit), file.format, name_of(component.unit));
     }
     if (options.time_step) {
-        refuse_record(name,
-                      fmt::format("time_step = {} was given, but the {} file states its own, {} s. "
-                                  "Remove time_step.",
-                                  *options.time_step, file.format, component.time_step));
+        lines.refuse_file(
+            "time_step = {} was given, but the {} file states its own, {} s. Remove time_step.",
+            *options.time_step, file.format, component.time_step);
     }
 }
 
@@ -231,26 +172,26 @@ std::vector<double> over_gravity(const RecordComponent& component, double gravit
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options)
 {
-    expect_valid(options, name);
-    text = without_marks(text);
-    expect_text(text, name);
-    const Lines lines(text, name);
-    RecordFile file;
-    switch (format_of(lines)) {
-    case Format::at2: file = read_at2(lines, options.unit); break;
-    case Format::v2a: file = read_v2a(lines); break;
-    case Format::smc: file = read_smc(lines); break;
-    case Format::text: file = read_text_with_unit(lines, name, options); break;
-    case Format::unknown: refuse_format(lines, name);
+    text = without_byte_order_mark(text);
+    if (text.ends_with('\x1a')) { // of DOS files
+        text.remove_suffix(1);
     }
+    const Lines lines(text, name);
+    if (options.time_step && !(*options.time_step > 0 && std::isfinite(*options.time_step))) {
+        lines.refuse_file("time_step = {} was given, but must be above 0 and finite. Give the "
+                          "seconds between two samples.",
+                          *options.time_step);
+    }
+    expect_text(lines);
+    RecordFile file = read_known_format(lines, options);
     for (RecordComponent& component : file.components) {
         component.name = as_utf8(component.name);
     }
     if (file.format != "AT2") { // which may state any unit
-        expect_no_other_unit(file, name);
+        expect_no_other_unit(file, lines);
     }
     if (file.format != "text") { // which states neither
-        expect_no_options(file, options, name);
+        expect_no_options(file, options, lines);
     }
     return file;
 }

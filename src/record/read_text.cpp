@@ -1,86 +1,167 @@
-#include "even_times.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace overturn {
 
 namespace {
 
-constexpr std::size_t most_columns = 2;
+// Thirty years: a larger value cannot be a time in a record, and might overflow.
+constexpr double largest_time = 1e9; // [s]
 
-struct Row {
-    std::array<std::string_view, most_columns> columns;
-    std::size_t size = 0; ///< may exceed most_columns
+/// The unit of the last printed digit: 0.001 for 1.250 and 10 for 1e1 [s].
+double printed_unit(std::string_view word)
+{
+    const std::size_t end = std::min(word.find_first_of("eEdD"), word.size());
+    const std::size_t point = std::min(word.find('.'), end);
+    const std::size_t decimals = point == end ? 0 : end - point - 1;
+    // Stays 0 if there is none, or if it is beyond int, which only the number 0 may have.
+    int exponent = 0;
+    if (end < word.size()) {
+        const std::string_view digits =
+            word.substr(word[end + 1] == '+' ? end + 2 : end + 1); // a number has digits here
+        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    }
+    // 10^-400 is 0; a unit is not larger than the largest time.
+    return std::pow(10.0, std::clamp(double(exponent) - double(decimals), -400.0, 9.0));
+}
+
+/// The number in [low, high] with the fewest decimal digits; of several, the one nearest to `near`.
+double simplest_decimal(double low, double high, double near)
+{
+    // 10^22 is the largest power of ten that is exact, so that the quotient is correctly rounded.
+    constexpr int most_decimals = 22;
+    constexpr double most = 0x1p53; // larger numbers are all integers
+    double scale = 1;
+    for (int decimals = 0; decimals <= most_decimals && near * scale < most; ++decimals) {
+        const double first = std::max(1.0, std::ceil(low * scale));
+        const double last = std::floor(high * scale);
+        if (first <= last) {
+            return std::clamp(std::round(near * scale), first, last) / scale;
+        }
+        scale *= 10;
+    }
+    return near;
+}
+
+/// Collects printed times t_i, i = 0, 1, ..., that must be evenly spaced: with h_i half a unit of
+/// the last printed digit of t_i, each must satisfy
+///
+///     |t_i - (t_0 + i step)| <= h_i
+///
+/// for one step. Each time bounds the step on both sides; the intersection of these ranges is kept.
+class EvenTimes {
+public:
+    /// Refuses a word of the current line that is not a number, and a time that is not after the
+    /// previous one or is not evenly spaced with the previous ones.
+    void add(const Lines& lines, std::string_view word);
+
+    /// The step with the fewest decimal digits; of several, the one nearest to the mean step [s].
+    /// Requires two times.
+    double step() const;
+
+    std::size_t size() const { return size_; }
+
+private:
+    double first_ = 0;                                      ///< [s]
+    double last_ = 0;                                       ///< [s]
+    double least_ = 0;                                      ///< lower bound of the step [s]
+    double most_ = std::numeric_limits<double>::infinity(); ///< upper bound of the step [s]
+    std::size_t size_ = 0;
 };
 
-/// Columns are separated by blanks, or by a comma with or without blanks.
-Row row_of(std::string_view line)
+void EvenTimes::add(const Lines& lines, std::string_view word)
 {
-    Row row;
-    std::string_view rest = trimmed(line);
-    for (bool more = !rest.empty(); more; ++row.size) {
-        const std::size_t end = std::min(rest.find_first_of(" \t,"), rest.size());
-        if (row.size < most_columns) {
-            row.columns[row.size] = rest.substr(0, end);
+    const double time = number_of(lines, word);
+    if (std::abs(time) > largest_time) {
+        lines.refuse("the time {} s is outside {} to {} s. The first of two columns must be the "
+                     "time in seconds.",
+                     word, -largest_time, largest_time);
+    }
+    if (size_ == 0) {
+        first_ = time;
+    } else if (!(time > last_)) {
+        lines.refuse("the time {} s is not after the previous time, {} s. Give ascending times "
+                     "with enough digits, or one column and time_step.",
+                     word, last_);
+    } else {
+        // Rounding: of both times, of their difference, of its sum with the half unit.
+        constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+        const double half_unit =
+            printed_unit(word) / 2 + rounding * (std::abs(time) + std::abs(first_));
+        const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
+        const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
+        if (!(least <= most)) {
+            lines.refuse("the time is {} s, but must be {:.9g} s to within half a unit of its last "
+                         "digit: times must be evenly spaced, and those before have the step "
+                         "{:.9g} s. Resample the record, or give one column and time_step.",
+                         word, first_ + double(size_) * step(), step());
         }
-        rest = trimmed(rest.substr(end));
+        least_ = least;
+        most_ = most;
+    }
+    last_ = time;
+    ++size_;
+}
+
+double EvenTimes::step() const
+{
+    return simplest_decimal(least_, most_, (last_ - first_) / double(size_ - 1));
+}
+
+/// Columns are separated by blanks, or by a comma with or without blanks.
+std::vector<std::string_view> columns_of(std::string_view line)
+{
+    std::vector<std::string_view> columns;
+    std::string_view rest = trimmed(line);
+    for (bool more = !rest.empty(); more;) {
+        columns.push_back(rest.substr(0, rest.find_first_of(" \t,")));
+        rest = trimmed(rest.substr(columns.back().size()));
         more = !rest.empty();
         if (rest.starts_with(',')) {
             rest = trimmed(rest.substr(1)); // another column follows, even if it is empty
         }
     }
-    return row;
+    return columns;
 }
 
-/// The first row decides how many columns there are.
-void expect_columns(const Lines& lines, std::size_t found, std::size_t expected)
+/// The first row decides how many columns there are, and thus whether the times are known.
+void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
+                    const std::optional<double>& time_step)
 {
-    if (found > most_columns) {
-        lines.refuse(fmt::format("the line has {} columns. Give one column of accelerations, or "
-                                 "two of times and accelerations; the decimal mark is a point.",
-                                 found));
+    if (found > 2) {
+        lines.refuse("the line has {} columns. Give one column of accelerations, or two of times "
+                     "and accelerations; the decimal mark is a point.",
+                     found);
     }
     if (found != expected) {
-        lines.refuse(fmt::format("the line has {} column{}, but the previous lines have {}. "
-                                 "Correct it.",
-                                 found, found == 1 ? "" : "s", expected));
+        lines.refuse("the line has {} column{}, but the previous lines have {}. Correct it.", found,
+                     found == 1 ? "" : "s", expected);
     }
-}
-
-void expect_time_step_of_column(const Lines& lines, const std::optional<double>& time_step)
-{
-    if (!time_step) {
-        lines.refuse(fmt::format("the file has one column, so the time step is not known. Give "
-                                 "two columns with time in seconds first, or the time step in "
-                                 "seconds: {}.",
-                                 how_to_state("time_step")));
+    if (found == 1 && !time_step) {
+        lines.refuse("the file has one column, so the time step is not known. Give two columns "
+                     "with time in seconds first, or the time step in seconds: {}.",
+                     how_to_state("time_step"));
     }
-}
-
-void expect_no_time_step(const Lines& lines, const std::optional<double>& time_step)
-{
-    if (time_step) {
-        lines.refuse(fmt::format("time_step = {} was given, but the file has two columns, which "
-                                 "state the times. Remove time_step.",
-                                 *time_step));
+    if (found == 2 && time_step) {
+        lines.refuse("time_step = {} was given, but the file has two columns, which state the "
+                     "times. Remove time_step.",
+                     *time_step);
     }
 }
 
 /// Whether a comma is between two digits, as in 1,5: it separates two columns or is a decimal mark.
 bool has_doubtful_comma(std::string_view line)
 {
-    const auto is_digit = [&](std::size_t i) {
-        return i < line.size() && '0' <= line[i] && line[i] <= '9';
-    };
-    for (std::size_t i = line.find(','); i != line.npos; i = line.find(',', i + 1)) {
-        if (i > 0 && is_digit(i - 1) && is_digit(i + 1)) {
+    const auto is_digit = [&](std::size_t i) { return '0' <= line[i] && line[i] <= '9'; };
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        if (line[i] == ',' && is_digit(i - 1) && is_digit(i + 1)) {
             return true;
         }
     }
@@ -103,10 +184,9 @@ void expect_decimal_points(Lines lines)
         }
     }
     if (doubtful) {
-        doubtful->refuse(fmt::format(
-            "{} may be a number with a decimal comma, because the file has no decimal point. Write "
-            "numbers with a point, and separate columns by blanks.",
-            quoted_bytes(trimmed(doubtful->line()))));
+        doubtful->refuse("{} may be a number with a decimal comma, because the file has no decimal "
+                         "point. Write numbers with a point, and separate columns by blanks.",
+                         quoted_bytes(trimmed(doubtful->line())));
     }
 }
 
@@ -114,9 +194,14 @@ void expect_decimal_points(Lines lines)
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
 {
+    if (!options.unit) {
+        lines.refuse_file(
+            "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
+            fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+    }
     expect_decimal_points(lines);
     RecordComponent component;
-    component.unit = options.unit.value();
+    component.unit = *options.unit;
     Header header;
     EvenTimes times;
     std::size_t columns = 0;
@@ -125,26 +210,20 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             header.add(lines);
             continue;
         }
-        const Row row = row_of(lines.line());
-        if (row.size == 0) {
+        const std::vector<std::string_view> row = columns_of(lines.line());
+        if (row.empty()) {
             continue;
         }
-        const bool is_first = columns == 0;
-        columns = is_first ? row.size : columns;
-        expect_columns(lines, row.size, columns);
-        if (is_first) {
-            columns == 1 ? expect_time_step_of_column(lines, options.time_step)
-                         : expect_no_time_step(lines, options.time_step);
-        }
+        columns = columns == 0 ? row.size() : columns;
+        expect_columns(lines, row.size(), columns, options.time_step);
         if (component.acceleration.size() == most_samples) {
-            lines.refuse(fmt::format("the file has more than {} samples, the maximum. Give a "
-                                     "shorter record.",
-                                     most_samples));
+            lines.refuse("the file has more than {} samples, the maximum. Give a shorter record.",
+                         most_samples);
         }
         if (columns == 2) {
-            times.add(lines, row.columns[0]);
+            times.add(lines, row.front());
         }
-        component.acceleration.push_back(number_of(lines, row.columns[columns - 1]));
+        component.acceleration.push_back(number_of(lines, row.back()));
     }
     if (columns == 2 && times.size() == 1) {
         lines.refuse("the file has one sample, but the time step can be determined only from two "

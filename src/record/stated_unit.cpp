@@ -1,36 +1,156 @@
 #include "stated_unit.hpp"
 
-#include "unit_spelling.hpp"
-
-#include <fmt/format.h>
+#include "lines.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
 #include <utility>
 
 namespace overturn {
 
 namespace {
 
-bool is_one_of(std::string_view word, std::span<const std::string_view> words)
+using Replacement = std::pair<std::string_view, std::string_view>;
+
+/// Whether a word is in a list of words with blanks between them.
+bool is_in(std::string_view list, std::string_view word)
 {
-    return std::find(words.begin(), words.end(), word) != words.end();
+    while (!list.empty() && !word.empty()) {
+        const std::string_view first = list.substr(0, list.find(' '));
+        if (first == word) {
+            return true;
+        }
+        list.remove_prefix(std::min(first.size() + 1, list.size()));
+    }
+    return false;
 }
 
-/// A word of a line, and the punctuation between it and the previous word. A word that follows
-/// without any continues a phrase.
-struct Word {
-    std::string spelling;
-    std::string text; ///< simplified
-    std::string before;
-};
+constexpr bool is_letter(char character)
+{
+    return 'a' <= character && character <= 'z';
+}
+
+bool is_number_like(std::string_view word)
+{
+    const auto is_digit = [&](std::size_t i) {
+        return i < word.size() && '0' <= word[i] && word[i] <= '9';
+    };
+    return is_digit(0) || (word.starts_with('.') && is_digit(1));
+}
+
+/// In lower case, with superscripts of UTF-8 and Latin-1 as digits and minus signs, and without the
+/// dots of products.
+std::string simplified(std::string_view word)
+{
+    constexpr Replacement letters[] = {{"\u00b2", "2"}, {"\xb2", "2"},   {"\u00b3", "3"},
+                                       {"\u207b", "-"}, {"\u2212", "-"}, {"\u00b7", ""},
+                                       {"\u22c5", ""}};
+    std::string text = lower(word);
+    for (const auto& [letter, replacement] : letters) {
+        for (std::size_t at = 0; (at = text.find(letter, at)) != text.npos;) {
+            text.replace(at, letter.size(), replacement);
+        }
+    }
+    return text;
+}
+
+/// A unit or a part of one in a normal form: "sec**2" becomes "s2".
+std::string normal_form(std::string_view word)
+{
+    constexpr Replacement synonyms[] = {{"per", "/"},
+                                        {"sec secs second seconds", "s"},
+                                        {"squared square sq", "2"},
+                                        {"gs gravity gravities", "g"},
+                                        {"gals", "gal"},
+                                        {"meter meters metre metres", "m"},
+                                        {"centimeter centimeters centimetre centimetres", "cm"},
+                                        {"millimeters millimetres", "mm"}};
+    std::string result;
+    std::string letters;
+    const auto finish = [&] {
+        for (const auto& [spellings, normal] : synonyms) {
+            letters = is_in(spellings, letters) ? normal : letters;
+        }
+        result += std::exchange(letters, "");
+    };
+    for (const char letter : word) {
+        if (is_letter(letter)) {
+            letters += letter;
+        } else if (letter != '\'') { // as in g's
+            finish();
+            result += std::string_view("^*._()").find(letter) == std::string_view::npos
+                          ? std::string(1, letter)
+                          : "";
+        }
+    }
+    finish();
+    return result;
+}
+
+/// The unit of a normal form, such as "cm/s/s"; nullopt if it is none.
+std::optional<AccelerationUnit> unit_of(std::string_view normal)
+{
+    if (normal == "g") {
+        return AccelerationUnit::g;
+    }
+    if (normal == "gal") {
+        return AccelerationUnit::cm_per_s2;
+    }
+    const std::size_t length = std::min(normal.find_first_of("/sp"), normal.size());
+    if (!is_in("/s/s /s2 /ss s-2 s2 ps2", normal.substr(length))) {
+        return std::nullopt;
+    }
+    const std::string_view metre = normal.substr(0, length);
+    return metre == "mm"   ? std::optional(AccelerationUnit::mm_per_s2)
+           : metre == "cm" ? std::optional(AccelerationUnit::cm_per_s2)
+           : metre == "m"  ? std::optional(AccelerationUnit::m_per_s2)
+                           : std::nullopt;
+}
+
+constexpr std::string_view times = "ms msec milliseconds us min minutes hours";
+
+/// Whether a word begins like a unit: with the name of a length, of an acceleration, of a time, of
+/// a system of units or of raw data, alone or before something other than a letter.
+bool resembles_unit(std::string_view word)
+{
+    const auto end = std::find_if_not(word.begin(), word.end(), is_letter);
+    const std::string_view name(word.begin(), end);
+    const bool is_short = is_in("m in", name); // also an initial, and a preposition
+    return (is_short && end != word.end()) || is_in(times, name) ||
+           is_in("g gal mgal mg ug mm cm dm km ft feet foot inch inches cms cmss mss mps cmps mmps "
+                 "mms si cgs mks metric count counts volt volts",
+                 normal_form(name));
+}
+
+/// Whether a word can only be a unit, wherever it is: a length over a second, as in CM/SEC, a force
+/// over a mass, or a system of units.
+bool is_always_unit(std::string_view word)
+{
+    const std::string normal = normal_form(word);
+    const std::size_t end = std::min(normal.find("/s"), normal.size());
+    return is_in("n/kg si mks cgs mgal", word) || normal == "cmss" ||
+           (is_in("mm cm dm km m ft in inches", normal.substr(0, end)) && end < normal.size() &&
+            !is_letter(normal[std::min(end + 2, normal.size())]));
+}
+
+/// What follows a factor at the beginning of a word: "g" in milli-g and in 0.01g; nullopt: it does
+/// not begin with a factor.
+std::optional<std::string_view> after_factor(std::string_view word)
+{
+    std::size_t end = is_number_like(word) ? word.find_first_not_of("0123456789.+-*/^") : 0;
+    for (const std::string_view name :
+         {"%", "percent", "milli", "micro", "tenth", "tenths", "hundredths", "thousandths"}) {
+        end = word.starts_with(name) ? name.size() : end;
+    }
+    if (end == 0) {
+        return std::nullopt;
+    }
+    word.remove_prefix(std::min(end, word.size()));
+    return word.starts_with('-') ? word.substr(1) : word;
+}
 
 bool is_acceleration(std::string_view word)
 {
-    constexpr std::array<std::string_view, 6> names{"a",    "acc",          "accel",
-                                                    "accn", "acceleration", "accelerations"};
-    return is_one_of(word, names);
+    return is_in("a acc accel accn acceleration accelerations", word);
 }
 
 /// Where a unit begins in the name of a column, such as acc_x_cm_s2, a/g or time_ms; npos if it has
@@ -40,8 +160,7 @@ std::size_t unit_of_column(std::string_view name)
     bool is_named = false;
     for (std::size_t begin = 0, end = 0; end != name.npos; begin = end + 1) {
         const std::string_view rest = name.substr(begin);
-        if (is_named && !rest.empty() &&
-            (resembles_unit(rest) || resembles_unit(after_factor(rest).value_or("")))) {
+        if (is_named && (resembles_unit(rest) || resembles_unit(after_factor(rest).value_or("")))) {
             return begin;
         }
         end = name.find_first_of("_/-.", begin);
@@ -51,47 +170,62 @@ std::size_t unit_of_column(std::string_view name)
     return name.npos;
 }
 
-/// Brackets within a unit, as in cm/(s*s), belong to the word. The unit in the name of a column is
-/// a word as if it were in brackets.
-std::vector<Word> words_of(std::string_view line)
+/// A word of a line, and the punctuation between it and the previous word. A word that follows
+/// without any continues a phrase.
+struct Word {
+    std::string_view spelling; ///< in the line
+    std::string text;          ///< simplified
+    std::string before;
+};
+
+constexpr std::string_view blanks = " \t";
+constexpr std::string_view punctuation = ",;:=()[]{}<>\"|";
+
+/// The end of the word that begins here. Brackets within a unit, as in cm/(s*s), belong to it.
+std::size_t end_of_word(std::string_view line, std::size_t begin)
 {
-    constexpr std::string_view punctuation = ",;:=()[]{}<>\"|";
-    std::vector<Word> words;
-    Word word;
     int open = 0;
-    const auto finish = [&] {
-        const std::size_t end = word.spelling.find_last_not_of(".-") + 1; // of a sentence
-        const std::string marks = word.spelling.substr(end);
-        word.spelling.resize(end);
-        if (word.spelling.empty()) {
-            word.before += marks;
-        } else {
-            word.text = simplified(word.spelling);
-            if (const std::size_t unit = unit_of_column(word.text); unit != std::string::npos) {
-                words.push_back({word.spelling.substr(0, unit - 1), word.text.substr(0, unit - 1),
-                                 word.before});
-                word = {word.spelling.substr(unit), word.text.substr(unit), "["};
-                words.push_back(std::exchange(word, Word{{}, {}, "," + marks})); // ends the phrase
-            } else {
-                words.push_back(std::exchange(word, Word{{}, {}, marks}));
-            }
-        }
-    };
-    for (const char letter : line) {
-        if (letter == '(' && word.spelling.ends_with('/')) {
+    for (std::size_t end = begin; end < line.size(); ++end) {
+        const char letter = line[end];
+        if (letter == '(' && end > begin && line[end - 1] == '/') {
             ++open;
         } else if (letter == ')' && open > 0) {
             --open;
-        } else if (letter == ' ' || letter == '\t') {
-            finish();
-        } else if (punctuation.find(letter) != punctuation.npos) {
-            finish();
-            word.before += letter;
-        } else {
-            word.spelling += letter;
+        } else if (blanks.find(letter) != blanks.npos ||
+                   punctuation.find(letter) != punctuation.npos) {
+            return end;
         }
     }
-    finish();
+    return line.size();
+}
+
+/// The unit in the name of a column is a word as if it were in brackets.
+std::vector<Word> words_of(std::string_view line)
+{
+    std::vector<Word> words;
+    std::string before;
+    for (std::size_t begin = 0, end = 0; begin < line.size(); begin = end) {
+        end = end_of_word(line, begin);
+        if (end == begin) {
+            before += blanks.find(line[begin]) == blanks.npos ? line.substr(begin, 1) : "";
+            ++end;
+            continue;
+        }
+        std::string_view word = line.substr(begin, end - begin);
+        const std::size_t size = word.find_last_not_of(".-") + 1;
+        const std::string_view marks = word.substr(size); // of a sentence
+        word = word.substr(0, size);
+        std::string text = simplified(word);
+        if (text.empty()) {
+            before += marks;
+        } else if (const std::size_t unit = unit_of_column(text); unit != text.npos) {
+            words.push_back({word.substr(0, unit - 1), text.substr(0, unit - 1), before});
+            words.push_back({word.substr(unit), text.substr(unit), "["});
+            before = fmt::format(",{}", marks); // ends the phrase
+        } else {
+            words.push_back({word, std::move(text), std::exchange(before, std::string(marks))});
+        }
+    }
     return words;
 }
 
@@ -102,44 +236,44 @@ public:
 
     std::vector<StatedUnit> read(UnitPlaces places)
     {
+        std::vector<StatedUnit> units;
         while (at_ < words_.size()) {
-            if (is_after_units()) {
-                take_any();
-            } else if (places == UnitPlaces::after_units) {
-                ++at_;
-            } else if (is_expected() || is_named_factor()) {
-                take_if_unit();
+            if (skip_units_of() || (places == UnitPlaces::title && is_unit())) {
+                units.push_back(take());
             } else {
-                take_if_nothing_else();
+                ++at_;
             }
         }
-        return std::move(units_);
+        return units;
     }
 
 private:
     const std::string& word(std::size_t i) const { return words_[i].text; }
 
-    /// Whether a phrase goes on with word i.
+    /// Whether a phrase goes on with word i, or with one of a list.
     bool continues(std::size_t i) const { return i < words_.size() && words_[i].before.empty(); }
-
-    /// Skips "units of" and the like; whether a word follows that must be a unit.
-    bool is_after_units()
+    bool continues(std::size_t i, std::string_view list) const
     {
-        if (word(at_) != "units" && word(at_) != "unit") {
+        return continues(i) && is_in(list, word(i));
+    }
+
+    /// Skips "units of" and the like; false if no word follows that must be a unit.
+    bool skip_units_of()
+    {
+        if (!is_in("unit units", word(at_))) {
             return false;
         }
         std::size_t next = at_ + 1;
-        bool is_clear = word(at_) == "units" || (next < words_.size() && !continues(next) &&
-                                                 words_[next].before.find_first_of(":=") == 0);
-        constexpr std::array<std::string_view, 5> fillers{"of", "are", "is", "in", "the"};
-        while (next < words_.size() && is_one_of(word(next), fillers)) {
-            is_clear = true;
+        while (next < words_.size() && is_in("of are is in the", word(next))) {
             ++next;
         }
-        constexpr std::string_view introductions = ":=([{<\"";
-        const bool follows = next < words_.size() && words_[next].before.find_first_not_of(
-                                                         introductions) == std::string::npos;
-        if (!is_clear || !follows) { // a block unit, or the end of "in SI units"
+        if (next == words_.size()) { // the end of "in SI units"
+            return false;
+        }
+        const std::string& before = words_[next].before;
+        const bool is_clear = word(at_) == "units" || next > at_ + 1 || before.starts_with(':') ||
+                              before.starts_with('='); // not a block unit
+        if (!is_clear || before.find_first_not_of(":=([{<\"") != before.npos) {
             return false;
         }
         at_ = next;
@@ -150,22 +284,21 @@ private:
     /// "acceleration".
     bool is_expected() const
     {
-        if (words_[at_].before.find_first_of(":=([{<") != std::string::npos) {
+        const std::string& before = words_[at_].before;
+        if (before.find_first_of(":=([{<") != before.npos) {
             return true;
         }
-        if (at_ == 0) {
+        if (at_ == 0 || !(before.empty() || before == ",")) {
             return false;
         }
-        constexpr std::array<std::string_view, 3> divided{"divided", "normalised", "normalized"};
         const std::string& previous = word(at_ - 1);
-        const bool is_quotient = previous == "by" && at_ > 1 && is_one_of(word(at_ - 2), divided);
-        return continues(at_) ? previous == "in" || is_quotient ||
-                                    (is_acceleration(previous) && previous != "a")
-                              : is_acceleration(previous) && words_[at_].before == ",";
+        if (is_acceleration(previous)) {
+            return before == "," || previous != "a";
+        }
+        return before.empty() &&
+               (previous == "in" || (previous == "by" && at_ > 1 &&
+                                     is_in("divided normalised normalized", word(at_ - 2))));
     }
-
-    /// Whether the current word is a factor such as % or begins with one, as MILLI-G does.
-    bool is_named_factor() const { return !is_number_like(word(at_)) && after_factor(word(at_)); }
 
     struct Match {
         AccelerationUnit unit;
@@ -178,10 +311,7 @@ private:
         constexpr std::size_t most_words = 6; // cm per sec per sec
         std::optional<Match> found;
         std::string normal;
-        for (std::size_t end = i; end < words_.size() && end < i + most_words; ++end) {
-            if (end > i && !continues(end)) {
-                break;
-            }
+        for (std::size_t end = i; end < i + most_words && (end == i || continues(end)); ++end) {
             const std::string part = normal_form(word(end));
             if (part.empty()) { // a factor follows
                 break;
@@ -197,91 +327,73 @@ private:
     /// The unit after words such as "fractions of"; nullopt also if a factor changes it.
     std::optional<Match> match_of_phrase() const
     {
-        constexpr std::array<std::string_view, 6> whole{"fraction", "fractions", "multiples",
-                                                        "parts",    "terms",     "units"};
-        const bool is_share = is_one_of(word(at_), whole) && continues(at_ + 1) &&
-                              word(at_ + 1) == "of" && continues(at_ + 2);
+        const bool is_share = is_in("fraction fractions multiples parts terms units", word(at_)) &&
+                              continues(at_ + 1, "of") && continues(at_ + 2);
         const auto found = match(is_share ? at_ + 2 : at_);
-        const bool is_changed = found && continues(found->end) && is_operator(word(found->end));
+        const bool is_changed =
+            found && continues(found->end) &&
+            (is_in("per times x divided multiplied squared", word(found->end)) ||
+             word(found->end).find_first_of("/*^") == 0);
         return is_changed ? std::nullopt : found;
     }
 
     /// Whether word i, with a slash after it, begins like a unit.
-    bool resembles_unit(std::size_t i) const
+    bool begins_unit(std::size_t i) const
     {
-        const bool is_divided = continues(i + 1) && (word(i + 1)[0] == '/' || word(i + 1) == "per");
-        return overturn::resembles_unit(word(i) + (is_divided ? "/" : ""));
+        const bool is_divided =
+            continues(i + 1, "per") || (continues(i + 1) && word(i + 1).starts_with('/'));
+        return resembles_unit(word(i) + (is_divided ? "/" : ""));
     }
 
     /// Whether a factor and a unit are next, as in PERCENT OF G or, after "in", 0.01 G. Elsewhere a
     /// number and a unit are a value, such as the peak.
     bool is_multiple() const
     {
-        const auto rest = after_factor(word(at_));
-        const bool is_power = word(at_).find_first_of("^*") != std::string::npos; // 10^-3
-        if (!rest || (is_number_like(word(at_)) && !words_[at_].before.empty() && !is_power)) {
+        const std::string& factor = word(at_);
+        const auto rest = after_factor(factor);
+        const bool is_power = factor.find_first_of("^*") != factor.npos; // 10^-3
+        if (!rest || (is_number_like(factor) && !words_[at_].before.empty() && !is_power)) {
             return false;
         }
-        constexpr std::array<std::string_view, 3> joints{"of", "x", "*"};
-        const bool is_joint = continues(at_ + 1) && is_one_of(word(at_ + 1), joints);
-        const std::size_t next = at_ + (is_joint ? 2 : 1);
-        return rest->empty() ? continues(next) && resembles_unit(next)
-                             : overturn::resembles_unit(*rest);
+        const std::size_t next = at_ + (continues(at_ + 1, "of x *") ? 2 : 1);
+        return rest->empty() ? continues(next) && begins_unit(next) : resembles_unit(*rest);
     }
 
-    /// Adds the words up to `end` as a unit.
-    void take(std::size_t end, const std::optional<AccelerationUnit>& unit)
+    /// Whether a unit begins with the current word: one that is expected, a multiple, or what is
+    /// nothing else wherever it is, cm/s/s but not G, and not part of a value.
+    bool is_unit() const
     {
-        std::string text = words_[at_++].spelling;
-        while (at_ < end) {
-            text += ' ' + words_[at_++].spelling;
+        const bool is_named_factor = !is_number_like(word(at_)) && after_factor(word(at_));
+        if ((is_expected() || is_named_factor) &&
+            (match_of_phrase() || begins_unit(at_) || is_multiple())) {
+            return true;
         }
-        units_.push_back({std::move(text), unit});
-    }
-
-    /// Adds the rest of the phrase as a unit, which may not be understood.
-    void take_any()
-    {
-        if (const auto found = match_of_phrase()) {
-            take(found->end, found->unit);
-            return;
-        }
-        std::size_t end = at_ + 1;
-        while (continues(end)) {
-            ++end;
-        }
-        take(end, std::nullopt);
-    }
-
-    void take_if_unit()
-    {
-        if (match_of_phrase() || resembles_unit(at_) || is_multiple()) {
-            take_any();
-        } else {
-            take_if_nothing_else();
-        }
-    }
-
-    /// Takes a unit that is nothing else wherever it is: cm/s/s, but not G.
-    void take_if_nothing_else()
-    {
-        if (continues(at_) && at_ > 0 && is_number_like(word(at_ - 1))) { // a value
-            ++at_;
-            return;
+        if (continues(at_) && at_ > 0 && is_number_like(word(at_ - 1))) {
+            return false;
         }
         const auto found = match(at_);
-        const bool is_unit = found && found->unit != AccelerationUnit::g;
-        const bool is_scaled = word(at_) == "scaled" && continues(at_ + 1) && word(at_ + 1) == "by";
-        if (is_unit || is_scaled || is_length_over_time(word(at_)) || is_always_unit(word(at_))) {
-            take_any();
-        } else {
+        return (found && found->unit != AccelerationUnit::g) || is_always_unit(word(at_)) ||
+               (word(at_) == "scaled" && continues(at_ + 1, "by"));
+    }
+
+    /// Takes a unit, or the rest of the phrase as one that is not understood.
+    StatedUnit take()
+    {
+        const std::size_t begin = at_;
+        const auto found = match_of_phrase();
+        at_ = found ? found->end : at_ + 1;
+        while (!found && continues(at_)) {
             ++at_;
         }
+        const char* const first = words_[begin].spelling.data();
+        const std::string_view last = words_[at_ - 1].spelling;
+        return {std::string(first, last.data() + last.size()),
+                found ? std::optional(found->unit) : std::nullopt,
+                at_ == begin + 1 && is_in(times, word(begin))};
     }
 
     std::vector<Word> words_;
     std::size_t at_ = 0;
-    std::vector<StatedUnit> units_;
 };
 
 } // namespace
@@ -293,9 +405,9 @@ std::vector<StatedUnit> stated_units(std::string_view line, UnitPlaces places)
 
 std::string how_to_state(std::string_view option)
 {
-    return fmt::format("scene.{0} in a job, --set scene.{0}=... on the command line, or {0}=... in "
-                       "Python",
-                       option);
+    return fmt::format(
+        "scene.{0} in a job, --set scene.{0}=... on the command line, or {0}=... in Python",
+        option);
 }
 
 } // namespace overturn

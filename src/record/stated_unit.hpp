@@ -14,6 +14,7 @@ namespace overturn {
 struct StatedUnit {
     std::string text;
     std::optional<AccelerationUnit> unit;
+    bool is_time; ///< a unit of time other than the second
 };
 
 /// Where a unit is looked for in a line.

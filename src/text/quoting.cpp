@@ -8,39 +8,36 @@
 
 namespace overturn {
 
-std::string in_quotes(std::string_view text)
+namespace {
+
+/// In double quotes, with quotes, backslashes and control characters escaped; `bytes`: also all
+/// that is not ASCII, as in C instead of TOML.
+std::string quoted(std::string_view text, bool bytes)
 {
     std::string result = "\"";
     for (const char letter : text) {
         const auto code = static_cast<unsigned char>(letter);
-        if (letter == '"' || letter == '\\') {
-            result += '\\';
-            result += letter;
-        } else if (code < 0x20 || code == 0x7f) {
-            result += fmt::format("\\u{:04X}", code);
+        if (code < 0x20 || code == 0x7f || (bytes && code > 0x7f)) {
+            result += bytes ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{:04X}", code);
         } else {
+            result += letter == '"' || letter == '\\' ? "\\" : "";
             result += letter;
         }
     }
-    return result + '"';
+    return result;
+}
+
+} // namespace
+
+std::string in_quotes(std::string_view text)
+{
+    return quoted(text, false) + '"';
 }
 
 std::string quoted_bytes(std::string_view bytes)
 {
     constexpr std::size_t longest = 40;
-    std::string result = "\"";
-    for (const char letter : bytes.substr(0, longest)) {
-        const auto code = static_cast<unsigned char>(letter);
-        if (letter == '"' || letter == '\\') {
-            result += '\\';
-            result += letter;
-        } else if (code < 0x20 || code >= 0x7f) {
-            result += fmt::format("\\x{:02x}", code);
-        } else {
-            result += letter;
-        }
-    }
-    return result + (bytes.size() > longest ? "...\"" : "\"");
+    return quoted(bytes.substr(0, longest), true) + (bytes.size() > longest ? "...\"" : "\"");
 }
 
 std::string shortened(std::string_view text, std::size_t longest)

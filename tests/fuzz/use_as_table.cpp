@@ -2,8 +2,8 @@
 
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/quantity.hpp"
-#include "overturn/record/read_table.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/table.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 // Names of motions and of columns, and strengths, of jobs with records and tables.
 #include "job_file.hpp"
-#include "motion_names.hpp"
 
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"

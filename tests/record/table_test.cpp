@@ -1,6 +1,6 @@
 // Tables of comma-separated values.
-#include "overturn/record/read_table.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/table.hpp"
 
 #include <gtest/gtest.h>
 

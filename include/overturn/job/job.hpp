@@ -3,7 +3,7 @@
 
 #include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/problem/problem.hpp"
-#include "overturn/record/read_table.hpp"
+#include "overturn/text/table.hpp"
 
 #include <memory>
 #include <optional>
@@ -17,6 +17,7 @@ struct Motion {
     std::string file;      ///< path as the job spells it, or as a pattern matched it
     std::string name;      ///< of its own among the motions of the job: the file, or with component
     std::string component; ///< its name in the file; may be empty
+    std::string label;     ///< the component, or its number if it has no name of its own
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
     std::vector<std::string> header; ///< lines of the file in UTF-8
     IntensityMeasures measures;      ///< not scaled

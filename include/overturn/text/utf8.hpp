@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -66,33 +65,24 @@ inline std::string as_utf8(std::string_view text)
 /// Whether a text in UTF-8 contains white space: blanks, line ends and other separators of Unicode.
 inline bool has_white_space(std::string_view text)
 {
-    constexpr std::array<std::string_view, 25> spaces{" ",
-                                                      "\t",
-                                                      "\n",
-                                                      "\v",
-                                                      "\f",
-                                                      "\r",
-                                                      "\xc2\x85",
-                                                      "\xc2\xa0",
-                                                      "\xe1\x9a\x80",
-                                                      "\xe2\x80\x80",
-                                                      "\xe2\x80\x81",
-                                                      "\xe2\x80\x82",
-                                                      "\xe2\x80\x83",
-                                                      "\xe2\x80\x84",
-                                                      "\xe2\x80\x85",
-                                                      "\xe2\x80\x86",
-                                                      "\xe2\x80\x87",
-                                                      "\xe2\x80\x88",
-                                                      "\xe2\x80\x89",
-                                                      "\xe2\x80\x8a",
-                                                      "\xe2\x80\xa8",
-                                                      "\xe2\x80\xa9",
-                                                      "\xe2\x80\xaf",
-                                                      "\xe2\x81\x9f",
-                                                      "\xe3\x80\x80"};
-    return std::any_of(spaces.begin(), spaces.end(),
-                       [&](std::string_view space) { return text.find(space) != text.npos; });
+    constexpr std::string_view spaces =
+        " \t\n\v\f\r\u0085\u00a0\u1680\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008"
+        "\u2009\u200a\u2028\u2029\u202f\u205f\u3000";
+    while (!text.empty()) {
+        const std::string_view letter = text.substr(0, letter_length(text));
+        if (spaces.find(letter) != spaces.npos) {
+            return true;
+        }
+        text.remove_prefix(letter.size());
+    }
+    return false;
+}
+
+/// The text without the byte-order mark at its beginning.
+inline std::string_view without_byte_order_mark(std::string_view text)
+{
+    constexpr std::string_view mark = "\ufeff";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
 } // namespace overturn

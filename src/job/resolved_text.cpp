@@ -1,8 +1,6 @@
-#include "toml_text.hpp"
+#include "read_steps.hpp"
 
-#include "overturn/job/job.hpp"
 #include "overturn/problem/coordinates.hpp"
-#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 
@@ -38,14 +36,13 @@ std::string definition_text(const Axis& axis)
 std::string motion_text(const Motion& motion, const Accelerogram& record)
 {
     const IntensityMeasures& measures = motion.measures;
-    return fmt::format("{{ file = {}, component = {}, vertical = {}, samples = {}, time_step = {}, "
-                       "pga = {}, pgv = {}, arias_intensity = {}, significant_duration = {}, "
-                       "checksum = {} }}",
-                       in_quotes(motion.file), in_quotes(motion.component),
-                       in_quotes(motion.vertical), record.samples(), float_text(record.time_step()),
-                       float_text(measures.pga), float_text(measures.pgv),
-                       float_text(measures.arias_intensity),
-                       float_text(measures.significant_duration), in_quotes(motion.checksum));
+    return fmt::format(
+        "{{ file = {}, component = {}, vertical = {}, samples = {}, time_step = {}, pga = {}, pgv "
+        "= {}, arias_intensity = {}, significant_duration = {}, checksum = {} }}",
+        in_quotes(motion.file), in_quotes(motion.component), in_quotes(motion.vertical),
+        record.samples(), float_text(record.time_step()), float_text(measures.pga),
+        float_text(measures.pgv), float_text(measures.arias_intensity),
+        float_text(measures.significant_duration), in_quotes(motion.checksum));
 }
 
 std::string scene_text(const Job& job)
@@ -121,8 +118,7 @@ std::string resolved_text(const Job& job)
         std::erase(fields, Field::evaluated);
         const Numerics& numerics = problem.numerics;
         text += fmt::format(
-            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n"
-            "[output]\nfields = {}\n",
+            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n[output]\nfields = {}\n",
             name_of(numerics.method), float_text(numerics.tolerance),
             numerics.resolve ? "resolve = true\n" : "",
             numerics.fill ? fmt::format("fill = true\naudit = {}\n", float_text(numerics.audit))
@@ -130,12 +126,6 @@ std::string resolved_text(const Job& job)
             list_text(fields, [](Field field) { return in_quotes(name_of(field)); }));
     }
     return text;
-}
-
-std::string float_text(double value)
-{
-    std::string text = fmt::format("{}", value);
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
 } // namespace overturn

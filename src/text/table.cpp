@@ -1,0 +1,219 @@
+#include "overturn/text/table.hpp"
+
+#include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
+#include "overturn/text/utf8.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+
+namespace overturn {
+
+namespace {
+
+/// A cursor over the values of a table.
+class Values {
+public:
+    Values(std::string_view text, const std::string& name) : rest_(text), name_(&name) {}
+
+    bool at_end() const { return rest_.empty(); }
+    std::int64_t next_line() const { return next_line_; } ///< of the next value, counted from 1
+
+    /// Whether the value that was read last is the last one of its row.
+    bool ends_row() const { return ends_row_; }
+
+    /// Reads the next value, in UTF-8. It is valid until the next call.
+    std::string_view next()
+    {
+        line_ = next_line_;
+        column_ = ends_row_ ? 1 : column_ + 1;
+        const std::string_view value = rest_.starts_with('"') ? quoted_value() : plain_value();
+        if (!is_utf8(value)) {
+            refuse("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value));
+        }
+        ends_row_ = !rest_.starts_with(',');
+        next_line_ += ends_row_ ? 1 : 0;
+        rest_.remove_prefix(std::min<std::size_t>(rest_.starts_with("\r\n") ? 2 : 1, rest_.size()));
+        return value;
+    }
+
+    /// Throws an Error about the value that was read last.
+    template <class... Arguments>
+    [[noreturn]] void refuse(fmt::format_string<Arguments...> reason,
+                             Arguments&&... arguments) const
+    {
+        throw Error(exit_code::job, "{}:{}:{}: {}", *name_, line_, column_,
+                    fmt::format(reason, std::forward<Arguments>(arguments)...));
+    }
+
+    /// The same about a row.
+    [[noreturn]] void refuse_row(std::int64_t line, std::string_view reason) const
+    {
+        throw Error(exit_code::job, "{}:{}: {}", *name_, line, reason);
+    }
+
+private:
+    std::string_view plain_value()
+    {
+        std::string_view value = rest_.substr(0, rest_.find_first_of(",\n"));
+        if (value.ends_with('\r') && rest_.size() > value.size() && rest_[value.size()] == '\n') {
+            value.remove_suffix(1);
+        }
+        rest_.remove_prefix(value.size());
+        return trimmed(value);
+    }
+
+    /// In quotes, within which two quotes stand for one, and commas and line ends for themselves.
+    std::string_view quoted_value()
+    {
+        unquoted_.clear();
+        std::size_t first = 1; // the quotation mark before the next part is part of the value
+        do {
+            const std::size_t end = rest_.find('"', 1);
+            if (end == rest_.npos) {
+                refuse("the quotes are not closed. Add a quotation mark at the end of the value.");
+            }
+            unquoted_ += rest_.substr(first, end - first);
+            rest_.remove_prefix(end + 1);
+            first = 0;
+        } while (rest_.starts_with('"'));
+        if (!rest_.empty() && rest_.front() != ',' && rest_.front() != '\n' &&
+            !rest_.starts_with("\r\n")) {
+            refuse("text follows the closing quotes. Put the whole value in quotes, and write "
+                   "quotes in it twice.");
+        }
+        next_line_ += std::count(unquoted_.begin(), unquoted_.end(), '\n');
+        return unquoted_;
+    }
+
+    std::string_view rest_;
+    const std::string* name_;
+    std::string unquoted_;
+    std::int64_t line_ = 1;
+    std::int64_t column_ = 0;
+    std::int64_t next_line_ = 1;
+    bool ends_row_ = true;
+};
+
+/// The number, NaN for an empty value; nullopt if it is text.
+std::optional<double> number_in(std::string_view value)
+{
+    double number = std::numeric_limits<double>::quiet_NaN();
+    const char* const first = value.data() + (value.starts_with('+') ? 1 : 0);
+    const char* const last = value.data() + value.size();
+    const auto [end, error] = std::from_chars(first, last, number);
+    return value.empty() || (error == std::errc() && end == last) ? std::optional(number)
+                                                                  : std::nullopt;
+}
+
+std::vector<TableColumn> read_names(Values& values)
+{
+    std::vector<TableColumn> columns;
+    do {
+        std::string name(values.next());
+        if (name.empty()) {
+            values.refuse("the column has no name. Name every column in the first line.");
+        }
+        const auto is_same = [&](const TableColumn& other) { return other.name == name; };
+        if (std::any_of(columns.begin(), columns.end(), is_same)) {
+            values.refuse("the name {} is repeated. Give every column a name of its own.",
+                          quoted_bytes(name));
+        }
+        columns.push_back({std::move(name), {}, {}});
+    } while (!values.ends_row());
+    if (columns.size() == 1 && columns[0].name.find_first_of(";\t|") != std::string::npos) {
+        values.refuse("{} is one name. Separate names and values by commas, and write numbers with "
+                      "a decimal point.",
+                      quoted_bytes(columns[0].name));
+    }
+    return columns;
+}
+
+/// Calls visit(line, column number, value) for every value of the remaining rows, which must have
+/// this number of columns.
+template <class Visit>
+void for_each_value(Values values, std::size_t columns, const Visit& visit)
+{
+    while (!values.at_end()) {
+        const std::int64_t line = values.next_line();
+        std::size_t size = 0;
+        do {
+            const std::string_view value = values.next();
+            if (size < columns) {
+                visit(line, size, value);
+            }
+            ++size;
+        } while (!values.ends_row());
+        if (size != columns) {
+            values.refuse_row(
+                line, fmt::format("the row has {} value{}, but the first line names {} column{}. "
+                                  "Separate values by commas; put a value that contains one in "
+                                  "quotes. The decimal mark is a point.",
+                                  size, size == 1 ? "" : "s", columns, columns == 1 ? "" : "s"));
+        }
+    }
+}
+
+} // namespace
+
+const TableColumn* Table::find(std::string_view name) const
+{
+    const auto found = std::find_if(columns.begin(), columns.end(),
+                                    [&](const TableColumn& each) { return each.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
+Table read_table(std::string_view text, const std::string& name, std::string_view text_column)
+{
+    text = without_byte_order_mark(text);
+    text = text.substr(0, text.find_last_not_of("\r\n") + 1);
+    Values values(text, name);
+    if (text.empty()) {
+        values.refuse_row(1, "the file is empty. The first line names the columns, such as "
+                             "width,height,restitution.");
+    }
+    if (text.find('\0') != text.npos) {
+        throw Error(exit_code::job,
+                    "{}: is not a table of text, because it contains NUL characters. Save it as "
+                    "comma-separated values in UTF-8.",
+                    name);
+    }
+    Table table;
+    table.columns = read_names(values);
+    for (TableColumn& column : table.columns) {
+        column.first_text = column.name == text_column ? 0 : column.first_text;
+    }
+    for_each_value(values, table.columns.size(), [&](std::int64_t line, std::size_t i, auto value) {
+        if (i == 0) {
+            table.lines.push_back(line);
+        }
+        TableColumn& column = table.columns[i];
+        if (column.first_text >= 0) {
+            return;
+        }
+        if (const std::optional<double> number = number_in(value)) {
+            column.numbers.push_back(*number);
+        } else {
+            column.first_text = table.rows() - 1;
+            column.numbers.clear();
+        }
+    });
+    if (table.lines.empty()) {
+        values.refuse_row(2, "the table has no rows. Add a line of values for each block.");
+    }
+    const auto is_text = [](const TableColumn& column) { return column.first_text >= 0; };
+    if (std::any_of(table.columns.begin(), table.columns.end(), is_text)) {
+        for_each_value(values, table.columns.size(), [&](std::int64_t, std::size_t i, auto value) {
+            if (is_text(table.columns[i])) {
+                table.columns[i].texts.emplace_back(value);
+            }
+        });
+    }
+    return table;
+}
+
+} // namespace overturn
