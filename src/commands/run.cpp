@@ -120,12 +120,12 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
                 }
                 return true;
             },
-        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
-    return farm_out(
-        task.session, missing, tile_work,
-        [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); },
-        {StopSignals::requested, StopSignals::overdue},
-        std::chrono::seconds(task.options.patience));
+        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); },
+        .on_progress =
+            [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); }};
+    return farm_out(task.session, missing, tile_work,
+                    {StopSignals::requested, StopSignals::overdue},
+                    std::chrono::seconds(task.options.patience));
 }
 
 /// On rank 0.

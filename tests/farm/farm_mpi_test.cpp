@@ -27,7 +27,7 @@ FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t
         compute(number);
         return true;
     };
-    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}}, on_progress,
+    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}, on_progress},
                     {stop_requested, never}, patience);
 }
 
@@ -95,9 +95,10 @@ TEST(Farm, ReportsTheShareOfEachRank)
                                  [&](std::int64_t) {
                                      work_for(std::chrono::milliseconds(1));
                                      ++own;
-                                 }};
+                                 },
+                             .on_progress = no_progress};
     const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_progress, no_stop, patience);
+        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_stop, patience);
 
     std::vector<std::int64_t> counted(std::size_t(session.size()));
     MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
@@ -204,9 +205,10 @@ TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
                                      ++begun;
                                      return !drop_requested();
                                  },
-                             .write = [&](std::int64_t) { ++written; }};
-    const FarmReport report = farm_out(session, tiles_on_rank_0(session, 500), tile_work,
-                                       no_progress, {stop, stop}, patience);
+                             .write = [&](std::int64_t) { ++written; },
+                             .on_progress = no_progress};
+    const FarmReport report =
+        farm_out(session, tiles_on_rank_0(session, 500), tile_work, {stop, stop}, patience);
     if (session.rank() == stopping_rank) {
         EXPECT_EQ(written, 2);
     }
@@ -229,10 +231,10 @@ TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
                                      }
                                      return true;
                                  },
-                             .write = [](std::int64_t) {}};
-    const FarmReport report = farm_out(
-        session, tiles_on_rank_0(session, count), tile_work,
-        [&](std::int64_t now_done) { done = now_done; }, no_stop, patience);
+                             .write = [](std::int64_t) {},
+                             .on_progress = [&](std::int64_t now_done) { done = now_done; }};
+    const FarmReport report =
+        farm_out(session, tiles_on_rank_0(session, count), tile_work, no_stop, patience);
     EXPECT_EQ(report.tiles, count);
     if (session.rank() == 0 && session.size() > 1) {
         EXPECT_LE(report.ranks[0].tiles, 1);

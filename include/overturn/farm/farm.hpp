@@ -14,12 +14,14 @@
 
 namespace overturn {
 
-/// Computes and writes a tile, given its number.
+/// Computes and writes a tile, given its number, and reports the progress.
 struct TileWork {
     /// Calls drop_requested at least once a second, because messages are handled there, and drops
     /// the tile if it returns true. Returns false if it was dropped.
     std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
     std::function<void(std::int64_t number)> write;
+    /// Called on rank 0 at intervals, with the number of tiles done by all ranks.
+    std::function<void(std::int64_t done)> on_progress;
 };
 
 /// Whether a rank is asked to stop. Once true, both remain true.
@@ -62,15 +64,13 @@ struct FarmReport {
 
 /// Computes and writes each of the tiles once, on some rank. Collective.
 ///
-/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done) is
-/// called on rank 0 at intervals. A rank that is asked to stop finishes or drops its current tile;
-/// the others finish the ranges that they were given before rank 0 received the stop. An exception
-/// leaves farm_out on one rank only, so the caller must abort the session. SilentRank is
-/// thrown if rank 0 receives nothing from a worker for `patience`, or if a worker waits longer than
-/// that for an answer from rank 0.
+/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. A rank that is asked to stop
+/// finishes or drops its current tile; the others finish the ranges that they were given before
+/// rank 0 received the stop. An exception leaves farm_out on one rank only, so the caller must
+/// abort the session. SilentRank is thrown if rank 0 receives nothing from a worker for `patience`,
+/// or if a worker waits longer than that for an answer from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-                    const TileWork& tile_work,
-                    const std::function<void(std::int64_t done)>& on_progress,
-                    const StopRequest& stop, std::chrono::seconds patience);
+                    const TileWork& tile_work, const StopRequest& stop,
+                    std::chrono::seconds patience);
 
 } // namespace overturn
