@@ -167,13 +167,6 @@ std::string MpiSession::from_rank_0(std::string text) const
     return text;
 }
 
-std::vector<double> MpiSession::from_rank_0(std::vector<double> values) const
-{
-    values.resize(from_rank_0(values.size()));
-    broadcast(values.data(), values.size() * sizeof(double));
-    return values;
-}
-
 std::vector<std::string> MpiSession::host_names() const
 {
     using Name = std::array<char, MPI_MAX_PROCESSOR_NAME>;
@@ -214,15 +207,6 @@ void end_all_ranks(int exit_code)
         MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
     _exit(exit_code);
-}
-
-std::string mpi_library()
-{
-    char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
-    int length = 0; // some MPI libraries count the terminating zero
-    MPI_Get_library_version(text, &length);
-    const std::string whole(text);
-    return whole.substr(0, whole.find_first_of(",\n"));
 }
 
 } // namespace overturn

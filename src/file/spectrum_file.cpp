@@ -1,17 +1,20 @@
 #include "overturn/file/spectrum_file.hpp"
 
-#include "overturn/text/error.hpp"
-
 #include "hdf5_handles.hpp"
 #include "layout.hpp"
-#include "operating_system.hpp"
+#include "own_dataset.hpp"
 #include "tile_access.hpp"
+#include "working_file.hpp"
+
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
 #include <cerrno>
 #include <chrono>
+#include <fstream>
+#include <random>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -20,10 +23,15 @@ namespace overturn {
 
 using hdf5::check;
 using hdf5::Handle;
+using Clock = std::chrono::steady_clock;
 
+// Turns off the messages of HDF5, and the closing of files at exit, which would wait for other
+// ranks.
 void start_hdf5()
 {
-    hdf5::start();
+    H5dont_atexit();
+    check(H5open());
+    check(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
 }
 
 struct SpectrumFile::Open {
@@ -38,7 +46,7 @@ struct SpectrumFile::Open {
     bool is_filled;
     Durability durability;
     struct stat as_opened = {};
-    std::chrono::steady_clock::time_point last_seen;
+    Clock::time_point last_seen;
 
     /// Syncs the file if it is to survive a power failure.
     void sync_if_durable() const;
@@ -46,8 +54,7 @@ struct SpectrumFile::Open {
     void write_audit(const Tile& tile, const AuditCount& audit);
     /// Throws Error if the path no longer names the opened file, or the file was truncated:
     /// writing to a removed or truncated file reports no error.
-    void expect_in_place();
-    void expect_in_place_now_and_then();
+    void expect_in_place() const;
     Error cannot_write(const Tile& tile, std::string_view dataset,
                        const hdf5::Hdf5Error& error) const;
 };
@@ -68,7 +75,7 @@ Error SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view datase
                  reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run");
 }
 
-void SpectrumFile::Open::expect_in_place()
+void SpectrumFile::Open::expect_in_place() const
 {
     struct stat found = {};
     const bool is_found = stat(path.c_str(), &found) == 0;
@@ -86,16 +93,6 @@ void SpectrumFile::Open::expect_in_place()
                     "\"{}\" was truncated from {} to {} bytes during the run. "
                     "Remove the file and recompute it.",
                     path, as_opened.st_size, found.st_size);
-    }
-}
-
-void SpectrumFile::Open::expect_in_place_now_and_then()
-{
-    constexpr std::chrono::seconds interval{1};
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_seen >= interval) {
-        last_seen = now;
-        expect_in_place();
     }
 }
 
@@ -118,6 +115,45 @@ void SpectrumFile::Open::sync_if_durable() const
 
 namespace {
 
+/// A random number that rank 0 writes and all ranks read.
+struct Token {
+    std::uint64_t number = 0;
+    std::int64_t place = 0; ///< in the file [byte]
+};
+
+std::int64_t place_of_token(const std::string& path)
+{
+    const Handle file = hdf5::open_to_read(path);
+    const Handle dataset = hdf5::open_dataset(file, layout::in_run_group(layout::run_token));
+    const haddr_t place = H5Dget_offset(dataset);
+    if (place == HADDR_UNDEF) {
+        throw hdf5::Hdf5Error("its run_token is not stored");
+    }
+    return std::int64_t(place);
+}
+
+void write(const std::string& path, const Token& token)
+{
+    errno = 0;
+    std::fstream stream(path, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(token.place);
+    stream.write(reinterpret_cast<const char*>(&token.number), sizeof token.number);
+    stream.close(); // makes the number visible to other hosts over NFS
+    if (!stream) {
+        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path,
+                    system_reason(errno));
+    }
+}
+
+bool holds(const std::string& path, const Token& token)
+{
+    std::uint64_t found = 0;
+    std::ifstream stream(path, std::ios::binary);
+    stream.seekg(token.place);
+    stream.read(reinterpret_cast<char*>(&found), sizeof found);
+    return stream && found == token.number;
+}
+
 /// Each write is passed to the system before it returns. A single rank does not use MPI-IO for
 /// that, because MPI-IO would create and remove temporary files next to this one.
 Handle unbuffered_access(MPI_Comm communicator)
@@ -136,6 +172,45 @@ Handle unbuffered_access(MPI_Comm communicator)
 
 } // namespace
 
+void demand_path_for_mpi([[maybe_unused]] const std::string& path)
+{
+#ifndef OMPI_MAJOR_VERSION // MPICH and its derivatives use ROMIO
+    if (path.find(':') != std::string::npos) {
+        throw Error(exit_code::output,
+                    "\"{}\" has a colon, but this MPI library interprets the text before a colon "
+                    "as a type of file system. Choose another path with -o.",
+                    path);
+    }
+#endif
+}
+
+std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator)
+{
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(communicator, &rank);
+    MPI_Comm_size(communicator, &ranks);
+    Token token;
+    if (rank == 0) {
+        try {
+            std::random_device random;
+            token = {random() + (std::uint64_t(random()) << 32), place_of_token(path)};
+        } catch (const hdf5::Hdf5Error& error) {
+            throw Error(exit_code::output, "cannot open \"{}\": {}.", path, error.what());
+        }
+        write(path, token);
+    }
+    MPI_Bcast(&token, int(sizeof token), MPI_BYTE, 0, communicator);
+    const int other = holds(path, token) ? ranks : rank;
+    int first = ranks;
+    MPI_Reduce(&other, &first, 1, MPI_INT, MPI_MIN, 0, communicator);
+    if (rank == 0) {
+        write(path, {.number = 0, .place = token.place});
+    }
+    MPI_Bcast(&first, 1, MPI_INT, 0, communicator);
+    return first < ranks ? std::optional(first) : std::nullopt;
+}
+
 SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
                            Durability durability)
     : open_(std::make_unique<Open>())
@@ -143,7 +218,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     open_->path = path;
     open_->durability = durability;
     open_->fields = problem.fields;
-    open_->crossing = problem.grid.dimension_of(Role::strength).value_or(0);
+    open_->crossing = place_of_crossing(problem);
     open_->is_filled = problem.numerics.fill;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
@@ -151,17 +226,17 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
                     system_reason(errno));
     }
     try {
-        hdf5::start();
+        start_hdf5();
         open_->file =
             Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, unbuffered_access(communicator)), H5Fclose);
         for (const Field field : problem.fields) {
             open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
         }
-        open_->checksums = hdf5::open_dataset(open_->file, layout::in_run_group(layout::checksum));
+        const auto open = [&](const char* name) {
+            return hdf5::open_dataset(open_->file, layout::in_run_group(name));
+        };
+        open_->checksums = open(layout::checksum);
         if (open_->is_filled) {
-            const auto open = [&](const char* name) {
-                return hdf5::open_dataset(open_->file, layout::in_run_group(name));
-            };
             open_->audit_checked = open(layout::audit_checked);
             open_->audit_wrong = open(layout::audit_wrong);
         }
@@ -183,7 +258,7 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
 {
     try {
         std::vector<std::int64_t> missing;
-        const std::vector<std::uint64_t> checksums = read_numbers(open_->checksums);
+        const auto checksums = read_all<std::uint64_t>(open_->checksums, open_->as_opened.st_size);
         for (std::size_t tile = 0; tile < checksums.size(); ++tile) {
             if (checksums[tile] == not_computed_checksum) {
                 missing.push_back(std::int64_t(tile));
@@ -202,7 +277,7 @@ void SpectrumFile::forget(const Tile& tile)
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
             const Field field = open_->fields[i];
             const Tile stored = stored_tile_of(field, tile, open_->crossing);
-            write_tile(open_->datasets[i], stored, field, not_computed(field, stored.points()));
+            write_tile(open_->datasets[i], stored, not_computed(field, stored.points()));
         }
         open_->write_audit(tile, {});
         write_number(open_->checksums, tile.number, not_computed_checksum);
@@ -215,14 +290,18 @@ void SpectrumFile::forget(const Tile& tile)
 void SpectrumFile::write(const Tile& tile, const TileFields& fields)
 {
     assert(fields.values.size() == open_->fields.size());
-    open_->expect_in_place_now_and_then();
+    constexpr std::chrono::seconds between_looks{1};
+    if (const auto now = Clock::now(); now - open_->last_seen >= between_looks) {
+        open_->last_seen = now;
+        open_->expect_in_place();
+    }
     std::string_view dataset;
     try {
         errno = 0;
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
             const Field field = open_->fields[i];
             dataset = name_of(field);
-            write_tile(open_->datasets[i], stored_tile_of(field, tile, open_->crossing), field,
+            write_tile(open_->datasets[i], stored_tile_of(field, tile, open_->crossing),
                        fields.values[i]);
         }
         dataset = layout::audit_checked;

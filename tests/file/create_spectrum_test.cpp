@@ -1,4 +1,6 @@
+#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
+#include "own_dataset.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -8,7 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cmath>
 #include <optional>
@@ -19,48 +21,27 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Returns the message of the Error thrown by the call; empty if none is thrown.
-template <class Call>
-std::string refusal(const Call& call)
-{
-    try {
-        call();
-        return {};
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        return error.what();
-    }
-}
-
 /// Returns a numeric global attribute, or nullopt if it does not exist.
 std::optional<double> global_number(const std::string& path, const char* name)
 {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    std::optional<double> value;
-    if (H5Aexists(file, name) > 0) {
-        const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-        H5Aread(attribute, H5T_NATIVE_DOUBLE, &value.emplace());
-        H5Aclose(attribute);
-    }
-    H5Fclose(file);
-    return value;
+    const hdf5::Handle file = hdf5::open_to_read(path);
+    double value = 0;
+    return H5LTfind_attribute(file, name) > 0 &&
+                   H5LTget_attribute_double(file, "/", name, &value) >= 0
+               ? std::optional(value)
+               : std::nullopt;
 }
 
 /// The value of a coordinate without dimensions, or nullopt if it does not exist.
 std::optional<double> single_value(const std::string& path, const char* name)
 {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    std::optional<double> value;
-    if (H5Lexists(file, name, H5P_DEFAULT) > 0) {
-        const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-        const hid_t space = H5Dget_space(dataset);
-        EXPECT_EQ(H5Sget_simple_extent_type(space), H5S_SCALAR) << name;
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value.emplace());
-        H5Sclose(space);
-        H5Dclose(dataset);
+    const hdf5::Handle file = hdf5::open_to_read(path);
+    if (H5Lexists(file, name, H5P_DEFAULT) <= 0) {
+        return std::nullopt;
     }
-    H5Fclose(file);
-    return value;
+    const hdf5::Handle dataset = hdf5::open_dataset(file, name);
+    EXPECT_TRUE(shape_of(dataset).empty()) << name;
+    return read_all<double>(dataset, std::filesystem::file_size(path)).front();
 }
 
 /// The sample with the slenderness of one block.

@@ -1,3 +1,4 @@
+#include "file/refusal.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -10,6 +11,7 @@
 namespace overturn {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
@@ -23,13 +25,6 @@ RunInfo sample_run()
     run.dealing_seconds = 0.5;
     run.ranks = {{"node\"1\"\\\n", 4117, 12.25, 0.125}, {"node2", 0, 0, 0}};
     return run;
-}
-
-TEST(Sidecar, IsWrittenNextToTheSpectrum)
-{
-    const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_run());
-    EXPECT_TRUE(std::filesystem::exists(folder / "a.h5.json"));
 }
 
 TEST(Sidecar, StatesTimeAndHostOfTheRun)
@@ -80,15 +75,9 @@ TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 {
     const ScratchFolder folder;
     const FileSizeLimit limit(20);
-    try {
-        write_sidecar(folder / "a.h5", sample_run());
-        ADD_FAILURE() << "the sidecar was written";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        EXPECT_THAT(error.what(),
-                    HasSubstr("a.h5.json\", the sidecar file of this run: file too large"));
-        EXPECT_THAT(error.what(), HasSubstr("nevertheless"));
-    }
+    EXPECT_THAT(refusal([&] { write_sidecar(folder / "a.h5", sample_run()); }),
+                AllOf(HasSubstr("a.h5.json\", the sidecar file of this run: file too large"),
+                      HasSubstr("nevertheless")));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 

@@ -16,15 +16,7 @@ using testing::IsEmpty;
 
 class AStoredResult : public testing::Test {
 protected:
-    AStoredResult()
-    {
-        create_spectrum_file(path, job);
-        SpectrumFile file(path, MPI_COMM_SELF, job.problem);
-        for (std::int64_t number = 0; number < written; ++number) {
-            file.write(tiling[number], sample_values(job, tiling[number]));
-        }
-        file.close();
-    }
+    AStoredResult() { write_spectrum(path, job, written); }
 
     static constexpr std::int64_t written = 30;
     ScratchFolder folder;
@@ -107,13 +99,7 @@ std::string bytes_of_a_small_file(const std::string& path)
         axis_of(job, axis) = Axis(AxisRange{1, 2, 65, Spacing::linear});
     }
     job.problem.fields = {Field::region, Field::impacts};
-    const Tiling tiling = tiling_of(job.problem);
-    create_spectrum_file(path, job);
-    SpectrumFile file(path, MPI_COMM_SELF, job.problem);
-    for (std::int64_t number = 0; number < tiling.size(); ++number) {
-        file.write(tiling[number], sample_values(job, tiling[number]));
-    }
-    file.close();
+    write_spectrum(path, job, tiling_of(job.problem).size());
     return bytes_of(path);
 }
 

@@ -33,7 +33,6 @@ public:
         return value;
     }
     std::string from_rank_0(std::string text) const;
-    std::vector<double> from_rank_0(std::vector<double> values) const;
 
     /// Returns the values of all ranks, by rank, on rank 0; nothing elsewhere. Collective.
     template <class Value>
@@ -65,8 +64,5 @@ private:
 /// longer than 5 s, this process ends, and the launcher ends the others. Without MPI it ends this
 /// process.
 [[noreturn]] void end_all_ranks(int exit_code);
-
-/// The MPI library's name and version, such as "Open MPI v4.1.4".
-std::string mpi_library();
 
 } // namespace overturn
