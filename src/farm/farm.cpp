@@ -7,9 +7,9 @@
 #include "wait_for.hpp"
 
 #include "overturn/farm/tile_dealer.hpp"
+#include "overturn/text/error.hpp"
 
 #include <algorithm>
-#include <array>
 #include <thread>
 
 namespace overturn {
@@ -77,6 +77,16 @@ void do_tile(std::int64_t number, const TileWork& tile_work,
     ++share.tiles;
 }
 
+/// on_host: " on HOST"; empty if the host is unknown.
+Error silence_of(int rank, const std::string& on_host, std::chrono::seconds patience)
+{
+    return Error(exit_code::stopped,
+                 "rank {}{} has not responded for {} s: it is suspended, its disk hangs, or its "
+                 "host is unreachable. Finished tiles are kept. Run the same command again to "
+                 "resume.",
+                 rank, on_host, patience.count());
+}
+
 /// A worker sends this many messages within the timeout, so that some of them may be late.
 constexpr int messages_in_patience = 10;
 
@@ -111,7 +121,7 @@ public:
             }
             last_test = now;
             if (now - start > patience_) {
-                throw SilentRank(0, patience_);
+                throw silence_of(0, "", patience_);
             }
             std::this_thread::sleep_for(polling_interval);
         }
@@ -131,8 +141,8 @@ private:
     TileRange range_;
 };
 
-/// Requests ranges of tiles and computes them, until rank 0 has sent `end_of_work`. Throws
-/// SilentRank.
+/// Requests ranges of tiles and computes them, until rank 0 has sent `end_of_work`. Throws Error if
+/// rank 0 is silent.
 RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
                std::chrono::seconds patience)
 {
@@ -183,13 +193,13 @@ class Leader {
 public:
     Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
            const TileWork& tile_work, const StopRequest& stop, std::chrono::seconds patience)
-        : communicator_(session.communicator()), dealer_(tiles, session.size()),
-          tile_work_(tile_work), stop_(stop), patience_(patience),
-          workers_(std::size_t(session.size()))
+        : session_(session), dealer_(tiles, session.size()), tile_work_(tile_work), stop_(stop),
+          patience_(patience), workers_(std::size_t(session.size()))
     {}
 
     /// Answers every request that has arrived, then computes one tile, until no tile is left and
-    /// all workers are done. Returns its own share and the cost of dealing. Throws SilentRank.
+    /// all workers are done. Returns its own share and the cost of dealing. Throws Error if a
+    /// worker is silent.
     FarmReport lead()
     {
         Occasionally communication(answer_interval);
@@ -245,7 +255,8 @@ private:
         for (int empty_probes = 0; empty_probes < 2; ++empty_probes) {
             MPI_Status status;
             int waiting = 0;
-            MPI_Iprobe(MPI_ANY_SOURCE, worker_message_tag, communicator_, &waiting, &status);
+            MPI_Iprobe(MPI_ANY_SOURCE, worker_message_tag, session_.communicator(), &waiting,
+                       &status);
             if (waiting) {
                 receive_from(status.MPI_SOURCE);
                 empty_probes = -1;
@@ -258,7 +269,7 @@ private:
         const auto start = Clock::now();
         WorkerMessage message;
         MPI_Recv(&message, worker_message_length, MPI_INT64_T, rank, worker_message_tag,
-                 communicator_, MPI_STATUS_IGNORE);
+                 session_.communicator(), MPI_STATUS_IGNORE);
         Worker& worker = workers_[std::size_t(rank)];
         worker.last_message = start;
         done_by_workers_ += message.tiles_done;
@@ -281,7 +292,7 @@ private:
 
     void answer(int rank, const TileRange& range)
     {
-        MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, communicator_);
+        MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, session_.communicator());
         workers_[std::size_t(rank)].waits = false;
     }
 
@@ -310,7 +321,7 @@ private:
             if (was_suspended) {
                 worker.last_message = now;
             } else if (now - worker.last_message > patience_) {
-                throw SilentRank(rank, patience_);
+                throw silence_of(rank, " on " + session_.hosts()[std::size_t(rank)], patience_);
             }
             if (worker.is_done()) {
                 answer(rank, {});
@@ -318,7 +329,7 @@ private:
         }
     }
 
-    MPI_Comm communicator_;
+    const MpiSession& session_;
     TileDealer dealer_;
     const TileWork& tile_work_;
     const StopRequest& stop_;
@@ -345,14 +356,13 @@ FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& 
         report.ranks = {work(session, tile_work, stop, patience)};
     }
     report.ranks = session.gather_on_rank_0(report.ranks[0]);
-    std::int64_t done = 0;
     for (const RankShare& rank : report.ranks) {
-        done += rank.tiles;
+        report.all.tiles += rank.tiles;
+        report.all.compute_seconds += rank.compute_seconds;
+        report.all.write_seconds += rank.write_seconds;
     }
-    const auto [all_done, wanted] =
-        session.from_rank_0(std::array{done, std::int64_t(tiles.size())});
-    report.tiles = all_done;
-    report.stopped = all_done < wanted;
+    report.all = session.from_rank_0(report.all);
+    report.stopped = session.from_rank_0(report.all.tiles < std::int64_t(tiles.size()));
     return report;
 }
 

@@ -131,6 +131,13 @@ MpiSession::MpiSession()
         leave();
         throw Error(exit_code::usage, fault);
     }
+    using Name = std::array<char, MPI_MAX_PROCESSOR_NAME>;
+    Name own{}; // its zeros end the name
+    int length = 0;
+    MPI_Get_processor_name(own.data(), &length);
+    for (const Name& name : gather_on_rank_0(own)) {
+        hosts_.emplace_back(name.data());
+    }
 }
 
 void MpiSession::leave()
@@ -165,19 +172,6 @@ std::string MpiSession::from_rank_0(std::string text) const
     text.resize(from_rank_0(text.size()));
     broadcast(text.data(), text.size());
     return text;
-}
-
-std::vector<std::string> MpiSession::host_names() const
-{
-    using Name = std::array<char, MPI_MAX_PROCESSOR_NAME>;
-    Name own{}; // its zeros end the name
-    int length = 0;
-    MPI_Get_processor_name(own.data(), &length);
-    std::vector<std::string> names;
-    for (const Name& name : gather_on_rank_0(own)) {
-        names.emplace_back(name.data());
-    }
-    return names;
 }
 
 void MpiSession::abort(int exit_code, const std::string& message) const

@@ -8,8 +8,6 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace overturn {
@@ -30,18 +28,6 @@ struct StopRequest {
     std::function<bool()> overdue;   ///< drop the current tile
 };
 
-/// A rank has not responded for too long: it was suspended, its disk hangs, or its host is cut off.
-class SilentRank : public std::runtime_error {
-public:
-    SilentRank(int silent_rank, std::chrono::seconds duration)
-        : std::runtime_error("rank " + std::to_string(silent_rank) + " has not responded"),
-          rank(silent_rank), silence(duration)
-    {}
-
-    int rank;
-    std::chrono::seconds silence;
-};
-
 /// The work of one rank. It spent the rest of its time on messages and waiting.
 struct RankShare {
     std::int64_t tiles = 0;
@@ -56,8 +42,8 @@ struct DealingShare {
 };
 
 struct FarmReport {
-    std::int64_t tiles = 0;       ///< done by all ranks
     bool stopped = false;         ///< tiles are left because a rank was asked to stop
+    RankShare all = {};           ///< the sum over all ranks
     std::vector<RankShare> ranks; ///< rank 0 only: one per rank
     DealingShare dealing;         ///< rank 0 only
 };
@@ -67,8 +53,8 @@ struct FarmReport {
 /// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. A rank that is asked to stop
 /// finishes or drops its current tile; the others finish the ranges that they were given before
 /// rank 0 received the stop. An exception leaves farm_out on one rank only, so the caller must
-/// abort the session. SilentRank is thrown if rank 0 receives nothing from a worker for `patience`,
-/// or if a worker waits longer than that for an answer from rank 0.
+/// abort the session. Throws Error if rank 0 receives nothing from a worker for `patience`, or if a
+/// worker waits longer than that for an answer from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                     const TileWork& tile_work, const StopRequest& stop,
                     std::chrono::seconds patience);

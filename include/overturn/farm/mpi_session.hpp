@@ -43,8 +43,8 @@ public:
         return values;
     }
 
-    /// The host of each rank, on rank 0; empty elsewhere. Collective.
-    std::vector<std::string> host_names() const;
+    /// The host of each rank, on rank 0; empty elsewhere.
+    const std::vector<std::string>& hosts() const { return hosts_; }
 
     /// Prints `rank 7: message` and stops all ranks; the launcher returns the exit code.
     [[noreturn]] void abort(int exit_code, const std::string& message) const;
@@ -58,6 +58,7 @@ private:
     bool finalizes_ = true;
     int rank_ = 0;
     int size_ = 1;
+    std::vector<std::string> hosts_;
 };
 
 /// Ends all ranks with the exit code. For signal handlers after a crash: if MPI fails or takes
