@@ -49,69 +49,63 @@ struct SpectrumFile::Open {
     Clock::time_point last_seen;
 
     /// Syncs the file if it is to survive a power failure.
-    void sync_if_durable() const;
+    void sync_if_durable() const
+    {
+        // A write by MPI-IO has been passed to the system when it returns. The sync of MPI-IO would
+        // be collective.
+        if (durability == Durability::on_disk && !sync(path)) {
+            throw hdf5::Hdf5Error("syncing to the disk failed");
+        }
+    }
+
     /// Stores the counts of a filled tile.
-    void write_audit(const Tile& tile, const AuditCount& audit);
+    void write_audit(const Tile& tile, const AuditCount& audit)
+    {
+        if (is_filled) {
+            write_number(audit_checked, tile.number, std::uint64_t(audit.checked));
+            write_number(audit_wrong, tile.number, std::uint64_t(audit.wrong));
+        }
+    }
+
     /// Throws Error if the path no longer names the opened file, or the file was truncated:
     /// writing to a removed or truncated file reports no error.
-    void expect_in_place() const;
+    void expect_in_place() const
+    {
+        struct stat found = {};
+        const bool is_found = stat(path.c_str(), &found) == 0;
+        if (!is_found && errno != ENOENT) {
+            return; // inconclusive: a write will report the error
+        }
+        if (!is_found || found.st_dev != as_opened.st_dev || found.st_ino != as_opened.st_ino) {
+            throw Error(exit_code::output,
+                        "\"{}\" was removed, moved or replaced during the run. If it was moved, "
+                        "move it back and run the same command again to resume.",
+                        path);
+        }
+        if (found.st_size < as_opened.st_size) {
+            throw Error(exit_code::output,
+                        "\"{}\" was truncated from {} to {} bytes during the run. Remove the file "
+                        "and recompute it.",
+                        path, as_opened.st_size, found.st_size);
+        }
+    }
+
     Error cannot_write(const Tile& tile, std::string_view dataset,
-                       const hdf5::Hdf5Error& error) const;
+                       const hdf5::Hdf5Error& error) const
+    {
+        // MPI-IO does not report the reason of a failed write: the last system error is the best
+        // guess, and a full disk can be detected.
+        int reason = errno;
+        struct statvfs disk = {};
+        if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
+            reason = ENOSPC;
+        }
+        return Error(exit_code::output,
+                     "cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
+                     tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
+                     reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run");
+    }
 };
-
-Error SpectrumFile::Open::cannot_write(const Tile& tile, std::string_view dataset,
-                                       const hdf5::Hdf5Error& error) const
-{
-    // MPI-IO does not report the reason of a failed write: the last system error is the best guess,
-    // and a full disk can be detected.
-    int reason = errno;
-    struct statvfs disk = {};
-    if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
-        reason = ENOSPC;
-    }
-    return Error(exit_code::output,
-                 "cannot write tile {} of \"{}\": {}. {} the same command again to resume.",
-                 tile.number, dataset, reason != 0 ? system_reason(reason) : error.what(),
-                 reason == ENOSPC || reason == EDQUOT ? "Free some space and run" : "Run");
-}
-
-void SpectrumFile::Open::expect_in_place() const
-{
-    struct stat found = {};
-    const bool is_found = stat(path.c_str(), &found) == 0;
-    if (!is_found && errno != ENOENT) {
-        return; // inconclusive: a write will report the error
-    }
-    if (!is_found || found.st_dev != as_opened.st_dev || found.st_ino != as_opened.st_ino) {
-        throw Error(exit_code::output,
-                    "\"{}\" was removed, moved or replaced during the run. If it was moved, "
-                    "move it back and run the same command again to resume.",
-                    path);
-    }
-    if (found.st_size < as_opened.st_size) {
-        throw Error(exit_code::output,
-                    "\"{}\" was truncated from {} to {} bytes during the run. "
-                    "Remove the file and recompute it.",
-                    path, as_opened.st_size, found.st_size);
-    }
-}
-
-void SpectrumFile::Open::write_audit(const Tile& tile, const AuditCount& audit)
-{
-    if (is_filled) {
-        write_number(audit_checked, tile.number, std::uint64_t(audit.checked));
-        write_number(audit_wrong, tile.number, std::uint64_t(audit.wrong));
-    }
-}
-
-void SpectrumFile::Open::sync_if_durable() const
-{
-    // A write by MPI-IO has been passed to the system when it returns. The sync of MPI-IO would be
-    // collective.
-    if (durability == Durability::on_disk && !sync(path)) {
-        throw hdf5::Hdf5Error("syncing to the disk failed");
-    }
-}
 
 namespace {
 

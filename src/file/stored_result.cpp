@@ -22,38 +22,6 @@ namespace overturn {
 using hdf5::check;
 using hdf5::Handle;
 
-struct StoredResult::Open {
-    std::string path;
-    Handle file;
-    FileOrigin origin;
-    TilesSummary tiles;
-    std::vector<std::uint64_t> checksums; ///< by tile number
-    std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
-
-    Tiling tiling() const
-    {
-        Shape shape;
-        for (const AxisSummary& axis : tiles.axes) {
-            shape.push_back(axis.size);
-        }
-        return {std::move(shape), tiles.tile_shape};
-    }
-
-    /// The place of `crossing` among the axes; any place if there is none.
-    std::size_t crossing() const
-    {
-        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
-                           tiles.axes.begin());
-    }
-
-    void read_tiles();
-
-    /// Calls use(tile, values) with every computed tile and its values of the given fields.
-    template <class Use>
-    void for_each_computed_tile(const std::vector<Field>& fields,
-                                const std::function<void()>& between_tiles, const Use& use) const;
-};
-
 namespace {
 
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
@@ -163,6 +131,107 @@ Handle open_file(const std::string& path)
 
 } // namespace
 
+struct StoredResult::Open {
+    std::string path;
+    Handle file;
+    FileOrigin origin;
+    TilesSummary tiles;
+    std::vector<std::uint64_t> checksums; ///< by tile number
+    std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
+
+    Tiling tiling() const
+    {
+        Shape shape;
+        for (const AxisSummary& axis : tiles.axes) {
+            shape.push_back(axis.size);
+        }
+        return {std::move(shape), tiles.tile_shape};
+    }
+
+    /// The place of `crossing` among the axes; any place if there is none.
+    std::size_t crossing() const
+    {
+        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
+                           tiles.axes.begin());
+    }
+
+    void read_tiles()
+    {
+        const std::uint64_t bytes = origin.bytes;
+        const auto open_number = [&](const char* name) {
+            return open_own_dataset(file, layout::in_run_group(name));
+        };
+        const Handle dataset = open_number(layout::checksum);
+        std::istringstream words(hdf5::read_text_attribute(dataset, layout::dimensions));
+        const std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
+        demand(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
+        for (const std::string& name : names) {
+            const Handle axis = open_own_dataset(file, name);
+            demand(shape_of(axis).size() == 1, "an axis is malformed");
+            tiles.axes.push_back(read_axis(axis, name, bytes));
+        }
+        tiles.numbers = read_coordinate_numbers(file, bytes);
+        tiles.fields = read_fields(file);
+        for (const Field field : tiles.fields) {
+            demand(!traits_of(field).is_of_line || crossing() < tiles.axes.size(),
+                   "the dimension `crossing` is missing");
+            check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
+        }
+        tiles.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
+        demand(tiles.tile_shape.size() == tiles.axes.size() &&
+                   std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
+               "the tiles are malformed");
+        tiles.tiles = tiling().size();
+        const auto read_numbers = [&](hid_t numbers) {
+            demand(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
+                   "the numbers of the tiles do not fit the tiles");
+            return read_all<std::uint64_t>(numbers, bytes);
+        };
+        checksums = read_numbers(dataset);
+        tiles.tiles_done = tiles.tiles - std::ranges::count(checksums, not_computed_checksum);
+        if (std::ranges::count(tiles.fields, Field::evaluated) == 0) {
+            return;
+        }
+        const std::vector<std::uint64_t> checked = read_numbers(open_number(layout::audit_checked));
+        const std::vector<std::uint64_t> wrong = read_numbers(open_number(layout::audit_wrong));
+        tiles.audit = AuditCount{};
+        for (std::size_t tile = 0; tile < checked.size(); ++tile) {
+            audits.push_back({std::int64_t(checked[tile]), std::int64_t(wrong[tile])});
+            if (checksums[tile] != not_computed_checksum) {
+                tiles.audit->checked += audits.back().checked;
+                tiles.audit->wrong += audits.back().wrong;
+            }
+        }
+    }
+
+    /// Calls use(tile, values) with every computed tile and its values of the given fields.
+    template <class Use>
+    void for_each_computed_tile(const std::vector<Field>& fields,
+                                const std::function<void()>& between_tiles, const Use& use) const
+    {
+        const Tiling all = tiling();
+        or_refused(path, [&] {
+            std::vector<Handle> datasets;
+            for (const Field field : fields) {
+                datasets.push_back(hdf5::open_dataset(file, name_of(field)));
+            }
+            for (std::int64_t number = 0; number < all.size(); ++number) {
+                between_tiles();
+                if (checksums[std::size_t(number)] == not_computed_checksum) {
+                    continue;
+                }
+                const Tile tile = all[number];
+                std::vector<FieldValues> values;
+                for (std::size_t i = 0; i < fields.size(); ++i) {
+                    values.push_back(read_tile(
+                        datasets[i], stored_tile_of(fields[i], tile, crossing()), fields[i]));
+                }
+                use(tile, values);
+            }
+        });
+    }
+};
+
 StoredResult::StoredResult(const std::string& path) : open_(std::make_shared<Open>())
 {
     open_->path = path;
@@ -173,55 +242,6 @@ StoredResult::StoredResult(const std::string& path) : open_(std::make_shared<Ope
             open_->read_tiles();
         }
     });
-}
-
-void StoredResult::Open::read_tiles()
-{
-    const std::uint64_t bytes = origin.bytes;
-    const auto open_number = [&](const char* name) {
-        return open_own_dataset(file, layout::in_run_group(name));
-    };
-    const Handle dataset = open_number(layout::checksum);
-    std::istringstream words(hdf5::read_text_attribute(dataset, layout::dimensions));
-    const std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
-    demand(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
-    for (const std::string& name : names) {
-        const Handle axis = open_own_dataset(file, name);
-        demand(shape_of(axis).size() == 1, "an axis is malformed");
-        tiles.axes.push_back(read_axis(axis, name, bytes));
-    }
-    tiles.numbers = read_coordinate_numbers(file, bytes);
-    tiles.fields = read_fields(file);
-    for (const Field field : tiles.fields) {
-        demand(!traits_of(field).is_of_line || crossing() < tiles.axes.size(),
-               "the dimension `crossing` is missing");
-        check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
-    }
-    tiles.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
-    demand(tiles.tile_shape.size() == tiles.axes.size() &&
-               std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
-           "the tiles are malformed");
-    tiles.tiles = tiling().size();
-    const auto read_numbers = [&](hid_t numbers) {
-        demand(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
-               "the numbers of the tiles do not fit the tiles");
-        return read_all<std::uint64_t>(numbers, bytes);
-    };
-    checksums = read_numbers(dataset);
-    tiles.tiles_done = tiles.tiles - std::ranges::count(checksums, not_computed_checksum);
-    if (std::ranges::count(tiles.fields, Field::evaluated) == 0) {
-        return;
-    }
-    const std::vector<std::uint64_t> checked = read_numbers(open_number(layout::audit_checked));
-    const std::vector<std::uint64_t> wrong = read_numbers(open_number(layout::audit_wrong));
-    tiles.audit = AuditCount{};
-    for (std::size_t tile = 0; tile < checked.size(); ++tile) {
-        audits.push_back({std::int64_t(checked[tile]), std::int64_t(wrong[tile])});
-        if (checksums[tile] != not_computed_checksum) {
-            tiles.audit->checked += audits.back().checked;
-            tiles.audit->wrong += audits.back().wrong;
-        }
-    }
 }
 
 const std::string& StoredResult::path() const
@@ -265,33 +285,6 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
             }
         }
         return damaged;
-    });
-}
-
-template <class Use>
-void StoredResult::Open::for_each_computed_tile(const std::vector<Field>& fields,
-                                                const std::function<void()>& between_tiles,
-                                                const Use& use) const
-{
-    const Tiling all = tiling();
-    or_refused(path, [&] {
-        std::vector<Handle> datasets;
-        for (const Field field : fields) {
-            datasets.push_back(hdf5::open_dataset(file, name_of(field)));
-        }
-        for (std::int64_t number = 0; number < all.size(); ++number) {
-            between_tiles();
-            if (checksums[std::size_t(number)] == not_computed_checksum) {
-                continue;
-            }
-            const Tile tile = all[number];
-            std::vector<FieldValues> values;
-            for (std::size_t i = 0; i < fields.size(); ++i) {
-                values.push_back(
-                    read_tile(datasets[i], stored_tile_of(fields[i], tile, crossing()), fields[i]));
-            }
-            use(tile, values);
-        }
     });
 }
 
