@@ -134,13 +134,12 @@ int report_end(const Task& task, const FarmReport& report, double seconds,
                std::int64_t still_damaged)
 {
     const StoredResult stored(task.path);
-    const TilesSummary& tiles = stored.tiles();
-    const std::int64_t missing = tiles.tiles - tiles.tiles_done;
+    const std::int64_t missing = stored.tiles().tiles - stored.tiles().tiles_done;
     if (missing > 0 && !report.stopped) {
         throw Error(exit_code::output,
                     "another program has written to \"{}\"; all tiles were computed, but the file "
                     "lacks {} of {}. Run the same command again to resume.",
-                    task.path, missing, tiles.tiles);
+                    task.path, missing, stored.tiles().tiles);
     }
     say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
     if (missing + still_damaged > 0) {
@@ -232,8 +231,8 @@ int run(const RunOptions& options)
             code = complain(error);
         }
     }
-    if (const auto ended = session.from_rank_0(damaged ? std::nullopt : std::optional(code))) {
-        return *ended;
+    if (!session.from_rank_0(damaged.has_value())) {
+        return session.from_rank_0(code);
     }
     try {
         const std::string bytes = session.from_rank_0(job ? bytes_of(job->problem) : "");

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int worker_message_tag = 1;
 constexpr int range_tag = 2;
 
-/// From a worker to rank 0.
+/// From a worker to rank 0. Without padding: messages are sent as bytes.
 struct WorkerMessage {
     std::int64_t requests_range = 0;   ///< 0 or 1
     std::int64_t idle = 0;             ///< 1: it has no tile left to compute
@@ -29,10 +29,6 @@ struct WorkerMessage {
     std::int64_t tiles_done = 0;       ///< since the last message
     std::int64_t busy_nanoseconds = 0; ///< spent on them
 };
-constexpr int worker_message_length = 5;
-constexpr int range_length = 2;
-static_assert(sizeof(WorkerMessage) == worker_message_length * sizeof(std::int64_t));
-static_assert(sizeof(TileRange) == range_length * sizeof(std::int64_t));
 
 /// From rank 0: all tiles are done, or the run is to stop.
 constexpr TileRange end_of_work{-1, -1};
@@ -99,7 +95,7 @@ public:
 
     void request_range(WorkerMessage message)
     {
-        MPI_Irecv(&range_, range_length, MPI_INT64_T, 0, range_tag, communicator_, &receiving_);
+        MPI_Irecv(&range_, sizeof range_, MPI_BYTE, 0, range_tag, communicator_, &receiving_);
         message.requests_range = 1;
         send(message);
     }
@@ -130,8 +126,7 @@ public:
     // MPI sends small messages at once: MPI_Send does not wait until rank 0 receives.
     void send(const WorkerMessage& message) const
     {
-        MPI_Send(&message, worker_message_length, MPI_INT64_T, 0, worker_message_tag,
-                 communicator_);
+        MPI_Send(&message, sizeof message, MPI_BYTE, 0, worker_message_tag, communicator_);
     }
 
 private:
@@ -268,7 +263,7 @@ private:
     {
         const auto start = Clock::now();
         WorkerMessage message;
-        MPI_Recv(&message, worker_message_length, MPI_INT64_T, rank, worker_message_tag,
+        MPI_Recv(&message, sizeof message, MPI_BYTE, rank, worker_message_tag,
                  session_.communicator(), MPI_STATUS_IGNORE);
         Worker& worker = workers_[std::size_t(rank)];
         worker.last_message = start;
@@ -292,7 +287,7 @@ private:
 
     void answer(int rank, const TileRange& range)
     {
-        MPI_Send(&range, range_length, MPI_INT64_T, rank, range_tag, session_.communicator());
+        MPI_Send(&range, sizeof range, MPI_BYTE, rank, range_tag, session_.communicator());
         workers_[std::size_t(rank)].waits = false;
     }
 
