@@ -3,10 +3,7 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/text/error.hpp"
-
 #include <cstdint>
-#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,19 +36,5 @@ std::vector<Value> read_all(hid_t dataset, std::uint64_t bytes_of_file)
 
 /// The XXH64 of shape and values of a dataset of doubles or characters, in hexadecimal digits.
 std::string dataset_checksum(hid_t dataset, std::uint64_t bytes_of_file);
-
-/// Returns the result of `read`; converts its errors to an Error that names the file.
-template <class Read>
-auto or_refused(const std::string& path, const Read& read)
-{
-    try {
-        return read();
-    } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "\"{}\" cannot be read or is damaged: {}.", path,
-                    error.what());
-    } catch (const std::bad_alloc&) {
-        throw Error(exit_code::output, "\"{}\" is damaged: it contains an impossible size.", path);
-    }
-}
 
 } // namespace overturn

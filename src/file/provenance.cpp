@@ -30,11 +30,6 @@ std::string mpi_version()
 /// Distinguishes a sidecar from other files called OUT.h5.json.
 constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
-std::string sidecar_of(const std::string& spectrum_path)
-{
-    return spectrum_path + ".json";
-}
-
 std::string as_json(const RunInfo& run)
 {
     std::vector<std::string> ranks;
@@ -106,7 +101,7 @@ std::string_view program_commit()
 
 void demand_place_for_sidecar(const std::string& spectrum_path)
 {
-    const std::string path = sidecar_of(spectrum_path);
+    const std::string path = spectrum_path + ".json";
     const PartFile place(path);
     std::error_code none;
     if (!std::filesystem::exists(path, none)) {
@@ -127,7 +122,7 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
 void write_sidecar(const std::string& spectrum_path, const RunInfo& run)
 {
     demand_place_for_sidecar(spectrum_path); // a file may have appeared during the run
-    PartFile part(sidecar_of(spectrum_path));
+    PartFile part(spectrum_path + ".json");
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
     stream << as_json(run);

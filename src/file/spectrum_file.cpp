@@ -48,6 +48,9 @@ struct SpectrumFile::Open {
     struct stat as_opened = {};
     Clock::time_point last_seen;
 
+    /// Does not close the file.
+    ~Open() { file.release(); }
+
     /// Syncs the file if it is to survive a power failure.
     void sync_if_durable() const
     {
@@ -238,15 +241,11 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     } catch (const hdf5::Hdf5Error& error) {
-        open_->file.release();
         throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path, error.what());
     }
 }
 
-SpectrumFile::~SpectrumFile()
-{
-    open_->file.release();
-}
+SpectrumFile::~SpectrumFile() = default;
 
 std::vector<std::int64_t> SpectrumFile::missing_tiles()
 {
