@@ -29,21 +29,20 @@ using layout::in_run_group;
 using namespace netcdf;
 
 /// Writes fill values to every chunk, so that a run only overwrites existing values.
-void fill(hid_t dataset, Field field, const Problem& problem, const std::string& path,
+void fill(const StoredField& stored, const Problem& problem, const std::string& path,
           const BetweenTiles& between_tiles)
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const Tiling tiling = tiling_of(problem);
-    const std::size_t crossing = place_of_crossing(problem);
     const std::int64_t count =
-        count_points(stored_dimensions_of(field, tiling.tile_shape(), crossing));
-    const std::int64_t bytes = count * std::int64_t(bytes_per_point(field));
+        count_points(stored_dimensions_of(stored.field, tiling.tile_shape(), stored.crossing));
+    const std::int64_t bytes = count * std::int64_t(bytes_per_point(stored.field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
-    const FieldValues values = not_computed(field, count); // of a whole chunk
+    const FieldValues values = not_computed(stored.field, count); // of a whole chunk
     for (std::int64_t number = 0; number < tiling.size(); ++number) {
         between_tiles();
-        write_chunk(dataset, stored_tile_of(field, tiling[number], crossing), values);
+        write_chunk(stored, tiling[number], values);
         if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
@@ -95,7 +94,8 @@ void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
 }
 
 /// coordinates: names of the auxiliary ones.
-Handle add_field(hid_t file, Field field, const Problem& problem, const std::string& coordinates)
+StoredField add_field(hid_t file, Field field, const Problem& problem,
+                      const std::string& coordinates)
 {
     const std::size_t crossing = place_of_crossing(problem);
     const Shape tile = stored_dimensions_of(field, tiling_of(problem).tile_shape(), crossing);
@@ -113,7 +113,7 @@ Handle add_field(hid_t file, Field field, const Problem& problem, const std::str
         create_dataset(file, std::string(name_of(field)), type.file,
                        stored_dimensions_of(field, stored_dimensions(problem), crossing), creation);
     write_field_attributes(dataset, field, problem.scene, coordinates);
-    return dataset;
+    return {field, std::move(dataset), crossing};
 }
 
 /// Numbers of the group `run`, all 0.
@@ -200,7 +200,7 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job,
                     "comment", "used by the ranks to check at the start that they share the file");
     const std::string auxiliary = add_coordinates(file, job);
     for (const Field field : problem.fields) {
-        fill(add_field(file, field, problem, auxiliary), field, problem, path, between_tiles);
+        fill(add_field(file, field, problem, auxiliary), problem, path, between_tiles);
     }
     add_checksums(file, problem);
 }

@@ -36,10 +36,8 @@ void start_hdf5()
 
 struct SpectrumFile::Open {
     std::string path;
-    std::vector<Field> fields;
-    std::size_t crossing = 0; ///< the place of this dimension, if there is one
     Handle file;
-    std::vector<Handle> datasets; ///< in the order of `fields`
+    std::vector<StoredField> fields;
     Handle checksums;
     Handle audit_checked; ///< only if the spectrum is filled
     Handle audit_wrong;
@@ -214,8 +212,6 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
 {
     open_->path = path;
     open_->durability = durability;
-    open_->fields = problem.fields;
-    open_->crossing = place_of_crossing(problem);
     open_->is_filled = problem.numerics.fill;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
@@ -227,7 +223,8 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
         open_->file =
             Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, unbuffered_access(communicator)), H5Fclose);
         for (const Field field : problem.fields) {
-            open_->datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
+            open_->fields.push_back({field, hdf5::open_dataset(open_->file, name_of(field)),
+                                     place_of_crossing(problem)});
         }
         const auto open = [&](const char* name) {
             return hdf5::open_dataset(open_->file, layout::in_run_group(name));
@@ -267,10 +264,8 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
 void SpectrumFile::forget(const Tile& tile)
 {
     try {
-        for (std::size_t i = 0; i < open_->fields.size(); ++i) {
-            const Field field = open_->fields[i];
-            const Tile stored = stored_tile_of(field, tile, open_->crossing);
-            write_tile(open_->datasets[i], stored, not_computed(field, stored.points()));
+        for (const StoredField& stored : open_->fields) {
+            write_tile(stored, tile, not_computed(stored.field, stored.part_of(tile).points()));
         }
         open_->write_audit(tile, {});
         write_number(open_->checksums, tile.number, not_computed_checksum);
@@ -292,10 +287,8 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
     try {
         errno = 0;
         for (std::size_t i = 0; i < open_->fields.size(); ++i) {
-            const Field field = open_->fields[i];
-            dataset = name_of(field);
-            write_tile(open_->datasets[i], stored_tile_of(field, tile, open_->crossing),
-                       fields.values[i]);
+            dataset = name_of(open_->fields[i].field);
+            write_tile(open_->fields[i], tile, fields.values[i]);
         }
         dataset = layout::audit_checked;
         open_->write_audit(tile, fields.audit);
@@ -314,7 +307,7 @@ void SpectrumFile::close()
 {
     open_->expect_in_place();
     try {
-        open_->datasets.clear();
+        open_->fields.clear();
         open_->checksums.close();
         open_->audit_checked.close();
         open_->audit_wrong.close();

@@ -226,9 +226,9 @@ struct StoredResult::Open {
     {
         const Tiling all = tiling();
         or_refused(path, [&] {
-            std::vector<Handle> datasets;
+            std::vector<StoredField> stored;
             for (const Field field : fields) {
-                datasets.push_back(hdf5::open_dataset(file, name_of(field)));
+                stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
             }
             for (std::int64_t number = 0; number < all.size(); ++number) {
                 between_tiles();
@@ -237,9 +237,8 @@ struct StoredResult::Open {
                 }
                 const Tile tile = all[number];
                 std::vector<FieldValues> values;
-                for (std::size_t i = 0; i < fields.size(); ++i) {
-                    values.push_back(read_tile(
-                        datasets[i], stored_tile_of(fields[i], tile, crossing()), fields[i]));
+                for (const StoredField& field : stored) {
+                    values.push_back(read_tile(field, tile));
                 }
                 use(tile, values);
             }

@@ -47,40 +47,43 @@ FieldValues not_computed(Field field, std::int64_t count)
         layout::fill_value(field));
 }
 
-void write_chunk(hid_t dataset, const Tile& tile, const FieldValues& values)
+void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
-    if (tile.count.empty()) {
-        write_tile(dataset, tile, values);
+    const Tile part = stored.part_of(tile);
+    if (part.count.empty()) {
+        write_tile(stored, tile, values);
         return;
     }
     constexpr std::uint32_t no_filter_skipped = 0;
     std::visit(
         [&](const auto& list) {
-            check(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter_skipped,
-                                 extents(tile.begin).data(), list.size() * sizeof(list[0]),
+            check(H5Dwrite_chunk(stored.dataset, H5P_DEFAULT, no_filter_skipped,
+                                 extents(part.begin).data(), list.size() * sizeof(list[0]),
                                  list.data()));
         },
         values);
 }
 
-void write_tile(hid_t dataset, const Tile& tile, const FieldValues& values)
+void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
+    const Tile part = stored.part_of(tile);
     std::visit(
         [&](const auto& list) {
-            assert(std::int64_t(list.size()) == tile.points());
-            check(H5Dwrite(dataset, hdf5::Type::of(list[0]).memory, in_memory(tile),
-                           selection(dataset, tile), H5P_DEFAULT, list.data()));
+            assert(std::int64_t(list.size()) == part.points());
+            check(H5Dwrite(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),
+                           selection(stored.dataset, part), H5P_DEFAULT, list.data()));
         },
         values);
 }
 
-FieldValues read_tile(hid_t dataset, const Tile& tile, Field field)
+FieldValues read_tile(const StoredField& stored, const Tile& tile)
 {
-    FieldValues values = make_field_values(field, std::size_t(tile.points()));
+    const Tile part = stored.part_of(tile);
+    FieldValues values = make_field_values(stored.field, std::size_t(part.points()));
     std::visit(
         [&](auto& list) {
-            check(H5Dread(dataset, hdf5::Type::of(list[0]).memory, in_memory(tile),
-                          selection(dataset, tile), H5P_DEFAULT, list.data()));
+            check(H5Dread(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),
+                          selection(stored.dataset, part), H5P_DEFAULT, list.data()));
         },
         values);
     return values;
