@@ -70,12 +70,6 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
     EXPECT_TRUE(bytes_of(folder / "many.h5") == expected);
 }
 
-TEST_F(SpectrumFileOnRanks, IsCompleteWhenEveryTileIsWritten)
-{
-    bytes_from_one_rank(folder / "a.h5");
-    EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, tiling.size());
-}
-
 TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
 {
     create(folder / "a.h5");
