@@ -4,7 +4,6 @@
 #include "help_texts.hpp"
 #include "installed_texts.hpp"
 
-#include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/sweep/kernel.hpp"

@@ -5,7 +5,6 @@
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 
-#include "overturn/farm/mpi_session.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"

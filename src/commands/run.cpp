@@ -10,7 +10,6 @@
 #include "record_lines.hpp"
 
 #include "overturn/farm/farm.hpp"
-#include "overturn/farm/mpi_session.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/sole_writer.hpp"
@@ -34,19 +33,17 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::system_clock; // the sidecar file contains the date
 
-constexpr int proceed = -1; ///< tiles are missing; not an exit code
-
 /// The data that each rank needs to take part in a run.
 struct Task {
     const MpiSession& session;
     const Problem problem;
-    const Tiling tiling;
     const std::string path;
     const RunOptions& options;
-    const Kernel kernel;
     const Clock::time_point start;           ///< of the program
     const std::vector<std::int64_t> damaged; ///< tiles of the existing file; on rank 0
+    const Tiling tiling = tiling_of(problem);
     const Items items = items_of(problem);
+    const Kernel kernel = kernel_called(options.kernel);
 
     bool leads() const { return session.rank() == 0; }
     std::int64_t items_in(std::int64_t tiles) const
@@ -57,16 +54,9 @@ struct Task {
 
 std::string output_path(const RunOptions& options)
 {
-    if (!options.output.empty()) {
-        return options.output;
-    }
-    return fs::path(options.job.path).stem().string() + (options.boundary ? "_boundary.h5" : ".h5");
-}
-
-Job read_job_of(const RunOptions& options)
-{
-    Job job = read_job(options.job.path, options.job.overrides);
-    return options.boundary ? boundary_of(std::move(job)) : job;
+    const std::string ending = options.boundary ? "_boundary.h5" : ".h5";
+    return options.output.empty() ? fs::path(options.job.path).stem().string() + ending
+                                  : options.output;
 }
 
 std::string start_line(const Task& task, std::int64_t tiles_before)
@@ -88,19 +78,13 @@ std::string start_line(const Task& task, std::int64_t tiles_before)
 /// The number of points computed, and how the ranks spent the time.
 std::string end_line(const Task& task, const FarmReport& report, double seconds)
 {
-    const auto items = double(task.items_in(report.tiles));
-    double computing = 0;
-    double writing = 0;
-    for (const RankShare& rank : report.ranks) {
-        computing += rank.compute_seconds;
-        writing += rank.write_seconds;
-    }
+    const auto items = double(task.items_in(report.all.tiles));
     const double percent = 100 / (seconds * task.session.size());
     return fmt::format(
-        "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % "
-        "writing",
+        "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % writing",
         human_count(items), noun_of(items, task.items.name), human_duration(seconds),
-        human_count(items / seconds), task.items.name, percent * computing, percent * writing);
+        human_count(items / seconds), task.items.name, percent * report.all.compute_seconds,
+        percent * report.all.write_seconds);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
@@ -115,22 +99,21 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
                 try {
                     fields = compute_tile(task.problem, task.tiling[number], task.kernel,
                                           drop_requested);
+                    return true;
                 } catch (const TileDropped&) {
                     return false;
                 }
-                return true;
             },
-        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); }};
-    return farm_out(
-        task.session, missing, tile_work,
-        [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); },
-        {StopSignals::requested, StopSignals::overdue},
-        std::chrono::seconds(task.options.patience));
+        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); },
+        .on_progress =
+            [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); }};
+    return farm_out(task.session, missing, tile_work,
+                    {StopSignals::requested, StopSignals::overdue},
+                    std::chrono::seconds(task.options.patience));
 }
 
 /// On rank 0.
-void write_run_info(const Task& task, const std::vector<std::string>& hosts,
-                    const FarmReport& report, double seconds)
+void write_run_info(const Task& task, const FarmReport& report, double seconds)
 {
     RunInfo run;
     run.start = task.start;
@@ -138,30 +121,12 @@ void write_run_info(const Task& task, const std::vector<std::string>& hosts,
     run.kernel = name_of(task.kernel);
     run.requests = report.dealing.requests;
     run.dealing_seconds = report.dealing.seconds;
-    for (std::size_t rank = 0; rank < hosts.size(); ++rank) {
+    for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
-        run.ranks.push_back({hosts[rank], share.tiles, share.compute_seconds, share.write_seconds});
+        run.ranks.push_back(
+            {task.session.hosts()[rank], share.tiles, share.compute_seconds, share.write_seconds});
     }
     write_sidecar(task.path, run);
-}
-
-/// Stops all ranks, with a message, if one of them is silent.
-FarmReport compute_or_name_the_silent_rank(const Task& task, const std::vector<std::string>& hosts,
-                                           const std::vector<std::int64_t>& missing,
-                                           SpectrumFile& file)
-{
-    try {
-        return compute_tiles(task, missing, file);
-    } catch (const SilentRank& silent) {
-        const std::string host = // rank 0 knows the hosts
-            hosts.empty() ? "" : fmt::format(" on {}", hosts[std::size_t(silent.rank)]);
-        task.session.abort(
-            exit_code::stopped,
-            fmt::format("rank {}{} has not responded for {} s: it is suspended, its disk hangs, or "
-                        "its host is unreachable. Finished tiles are kept. Run the same command "
-                        "again to resume.",
-                        silent.rank, host, silent.silence.count()));
-    }
 }
 
 /// Says how the run ended, and what a reader of the result must know. On rank 0.
@@ -169,14 +134,12 @@ int report_end(const Task& task, const FarmReport& report, double seconds,
                std::int64_t still_damaged)
 {
     const StoredResult stored(task.path);
-    const TilesSummary& tiles = stored.tiles();
-    const std::int64_t missing = tiles.tiles - tiles.tiles_done;
+    const std::int64_t missing = stored.tiles().tiles - stored.tiles().tiles_done;
     if (missing > 0 && !report.stopped) {
         throw Error(exit_code::output,
-                    "another program has written to \"{}\"; all tiles were "
-                    "computed, but the file lacks {} of {}. Run the same command "
-                    "again to resume.",
-                    task.path, missing, tiles.tiles);
+                    "another program has written to \"{}\"; all tiles were computed, but the file "
+                    "lacks {} of {}. Run the same command again to resume.",
+                    task.path, missing, stored.tiles().tiles);
     }
     say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
     if (missing + still_damaged > 0) {
@@ -191,11 +154,11 @@ int report_end(const Task& task, const FarmReport& report, double seconds,
 
 int compute_missing_tiles(const Task& task)
 {
-    const std::vector<std::string> hosts = task.session.host_names();
     // The path on rank 0, because other ranks may have been started in other working directories.
     const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {
+            const std::vector<std::string>& hosts = task.session.hosts();
             complain(Error(exit_code::output,
                            "\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
                            "{}). Choose a folder with -o that all hosts share.",
@@ -218,13 +181,13 @@ int compute_missing_tiles(const Task& task)
         missing = file.missing_tiles();
         say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
     }
-    const FarmReport report = compute_or_name_the_silent_rank(task, hosts, missing, file);
+    const FarmReport report = compute_tiles(task, missing, file);
     file.close();
 
     int code = exit_code::complete;
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        write_run_info(task, hosts, report, seconds);
+        write_run_info(task, report, seconds);
         code = report_end(task, report, seconds, still_damaged);
     }
     return task.session.from_rank_0(code);
@@ -251,7 +214,10 @@ int run(const RunOptions& options)
     if (session.rank() == 0) {
         try {
             kernel_called(options.kernel); // throws if this machine does not support it
-            job = read_job_of(options);
+            job = read_job(options.job.path, options.job.overrides);
+            if (options.boundary) {
+                job = boundary_of(std::move(*job));
+            }
             demand_path_for_mpi(fs::absolute(path).string());
             sole_writer.emplace(path);
             damaged = prepare_output(*job, path, *sole_writer);
@@ -265,16 +231,12 @@ int run(const RunOptions& options)
             code = complain(error);
         }
     }
-    code = session.from_rank_0(damaged ? proceed : code);
-    if (code != proceed) {
-        return code;
+    if (!session.from_rank_0(damaged.has_value())) {
+        return session.from_rank_0(code);
     }
     try {
         const std::string bytes = session.from_rank_0(job ? bytes_of(job->problem) : "");
-        Problem problem = problem_of(bytes);
-        Tiling tiling = tiling_of(problem);
-        return compute_missing_tiles({session, std::move(problem), std::move(tiling), path, options,
-                                      kernel_called(options.kernel), start,
+        return compute_missing_tiles({session, problem_of(bytes), path, options, start,
                                       damaged.value_or(std::vector<std::int64_t>())});
     } catch (const std::exception& error) {
         if (session.size() == 1) {

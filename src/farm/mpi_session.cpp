@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string_view>
 #include <unistd.h>
 
@@ -23,8 +24,7 @@ constexpr const char* rank_variables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "
 constexpr const char* size_variables[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE",
                                           "SLURM_STEP_NUM_TASKS"};
 
-template <std::size_t count>
-const char* first_of(const char* const (&variables)[count])
+const char* first_of(std::span<const char* const> variables)
 {
     for (const char* variable : variables) {
         if (const char* value = std::getenv(variable)) {
@@ -76,19 +76,6 @@ void prepare_for_one_host()
 #endif
 }
 
-/// A message if the launcher belongs to another MPI, because each process would then be the only
-/// rank and compute everything; otherwise empty.
-std::string launch_fault(int size)
-{
-    const char* started = first_of(size_variables);
-    if (started == nullptr || std::atoi(started) == size) {
-        return {};
-    }
-    return "the launcher started " + std::string(started) + " processes, but MPI found " +
-           std::to_string(size) +
-           ". Use the mpirun of the MPI that this program was built with, or srun --mpi=pmix.";
-}
-
 volatile std::sig_atomic_t exit_code_of_abort = 0;
 
 extern "C" void exit_now(int)
@@ -127,9 +114,23 @@ MpiSession::MpiSession()
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator_);
     MPI_Comm_rank(communicator_, &rank_);
     MPI_Comm_size(communicator_, &size_);
-    if (const std::string fault = launch_fault(size_); !fault.empty()) {
+    // If the launcher belongs to another MPI, each process would be the only rank and compute
+    // everything.
+    const char* started = first_of(size_variables);
+    if (started != nullptr && std::atoi(started) != size_) {
         leave();
-        throw Error(exit_code::usage, fault);
+        throw Error(
+            exit_code::usage,
+            "the launcher started {} processes, but MPI found {}. Use the mpirun of the MPI "
+            "that this program was built with, or srun --mpi=pmix.",
+            started, size_);
+    }
+    using Name = std::array<char, MPI_MAX_PROCESSOR_NAME>;
+    Name own{}; // its zeros end the name
+    int length = 0;
+    MPI_Get_processor_name(own.data(), &length);
+    for (const Name& name : gather_on_rank_0(own)) {
+        hosts_.emplace_back(name.data());
     }
 }
 
@@ -167,26 +168,6 @@ std::string MpiSession::from_rank_0(std::string text) const
     return text;
 }
 
-std::vector<double> MpiSession::from_rank_0(std::vector<double> values) const
-{
-    values.resize(from_rank_0(values.size()));
-    broadcast(values.data(), values.size() * sizeof(double));
-    return values;
-}
-
-std::vector<std::string> MpiSession::host_names() const
-{
-    using Name = std::array<char, MPI_MAX_PROCESSOR_NAME>;
-    Name own{}; // its zeros end the name
-    int length = 0;
-    MPI_Get_processor_name(own.data(), &length);
-    std::vector<std::string> names;
-    for (const Name& name : gather_on_rank_0(own)) {
-        names.emplace_back(name.data());
-    }
-    return names;
-}
-
 void MpiSession::abort(int exit_code, const std::string& message) const
 {
     std::fprintf(stderr, "rank %d: %s\n", rank_, message.c_str());
@@ -214,15 +195,6 @@ void end_all_ranks(int exit_code)
         MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
     _exit(exit_code);
-}
-
-std::string mpi_library()
-{
-    char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
-    int length = 0; // some MPI libraries count the terminating zero
-    MPI_Get_library_version(text, &length);
-    const std::string whole(text);
-    return whole.substr(0, whole.find_first_of(",\n"));
 }
 
 } // namespace overturn

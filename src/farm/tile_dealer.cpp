@@ -44,19 +44,14 @@ TileRange TileDealer::deal(const RangeLimits& limits)
     const std::size_t left = tiles_.size() - next_;
     const std::size_t least = std::min(limits.least, left / (2 * ranks_));
     const std::size_t share = left / (ranges_per_share * ranks_);
-    return take(std::max<std::size_t>(std::clamp(share, least, limits.most), 1));
-}
-
-TileRange TileDealer::take(std::size_t at_most)
-{
-    if (next_ == tiles_.size()) {
+    std::size_t length = std::max<std::size_t>(std::clamp(share, least, limits.most), 1);
+    if (left == 0) {
         return {};
     }
     TileRange range{tiles_[next_], tiles_[next_]};
-    while (at_most > 0 && next_ < tiles_.size() && tiles_[next_] == range.end) {
+    for (; length > 0 && next_ < tiles_.size() && tiles_[next_] == range.end; --length) {
         ++range.end;
         ++next_;
-        --at_most;
     }
     return range;
 }

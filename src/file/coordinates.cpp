@@ -14,111 +14,139 @@ namespace overturn {
 
 namespace {
 
-/// 1 to count.
-std::vector<double> numbers_to(std::int64_t count)
-{
-    std::vector<double> numbers(static_cast<std::size_t>(count));
-    std::iota(numbers.begin(), numbers.end(), 1.0);
-    return numbers;
-}
+using netcdf::Dimensions;
+
+/// The measures of a record as coordinates.
+struct Measure {
+    const char* name;
+    const char* long_name;
+    const char* units;
+    double IntensityMeasures::*value;
+    const char* comment = "";
+};
+
+constexpr Measure measures[] = {
+    {"record_pga", "peak acceleration of the record, over g", "1", &IntensityMeasures::pga},
+    {"pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv},
+    {"arias_intensity", "Arias intensity of the record", "m s-1",
+     &IntensityMeasures::arias_intensity},
+    {"significant_duration", "significant duration of the record", "s",
+     &IntensityMeasures::significant_duration, "from 5 to 95 % of the Arias intensity"}};
 
 class CoordinateList {
 public:
     explicit CoordinateList(const Job& job)
-        : job_(job), problem_(job.problem),
-          derived_(std::make_shared<Coordinates>(problem_.scene, problem_.grid)),
-          strength_(problem_.product == Product::boundary
-                        ? problem_.grid.dimension_of(Role::strength)
-                        : std::nullopt)
+        : job_(job), grid_(job.problem.grid), dimensions_(stored_dimensions(job.problem)),
+          derived_(std::make_shared<Coordinates>(job.problem.scene, grid_))
     {}
 
     std::vector<Coordinate> all()
     {
-        for (std::size_t i = 0; i < problem_.grid.dimensions.size(); ++i) {
+        for (std::size_t i = 0; i < dimensions_.size(); ++i) {
             add_dimension(i);
         }
-        for (const Column& column : problem_.grid.numbers) {
-            add_given(column, {});
+        for (const Column& column : grid_.numbers) {
+            add_column(column, {});
         }
-        if (strength_) {
-            const Column& column = problem_.grid.dimensions[*strength_].columns.front();
-            const std::string name =
-                layout::in_run_group(layout::scan_prefix + std::string(column.quantity->name));
-            add({name,
-                 {name},
-                 {},
-                 {},
-                 fmt::format("values of {} computed first", column.quantity->name),
-                 "1"},
-                column.values.size(), [&column] { return column.values.values(); });
+        if (job_.problem.product == Product::boundary) {
+            add_scan(grid_.dimensions[*grid_.dimension_of(Role::strength)]);
+        }
+        if (!job_.motions.empty()) {
+            add_motion_names();
         }
         if (job_.blocks) {
             add_table(job_.blocks->table);
         }
-        for (const std::string_view name : derived_coordinates(problem_.scene.is_recorded())) {
+        for (const std::string_view name : derived_coordinates(!job_.motions.empty())) {
             add_derived(name);
         }
-        if (problem_.scene.is_recorded()) {
+        if (!job_.motions.empty()) {
             add_measures();
         }
+        std::ranges::stable_partition(all_, [](const Coordinate& coordinate) {
+            return std::holds_alternative<std::vector<double>>(coordinate.variable.values);
+        });
         return std::move(all_);
     }
 
 private:
-    using Values = std::function<std::vector<double>()>;
+    using Compute = std::function<netcdf::Values()>;
 
-    /// length: of its only dimension, if the shape is empty.
-    void add(netcdf::Variable variable, std::int64_t length, Values values)
+    void add(std::string_view name, const Dimensions& along, std::string_view long_name,
+             std::string_view units, Compute values)
     {
-        if (!variable.dimensions.empty() && variable.shape.empty()) {
-            variable.shape = {hsize_t(length)};
-        }
-        all_.push_back({std::move(variable), std::move(values)});
+        all_.push_back({{std::string(name), along, {}, std::string(long_name), std::string(units)},
+                        std::move(values)});
     }
 
-    void add_given(const Column& column, const std::vector<std::string>& dimensions)
+    /// first, first + 1, ...; a single number without a dimension.
+    void add_numbers(std::string_view name, const Dimensions& along, double first,
+                     std::string_view long_name)
     {
-        const Quantity& quantity = *column.quantity;
-        add({std::string(quantity.name),
-             dimensions,
-             {},
-             {},
-             std::string(quantity.long_name),
-             std::string(quantity.units)},
-            column.values.size(), [&column] { return column.values.values(); });
+        const std::int64_t count = along.empty() ? 1 : along.front().size;
+        add(name, along, long_name, "1", [count, first] {
+            std::vector<double> numbers(static_cast<std::size_t>(count));
+            std::iota(numbers.begin(), numbers.end(), first);
+            return numbers;
+        });
+    }
+
+    /// Filled up with NUL.
+    void add_texts(const std::string& name, Dimensions along, std::vector<std::string> texts,
+                   std::string_view long_name)
+    {
+        std::size_t longest = 1;
+        for (const std::string& text : texts) {
+            longest = std::max(longest, text.size());
+        }
+        along.push_back({name + "_length", std::int64_t(longest)});
+        add(name, along, long_name, "", [longest, texts = std::move(texts)] {
+            std::string letters;
+            for (const std::string& text : texts) {
+                letters += text + std::string(longest - text.size(), '\0');
+            }
+            return letters;
+        });
+        all_.back().variable.values = std::string();
+    }
+
+    void add_column(const Column& column, const Dimensions& along)
+    {
+        add(column.quantity->name, along, column.quantity->long_name, column.quantity->units,
+            [&column] { return column.values.values(); });
     }
 
     void add_dimension(std::size_t i)
     {
-        const Dimension& dimension = problem_.grid.dimensions[i];
-        if (i == strength_) {
-            const std::string name(crossing_dimension);
-            const std::int64_t count = most_crossings(problem_.scene);
-            add({name, {name}, {}, {}, "number of the flip, counted from 0", "1"}, count, [count] {
-                std::vector<double> numbers = numbers_to(count);
-                std::ranges::for_each(numbers, [](double& number) { --number; });
-                return numbers;
-            });
+        const StoredDimension& dimension = dimensions_[i];
+        if (dimension.name == crossing_dimension) {
+            add_numbers(dimension.name, {dimension}, 0, "number of the flip, counted from 0");
         } else if (dimension.name == table_dimension) {
-            add({dimension.name, {dimension.name}, {}, {}, "number of the block in the table", "1"},
-                dimension.size(), [&dimension] { return numbers_to(dimension.size()); });
+            add_numbers(dimension.name, {dimension}, 1, "number of the block in the table");
         } else {
-            add_given(dimension.columns.front(), {dimension.name});
+            add_column(grid_.dimensions[i].columns.front(), {dimension});
         }
+    }
+
+    void add_scan(const Dimension& strength)
+    {
+        const std::string name = layout::in_run_group("scan_" + strength.name);
+        add(name, {{name, strength.size()}},
+            fmt::format("values of {} computed first", strength.name), "1",
+            [&strength] { return strength.columns.front().values.values(); });
     }
 
     void add_table(const Table& table)
     {
+        const Dimensions along{{std::string(table_dimension), table.rows()}};
         for (const TableColumn& column : table.columns) {
             if (column.texts.empty()) {
                 const Quantity* quantity = find_quantity(column.name);
-                add({column.name,
-                     {std::string(table_dimension)},
-                     {},
-                     {},
-                     "column of the table",
-                     quantity == nullptr ? "1" : std::string(quantity->units)},
-                    table.rows(), [&column] { return column.numbers; });
+                add(column.name, along, "column of the table",
+                    quantity == nullptr ? "1" : quantity->units,
+                    [&column] { return column.numbers; });
+            } else {
+                add_texts(column.name, along, column.texts, "column of the table");
             }
         }
     }
@@ -132,63 +160,59 @@ private:
     /// A boundary has flips instead of strengths, and nothing that follows from these.
     void add_derived(std::string_view name)
     {
-        if (problem_.grid.find(name) != nullptr || has(name) || !derived_->has(name)) {
+        if (has(name) || grid_.find(name) != nullptr || !derived_->has(name)) {
             return;
         }
-        const std::vector<std::size_t> along = derived_->dimensions_of(name);
-        if (strength_ && std::ranges::count(along, *strength_) > 0) {
-            return;
+        Dimensions along;
+        for (const std::size_t i : derived_->dimensions_of(name)) {
+            along.push_back(dimensions_[i]);
+            if (along.back().name == crossing_dimension) {
+                return;
+            }
         }
-        const Quantity& quantity = overturn::quantity(name);
-        netcdf::Variable variable{
-            std::string(name),          {}, {}, {}, std::string(quantity.long_name),
-            std::string(quantity.units)};
-        for (const std::size_t i : along) {
-            variable.dimensions.push_back(problem_.grid.dimensions[i].name);
-            variable.shape.push_back(hsize_t(problem_.grid.dimensions[i].size()));
-        }
-        add(std::move(variable), 0,
+        add(name, along, quantity(name).long_name, quantity(name).units,
             [derived = derived_, name] { return derived->of(name).values; });
     }
 
-    /// Along the motions of the grid, or of the table.
+    /// The motions of the grid, or of the table.
+    Dimensions along_motions() const
+    {
+        const bool is_single = grid_.find("motion") != nullptr && !grid_.dimension_of("motion");
+        return is_single ? Dimensions() : Dimensions{{"motion", std::int64_t(job_.motions.size())}};
+    }
+
+    void add_motion_names()
+    {
+        std::vector<std::string> names;
+        for (const Motion& motion : job_.motions) {
+            names.push_back(motion.name);
+        }
+        add_texts("motion_name", along_motions(), std::move(names),
+                  "file of the recorded ground motion");
+    }
+
     void add_measures()
     {
-        const auto count = std::int64_t(job_.motions.size());
-        const bool is_single =
-            problem_.grid.find("motion") != nullptr && !problem_.grid.dimension_of("motion");
-        const std::vector<std::string> along =
-            is_single ? std::vector<std::string>{} : std::vector<std::string>{"motion"};
         if (!has("motion")) {
-            const Quantity& motion = quantity("motion");
-            add({"motion", along, {}, {}, std::string(motion.long_name), "1"}, count,
-                [count] { return numbers_to(count); });
+            add_numbers("motion", along_motions(), 1, quantity("motion").long_name);
         }
-        const auto add_measure = [&](const char* name, const char* long_name, const char* units,
-                                     double IntensityMeasures::*measure, const char* comment = "") {
-            add({name, along, {}, {}, long_name, units, comment}, count,
-                [this_job = &job_, measure] {
+        for (const Measure& measure : measures) {
+            add(measure.name, along_motions(), measure.long_name, measure.units,
+                [motions = &job_.motions, &measure] {
                     std::vector<double> values;
-                    for (const Motion& motion : this_job->motions) {
-                        values.push_back(motion.measures.*measure);
+                    for (const Motion& motion : *motions) {
+                        values.push_back(motion.measures.*measure.value);
                     }
                     return values;
                 });
-        };
-        add_measure("record_pga", "peak acceleration of the record, over g", "1",
-                    &IntensityMeasures::pga);
-        add_measure("pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv);
-        add_measure("arias_intensity", "Arias intensity of the record", "m s-1",
-                    &IntensityMeasures::arias_intensity);
-        add_measure("significant_duration", "significant duration of the record", "s",
-                    &IntensityMeasures::significant_duration,
-                    "from 5 to 95 % of the Arias intensity");
+            all_.back().variable.comment = measure.comment;
+        }
     }
 
     const Job& job_;
-    const Problem& problem_;
+    const Grid& grid_;
+    Dimensions dimensions_;
     std::shared_ptr<Coordinates> derived_;
-    std::optional<std::size_t> strength_; ///< the dimension replaced by the flips of a boundary
     std::vector<Coordinate> all_;
 };
 
@@ -197,29 +221,6 @@ private:
 std::vector<Coordinate> coordinates_of(const Job& job)
 {
     return CoordinateList(job).all();
-}
-
-std::vector<TextCoordinate> text_coordinates_of(const Job& job)
-{
-    std::vector<TextCoordinate> all;
-    if (!job.motions.empty()) {
-        const bool is_single =
-            job.problem.grid.find("motion") != nullptr && !job.problem.grid.dimension_of("motion");
-        all.push_back(
-            {"motion_name", is_single ? "" : "motion", {}, "file of the recorded ground motion"});
-        for (const Motion& motion : job.motions) {
-            all.back().values.push_back(motion.name);
-        }
-    }
-    if (job.blocks) {
-        for (const TableColumn& column : job.blocks->table.columns) {
-            if (!column.texts.empty()) {
-                all.push_back({column.name, std::string(table_dimension), column.texts,
-                               "column of the table"});
-            }
-        }
-    }
-    return all;
 }
 
 } // namespace overturn

@@ -6,31 +6,19 @@
 #include "overturn/job/job.hpp"
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace overturn {
 
-/// A variable of numbers whose values are computed when they are needed.
+/// A variable whose values are computed when they are needed.
 struct Coordinate {
     netcdf::Variable variable; ///< without values
-    std::function<std::vector<double>()> values;
-};
-
-/// A variable of texts along a dimension; without one, a single text.
-struct TextCoordinate {
-    std::string name;
-    std::string dimension;
-    std::vector<std::string> values;
-    const char* long_name;
+    std::function<netcdf::Values()> values;
 };
 
 /// In the order of the file: those of the dimensions first, then single values, columns of the
 /// table and what follows from them, and the measures of the records; the strengths that a boundary
-/// computes first.
+/// computes first; last, the names of the motions and the texts of the table.
 std::vector<Coordinate> coordinates_of(const Job& job);
-
-/// The names of the motions, and the texts of the table.
-std::vector<TextCoordinate> text_coordinates_of(const Job& job);
 
 } // namespace overturn

@@ -1,6 +1,6 @@
 #include "hdf5_handles.hpp"
 
-#include "operating_system.hpp"
+#include "working_file.hpp"
 
 namespace overturn::hdf5 {
 
@@ -27,13 +27,6 @@ std::string quoted_after(const std::string& mark, const std::string& description
 
 } // namespace
 
-void start()
-{
-    H5dont_atexit();
-    check(H5open());
-    check(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));
-}
-
 std::string innermost_cause()
 {
     std::string description;
@@ -41,10 +34,7 @@ std::string innermost_cause()
     // HDF5 quotes messages of the system, "error message = 'No space left on device'", and of MPI.
     const std::string cause =
         quoted_after("error message = '", quoted_after("MPI error string is '", description));
-    if (cause.empty()) {
-        return "HDF5 gave no reason";
-    }
-    return in_sentence(cause);
+    return cause.empty() ? "HDF5 gave no reason" : in_sentence(cause);
 }
 
 Handle file_access()
@@ -62,6 +52,63 @@ Handle open_to_read(const std::string& path)
 Handle open_dataset(hid_t file, std::string_view name)
 {
     return Handle(H5Dopen2(file, std::string(name).c_str(), H5P_DEFAULT), H5Dclose);
+}
+
+Handle space_of(const Extents& shape)
+{
+    return Handle(H5Screate_simple(int(shape.size()), shape.data(), nullptr), H5Sclose);
+}
+
+void write_attribute(hid_t object, const char* name, const Type& type, const Extents& shape,
+                     const void* values)
+{
+    const Handle attribute(
+        H5Acreate2(object, name, type.file, space_of(shape), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    check(H5Awrite(attribute, type.memory, values));
+}
+
+void write_attribute(hid_t object, const char* name, std::string_view text)
+{
+    if (!text.empty()) {
+        const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        check(H5Tset_size(type, text.size()));
+        check(H5Tset_strpad(type, H5T_STR_NULLPAD));
+        check(H5Tset_cset(type, H5T_CSET_UTF8));
+        write_attribute(object, name, {type, type}, {}, text.data());
+    }
+}
+
+std::string read_text_attribute(hid_t object, const char* name)
+{
+    if (check(H5Aexists(object, name)) == 0) {
+        return {};
+    }
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute), H5Tclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    if (H5Tget_class(type) != H5T_STRING || check(H5Tis_variable_str(type)) > 0 ||
+        check(H5Sget_simple_extent_npoints(space)) != 1) {
+        return {};
+    }
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Aread(attribute, type, text.data()));
+    return text;
+}
+
+std::vector<std::int64_t> read_integers_attribute(hid_t object, const char* name)
+{
+    if (check(H5Aexists(object, name)) == 0) {
+        return {};
+    }
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = check(H5Sget_simple_extent_npoints(space));
+    if (count > H5S_MAX_RANK) {
+        throw Hdf5Error("the attribute " + std::string(name) + " is too long");
+    }
+    std::vector<std::int64_t> values(static_cast<std::size_t>(count));
+    check(H5Aread(attribute, H5T_NATIVE_INT64, values.data()));
+    return values;
 }
 
 } // namespace overturn::hdf5

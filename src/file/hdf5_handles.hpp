@@ -1,14 +1,18 @@
-// Wrappers of raw HDF5: handles that close themselves, and check(), which checks every call. A
-// failed call throws an Hdf5Error with the innermost cause; the public functions of this module
-// convert it to an Error with the file and what to do.
+// Wrappers of raw HDF5: handles that close themselves; check(), which checks every call; and
+// attributes in the forms that every netCDF-4 reader supports. A failed call throws an Hdf5Error
+// with the innermost cause; the public functions of this module convert it to an Error with the
+// file and what to do.
 #pragma once
 
 #include <hdf5.h>
 
+#include <concepts>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace overturn::hdf5 {
 
@@ -16,10 +20,6 @@ class Hdf5Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
-
-/// To be called before any other HDF5 function. Turns off the messages of HDF5, and the closing of
-/// files at exit, which would wait for other ranks.
-void start();
 
 /// The reason why the last call failed, such as "no space left on device".
 std::string innermost_cause();
@@ -79,5 +79,50 @@ Handle file_access();
 
 Handle open_to_read(const std::string& path);
 Handle open_dataset(hid_t file, std::string_view name);
+
+/// Lengths along each dimension; empty for a single value.
+using Extents = std::vector<hsize_t>;
+
+Handle space_of(const Extents& shape);
+
+/// The types of a value in a file and in memory.
+struct Type {
+    hid_t file;
+    hid_t memory;
+
+    static Type of(char) { return {H5T_C_S1, H5T_C_S1}; }
+    static Type of(std::uint8_t) { return {H5T_STD_U8LE, H5T_NATIVE_UINT8}; }
+    static Type of(std::uint16_t) { return {H5T_STD_U16LE, H5T_NATIVE_UINT16}; }
+    static Type of(std::uint32_t) { return {H5T_STD_U32LE, H5T_NATIVE_UINT32}; }
+    static Type of(std::uint64_t) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
+    static Type of(std::int64_t) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
+    static Type of(double) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}; }
+};
+
+/// Writes fixed-length UTF-8. An empty text is left out: a fixed length cannot be 0.
+void write_attribute(hid_t object, const char* name, std::string_view text);
+
+void write_attribute(hid_t object, const char* name, const Type& type, const Extents& shape,
+                     const void* values);
+
+template <class Number>
+    requires std::integral<Number> || std::floating_point<Number>
+void write_attribute(hid_t object, const char* name, Number value)
+{
+    write_attribute(object, name, Type::of(value), {}, &value);
+}
+
+template <class Number>
+void write_attribute(hid_t object, const char* name, const std::vector<Number>& values)
+{
+    write_attribute(object, name, Type::of(Number()), {values.size()}, values.data());
+}
+
+/// Empty if the attribute is missing or is not fixed-length text.
+std::string read_text_attribute(hid_t object, const char* name);
+
+/// A number or a list of numbers; empty if the attribute is missing. Throws Hdf5Error if it is
+/// something else.
+std::vector<std::int64_t> read_integers_attribute(hid_t object, const char* name);
 
 } // namespace overturn::hdf5

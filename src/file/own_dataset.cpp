@@ -1,5 +1,8 @@
 #include "own_dataset.hpp"
 
+#include <fmt/format.h>
+#include <xxhash.h>
+
 namespace overturn {
 
 using hdf5::check;
@@ -20,12 +23,38 @@ unsigned count_names(hid_t object)
     return info.rc;
 }
 
+/// With the path in the file; its beginning if it is long.
+std::string name_of(hid_t object)
+{
+    std::string name(64, '\0');
+    check(H5Iget_name(object, name.data(), name.size()));
+    return name.substr(0, name.find('\0'));
+}
+
+/// Whether all values are stored. This also reads the whole chunk index, so that a damaged index is
+/// found, or crashes HDF5, before the file is used.
+bool is_stored_as_a_whole(hid_t dataset, const hdf5::Extents& shape, hsize_t bytes_per_value)
+{
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    hsize_t expected = bytes_per_value;
+    hdf5::Extents chunk(shape.size(), 1);
+    if (H5Pget_layout(creation) == H5D_CHUNKED) {
+        check(H5Pget_chunk(creation, int(chunk.size()), chunk.data()));
+    }
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        demand(chunk[i] >= 1, "a dataset has empty chunks");
+        expected *= (shape[i] + chunk[i] - 1) / chunk[i] * chunk[i];
+    }
+    const bool is_compressed = check(H5Pget_nfilters(creation)) > 0;
+    return H5Dget_storage_size(dataset) == expected || is_compressed;
+}
+
 } // namespace
 
-void demand(bool condition, const char* what_is_wrong)
+void demand(bool condition, std::string_view what_is_wrong)
 {
     if (!condition) {
-        throw hdf5::Hdf5Error(what_is_wrong);
+        throw hdf5::Hdf5Error(std::string(what_is_wrong));
     }
 }
 
@@ -48,30 +77,49 @@ Handle open_own_dataset(hid_t file, const std::string& name)
     return dataset;
 }
 
-std::vector<hsize_t> shape_of(hid_t dataset)
+hdf5::Extents shape_of(hid_t dataset)
 {
     const Handle space(H5Dget_space(dataset), H5Sclose);
-    std::vector<hsize_t> shape(std::size_t(check(H5Sget_simple_extent_ndims(space))));
+    hdf5::Extents shape(std::size_t(check(H5Sget_simple_extent_ndims(space))));
     check(H5Sget_simple_extent_dims(space, shape.data(), nullptr));
     return shape;
 }
 
-bool has_type(hid_t dataset, hid_t expected)
+bool has_type(hid_t dataset, const hdf5::Type& expected)
 {
     const Handle type(H5Dget_type(dataset), H5Tclose);
-    return check(H5Tequal(type, expected)) > 0;
+    return check(H5Tequal(type, expected.file)) > 0;
 }
 
-hsize_t length_of_list(hid_t dataset, hid_t type, std::uint64_t bytes_of_file,
-                       const char* what_is_wrong)
+std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file)
 {
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    const hsize_t bytes_per_value = H5Tget_size(type);
-    demand(shape.size() == 1 && shape[0] <= bytes_of_file / bytes_per_value &&
-               shape[0] * bytes_per_value <= H5Dget_storage_size(dataset) &&
-               has_type(dataset, type),
-           what_is_wrong);
-    return shape[0];
+    const auto demand_that = [&](bool condition, const char* what_is_wrong) {
+        demand(condition, fmt::format("the dataset {} {}", name_of(dataset), what_is_wrong));
+    };
+    demand_that(has_type(dataset, type), "has another type");
+    const hsize_t bytes_per_value = H5Tget_size(type.file);
+    const hdf5::Extents shape = shape_of(dataset);
+    hsize_t count = 1;
+    for (const hsize_t length : shape) {
+        demand_that(length > 0, "is empty");
+        demand_that(length <= bytes_of_file / bytes_per_value / count, "is larger than the file");
+        count *= length;
+    }
+    demand_that(is_stored_as_a_whole(dataset, shape, bytes_per_value), "lacks values");
+    return count;
+}
+
+std::string dataset_checksum(hid_t dataset, std::uint64_t bytes_of_file)
+{
+    const hdf5::Extents shape = shape_of(dataset);
+    const auto checksum = [&](const auto& values) {
+        const std::uint64_t seed = XXH64(shape.data(), shape.size() * sizeof shape[0], 0);
+        return fmt::format(
+            "{:016x}", std::uint64_t(XXH64(values.data(), values.size() * sizeof values[0], seed)));
+    };
+    return has_type(dataset, hdf5::Type::of(char()))
+               ? checksum(read_all<char>(dataset, bytes_of_file))
+               : checksum(read_all<double>(dataset, bytes_of_file));
 }
 
 } // namespace overturn

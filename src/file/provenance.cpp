@@ -3,7 +3,6 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 
-#include "operating_system.hpp"
 #include "program_identity.hpp"
 #include "working_file.hpp"
 
@@ -13,8 +12,8 @@
 #include <mpi.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
-#include <sys/stat.h>
 
 namespace overturn {
 
@@ -31,35 +30,35 @@ std::string mpi_version()
 /// Distinguishes a sidecar from other files called OUT.h5.json.
 constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
-std::string sidecar_of(const std::string& spectrum_path)
-{
-    return spectrum_path + ".json";
-}
-
 std::string as_json(const RunInfo& run)
 {
-    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(run.start);
-    std::string text(sidecar_beginning);
-    text += fmt::format("{},\n", in_quotes(program_version()));
-    text += fmt::format("  \"program_commit\": {},\n", in_quotes(program_commit()));
-    text += fmt::format("  \"start\": \"{:%Y-%m-%dT%H:%M:%SZ}\",\n", fmt::gmtime(start));
-    text += fmt::format("  \"wall_seconds\": {},\n", run.wall_seconds);
-    text += fmt::format("  \"kernel\": {},\n", in_quotes(run.kernel));
-    text += fmt::format("  \"compiler\": {},\n", in_quotes(compiler_version()));
-    text += fmt::format("  \"hdf5\": {},\n", in_quotes(hdf5_version()));
-    text += fmt::format("  \"mpi\": {},\n", in_quotes(mpi_version()));
-    text += fmt::format("  \"requests\": {},\n", run.requests);
-    text += fmt::format("  \"dealing_seconds\": {},\n", run.dealing_seconds);
-    text += "  \"ranks\": [";
-    const char* separator = "\n";
+    std::vector<std::string> ranks;
     for (const RankInfo& rank : run.ranks) {
-        text += fmt::format("{}    {{\"host\": {}, \"tiles\": {}, \"compute_seconds\": {}, "
-                            "\"write_seconds\": {}}}",
-                            separator, in_quotes(rank.host), rank.tiles, rank.compute_seconds,
-                            rank.write_seconds);
-        separator = ",\n";
+        ranks.push_back(fmt::format(
+            R"(    {{"host": {}, "tiles": {}, "compute_seconds": {}, "write_seconds": {}}})",
+            in_quotes(rank.host), rank.tiles, rank.compute_seconds, rank.write_seconds));
     }
-    return text + "\n  ]\n}\n";
+    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(run.start);
+    return fmt::format(R"({}{},
+  "program_commit": {},
+  "start": "{:%Y-%m-%dT%H:%M:%SZ}",
+  "wall_seconds": {},
+  "kernel": {},
+  "compiler": {},
+  "hdf5": {},
+  "mpi": {},
+  "requests": {},
+  "dealing_seconds": {},
+  "ranks": [
+{}
+  ]
+}}
+)",
+                       sidecar_beginning, in_quotes(program_version()), in_quotes(program_commit()),
+                       fmt::gmtime(start), run.wall_seconds, in_quotes(run.kernel),
+                       in_quotes(compiler_version()), in_quotes(hdf5_version()),
+                       in_quotes(mpi_version()), run.requests, run.dealing_seconds,
+                       fmt::join(ranks, ",\n"));
 }
 
 } // namespace
@@ -84,6 +83,12 @@ std::string hdf5_version()
     return fmt::format("{}.{}.{}", major, minor, release);
 }
 
+std::string mpi_library()
+{
+    const std::string whole = mpi_version();
+    return whole.substr(0, whole.find_first_of(",\n"));
+}
+
 std::string_view program_version()
 {
     return identity::version;
@@ -96,14 +101,14 @@ std::string_view program_commit()
 
 void demand_place_for_sidecar(const std::string& spectrum_path)
 {
-    const std::string path = sidecar_of(spectrum_path);
-    struct stat file = {};
+    const std::string path = spectrum_path + ".json";
     const PartFile place(path);
-    if (stat(path.c_str(), &file) != 0) {
+    std::error_code none;
+    if (!std::filesystem::exists(path, none)) {
         return;
     }
     std::string beginning(sidecar_beginning.size(), '\0');
-    if (S_ISREG(file.st_mode)) { // opening a pipe would wait for its other end
+    if (std::filesystem::is_regular_file(path)) { // opening a pipe would wait for its other end
         std::ifstream(path, std::ios::binary).read(beginning.data(), int(beginning.size()));
     }
     if (beginning != sidecar_beginning) {
@@ -117,7 +122,7 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
 void write_sidecar(const std::string& spectrum_path, const RunInfo& run)
 {
     demand_place_for_sidecar(spectrum_path); // a file may have appeared during the run
-    PartFile part(sidecar_of(spectrum_path));
+    PartFile part(spectrum_path + ".json");
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);
     stream << as_json(run);

@@ -19,23 +19,19 @@ namespace overturn {
 
 namespace {
 
-/// The part of a line around a column, to shorten long lists of values.
-std::string excerpt(std::string_view line, std::size_t column)
+/// The line of a text that begins at `begin`; of a long one, the part around `place`.
+std::string line_around(std::string_view text, std::size_t begin, std::size_t place)
 {
     constexpr std::size_t before = 40;
     constexpr std::size_t length = 80;
-    const std::size_t begin = line.size() <= length || column < before ? 0 : column - before;
-    const std::string_view shown = line.substr(std::min(begin, line.size()), length);
-    return fmt::format("{}{}{}", begin > 0 ? "..." : "", shown,
-                       begin + shown.size() < line.size() ? "..." : "");
-}
-
-/// Removes the first line from a text and returns it.
-std::string_view next_line(std::string_view& text)
-{
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    return line;
+    if (begin == text.size()) {
+        return "(nothing more)";
+    }
+    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+    const std::size_t hidden = line.size() <= length ? 0 : std::max(place - begin, before) - before;
+    const std::string_view shown = line.substr(hidden, length);
+    return fmt::format("{}{}{}", hidden > 0 ? "..." : "", shown,
+                       hidden + shown.size() < line.size() ? "..." : "");
 }
 
 /// The part of a line of a resolved job that names the file of a record; empty for other lines.
@@ -52,76 +48,71 @@ std::string_view record_named_in(std::string_view line)
 /// Describes the first line in which two different texts differ.
 std::string first_difference(std::string_view stored, std::string_view given)
 {
-    for (int number = 1;; ++number) {
-        const bool ends = stored.empty() || given.empty();
-        const std::string_view theirs = stored.empty() ? "(nothing more)" : next_line(stored);
-        const std::string_view ours = given.empty() ? "(nothing more)" : next_line(given);
-        if (const auto record = record_named_in(ours);
-            theirs != ours && !record.empty() && record == record_named_in(theirs)) {
-            return fmt::format("the record {} has changed since then, or is read with other keys "
-                               "(component, vertical, time_step, units, gravity). ",
-                               record);
-        }
-        if (ends || theirs != ours) {
-            const auto differ =
-                std::mismatch(theirs.begin(), theirs.end(), ours.begin(), ours.end());
-            const auto column = std::size_t(differ.first - theirs.begin());
-            return fmt::format(
-                "line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n", number,
-                excerpt(theirs, column), excerpt(ours, column));
-        }
+    const auto differ = std::ranges::mismatch(stored, given);
+    const auto place = std::size_t(differ.in1 - stored.begin());
+    const std::string_view same = given.substr(0, place);
+    const std::size_t begin = same.rfind('\n') + 1; // 0 if there is none
+    const auto line_of = [&](std::string_view text) {
+        return text.substr(begin, text.find('\n', begin) - begin);
+    };
+    const std::string_view record = record_named_in(line_of(given));
+    if (!record.empty() && record == record_named_in(line_of(stored))) {
+        return fmt::format("the record {} has changed since then, or is read with other keys "
+                           "(component, vertical, time_step, units, gravity). ",
+                           record);
     }
+    return fmt::format("line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n",
+                       1 + std::ranges::count(same, '\n'), line_around(stored, begin, place),
+                       line_around(given, begin, place));
 }
 
-} // namespace
-
-void StoredResult::expect_result_of(const Job& job) const
+/// Throws Error unless the file is the result of this job, by this version of the program.
+void expect_result_of(const Job& job, const StoredResult& stored)
 {
     const auto refuse = [&](const std::string& what) {
-        throw Error(exit_code::output, "\"{}\" {}", path(), what);
+        throw Error(exit_code::output, "\"{}\" {}", stored.path(), what);
     };
     const Problem& problem = job.problem;
-    if (origin().kind != FileKind(problem.product)) {
+    const FileOrigin& origin = stored.origin();
+    if (origin.kind != FileKind(problem.product)) {
         refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
-                           origin().kind == FileKind::history ? "a" : "an",
-                           layout::name_of(origin().kind),
+                           origin.kind == FileKind::history ? "a" : "an",
+                           layout::name_of(origin.kind),
                            layout::name_of(FileKind(problem.product))));
     }
-    if (origin().format != layout::newest_format) {
+    if (origin.format != layout::newest_format) {
         refuse(fmt::format("has the format of an earlier version ({}), which can be read but not "
                            "resumed. Choose another name with -o.",
-                           origin().format));
+                           origin.format));
     }
-    if (origin().resolved_job != job.resolved) {
+    if (origin.resolved_job != job.resolved) {
         refuse(fmt::format("belongs to another job: {}Choose another name with -o.",
-                           first_difference(origin().resolved_job, job.resolved)));
+                           first_difference(origin.resolved_job, job.resolved)));
     }
-    if (origin().program_version != program_version() ||
-        origin().program_commit != program_commit()) {
-        refuse(
-            fmt::format("was computed by overturn {} (commit {}), but this is overturn {} (commit "
-                        "{}), whose results may differ in the last digits. Choose another name "
-                        "with -o, or use that version.",
-                        origin().program_version, origin().program_commit, program_version(),
-                        program_commit()));
+    if (origin.program_version != program_version() || origin.program_commit != program_commit()) {
+        refuse(fmt::format(
+            "was computed by overturn {} (commit {}), but this is overturn {} (commit "
+            "{}), whose results may differ in the last digits. Choose another name "
+            "with -o, or use that version.",
+            origin.program_version, origin.program_commit, program_version(), program_commit()));
     }
     const Tiling tiling = tiling_of(problem);
-    std::vector<std::string> names;
-    for (const AxisSummary& axis : tiles().axes) {
-        names.push_back(axis.name);
-    }
-    if (tiles().tile_shape != tiling.tile_shape() || tiles().tiles != tiling.size() ||
-        tiles().fields != problem.fields ||
-        !std::ranges::equal(names, stored_dimensions(problem), {}, {}, &StoredDimension::name)) {
+    const TilesSummary& tiles = stored.tiles();
+    if (tiles.tile_shape != tiling.tile_shape() || tiles.tiles != tiling.size() ||
+        tiles.fields != problem.fields ||
+        !std::ranges::equal(tiles.axes, stored_dimensions(problem), {}, &AxisSummary::name,
+                            &StoredDimension::name)) {
         refuse("is damaged: its fields or tiles do not match its job. Remove it, or choose another "
                "name with -o.");
     }
-    if (const auto damaged = damaged_coordinates(); !damaged.empty()) {
+    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
         refuse(fmt::format("is damaged: the values of its coordinates have changed: {}. Remove it, "
                            "or choose another name with -o.",
                            fmt::join(damaged, ", ")));
     }
 }
+
+} // namespace
 
 std::optional<StoredResult> existing_result(const std::string& path, const Job& job)
 {
@@ -135,7 +126,7 @@ std::optional<StoredResult> existing_result(const std::string& path, const Job& 
     } catch (const Error& error) {
         throw Error(exit_code::output, "{} Choose another name with -o.", error.what());
     }
-    stored->expect_result_of(job);
+    expect_result_of(job, *stored);
     return stored;
 }
 

@@ -1,17 +1,14 @@
 // Creates a file in which no tile is computed, and computes its size.
 
-#include "attributes.hpp"
 #include "coordinates.hpp"
-#include "dataset_checksum.hpp"
-#include "field_attributes.hpp"
-#include "hdf5_handles.hpp"
 #include "layout.hpp"
 #include "netcdf.hpp"
-#include "operating_system.hpp"
+#include "own_dataset.hpp"
 #include "tile_access.hpp"
 #include "working_file.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
+#include "overturn/sweep/boundary.hpp"
 #include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
@@ -28,108 +25,115 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 using hdf5::write_attribute;
+using layout::in_run_group;
 using namespace netcdf;
 
-/// The dimensions of the points.
-std::vector<std::string> names_of_dimensions(const Problem& problem)
-{
-    std::vector<std::string> names;
-    for (const StoredDimension& dimension : stored_dimensions(problem)) {
-        names.push_back(dimension.name);
-    }
-    return names;
-}
-
-std::size_t place_of_crossing(const Problem& problem)
-{
-    return problem.grid.dimension_of(Role::strength).value_or(0);
-}
-
 /// Writes fill values to every chunk, so that a run only overwrites existing values.
-void fill(hid_t dataset, Field field, const Problem& problem, const std::string& path,
+void fill(const StoredField& stored, const Problem& problem, const std::string& path,
           const BetweenTiles& between_tiles)
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const Tiling tiling = tiling_of(problem);
-    const std::size_t crossing = place_of_crossing(problem);
     const std::int64_t count =
-        count_points(stored_dimensions_of(field, tiling.tile_shape(), crossing));
-    const std::int64_t bytes = count * std::int64_t(bytes_per_point(field));
+        count_points(stored_dimensions_of(stored.field, tiling.tile_shape(), stored.crossing));
+    const std::int64_t bytes = count * std::int64_t(bytes_per_point(stored.field));
     const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
-    const FieldValues values = not_computed(field, count); // of a whole chunk
+    const FieldValues values = not_computed(stored.field, count); // of a whole chunk
     for (std::int64_t number = 0; number < tiling.size(); ++number) {
         between_tiles();
-        write_chunk(dataset, stored_tile_of(field, tiling[number], crossing), field, values);
+        write_chunk(stored, tiling[number], values);
         if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     }
 }
 
-Handle add_field(hid_t file, Field field, const Problem& problem, const std::string& coordinates)
+/// The values of the flags, in the type of the field, and their meanings.
+void write_flags(hid_t dataset, Field field)
 {
-    const layout::StoredAs stored = layout::stored_as(field);
-    const Tiling tiling = tiling_of(problem);
-    const std::size_t crossing = place_of_crossing(problem);
-    const auto of_field = [&](const Shape& of_points) {
-        return stored_dimensions_of(field, DatasetShape(of_points.begin(), of_points.end()),
-                                    crossing);
-    };
-    const DatasetShape shape = of_field(tiling.shape());
-    const DatasetShape chunk = of_field(tiling.tile_shape());
+    const FieldTraits& traits = traits_of(field);
+    if (traits.flags.empty()) {
+        return;
+    }
+    std::visit(
+        [&]<class Value>(Value) {
+            std::vector<Value> values;
+            for (const FieldFlag& flag : traits.flags) {
+                values.push_back(Value(flag.value));
+            }
+            write_attribute(dataset, traits.has_bits ? "flag_masks" : "flag_values", values);
+        },
+        layout::fill_value(field));
+    std::vector<std::string_view> meanings;
+    for (const FieldFlag& flag : traits.flags) {
+        meanings.push_back(flag.meaning);
+    }
+    write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
+}
 
+void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
+                            const std::string& coordinates)
+{
+    const FieldTraits& traits = traits_of(field);
+    write_attribute(dataset, "long_name", traits.long_name);
+    write_attribute(dataset, "units", traits.units);
+    // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
+    // field would make them convert codes to floats.
+    if (traits.type == FieldType::float64) {
+        write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
+    }
+    if (field == Field::flip_amplitude) {
+        const SearchResolution resolution = search_resolution(scene);
+        write_attribute(dataset, "width", resolution.flip_width);
+        write_attribute(dataset, "finest_step", resolution.finest_step);
+    }
+    write_flags(dataset, field);
+    write_attribute(dataset, "comment", traits.comment);
+    write_attribute(dataset, "coordinates", coordinates);
+}
+
+/// coordinates: names of the auxiliary ones.
+StoredField add_field(hid_t file, Field field, const Problem& problem,
+                      const std::string& coordinates)
+{
+    const std::size_t crossing = place_of_crossing(problem);
+    const Shape tile = stored_dimensions_of(field, tiling_of(problem).tile_shape(), crossing);
+    const hdf5::Extents chunk(tile.begin(), tile.end());
     const Handle creation = dataset_creation();
     if (chunk.empty()) { // a single value
         check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
     } else {
         check(H5Pset_chunk(creation, int(chunk.size()), chunk.data()));
     }
-    std::visit([&](auto fill) { check(H5Pset_fill_value(creation, stored.memory, &fill)); },
-               stored.fill);
+    const hdf5::Type type = layout::type_of(field);
+    std::visit([&](auto value) { check(H5Pset_fill_value(creation, type.memory, &value)); },
+               layout::fill_value(field));
     Handle dataset =
-        create_dataset(file, std::string(name_of(field)), stored.file, shape, creation);
-    attach_dimensions(file, dataset,
-                      stored_dimensions_of(field, names_of_dimensions(problem), crossing));
+        create_dataset(file, std::string(name_of(field)), type.file,
+                       stored_dimensions_of(field, stored_dimensions(problem), crossing), creation);
     write_field_attributes(dataset, field, problem.scene, coordinates);
-    return dataset;
+    return {field, std::move(dataset), crossing};
 }
 
-Handle early_allocated()
+/// Numbers of the group `run`, all 0.
+Handle add_numbers(hid_t file, const char* name, const Dimensions& along, const char* long_name)
 {
-    Handle creation = dataset_creation();
+    const Handle creation = dataset_creation();
     check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
     check(H5Pset_fill_time(creation, H5D_FILL_TIME_ALLOC));
-    return creation;
-}
-
-void add_run_token(hid_t file)
-{
-    const Handle dataset = create_dataset(file, layout::in_run_group(layout::run_token),
-                                          H5T_STD_U64LE, {}, early_allocated());
-    write_attribute(dataset, "long_name", "random number of the ranks, or 0");
-    write_attribute(dataset, "comment",
-                    "used by the ranks to check at the start that they share the file");
-}
-
-/// A number per tile, along the dimension of the checksums.
-Handle add_numbers(hid_t file, const char* name, const Tiling& tiling, const char* long_name)
-{
-    using layout::in_run_group;
-    Handle dataset = create_dataset(file, in_run_group(name), H5T_STD_U64LE,
-                                    {hsize_t(tiling.size())}, early_allocated());
-    attach_dimensions(file, dataset, {in_run_group(layout::tile)});
+    Handle dataset = create_dataset(file, in_run_group(name), H5T_STD_U64LE, along, creation);
     write_attribute(dataset, "long_name", long_name);
     return dataset;
 }
 
 void add_checksums(hid_t file, const Problem& problem)
 {
-    using layout::in_run_group;
     const Tiling tiling = tiling_of(problem);
-    add_bare_dimension(file, in_run_group(layout::tile), tiling.size());
+    const StoredDimension tiles{in_run_group("tile"), tiling.size()};
+    add_bare_dimension(file, tiles);
     const Handle dataset =
-        add_numbers(file, layout::checksum, tiling, "checksum of the tile, 0 if not computed");
+        add_numbers(file, layout::checksum, {tiles}, "checksum of the tile, 0 if not computed");
     write_attribute(dataset, "algorithm",
                     fmt::format("xxHash64, seed 0, over the stored values of the tile, field by "
                                 "field in the order of the variables{}; a hash of 0 is stored as 1",
@@ -138,14 +142,17 @@ void add_checksums(hid_t file, const Problem& problem)
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the last varies fastest");
     if (!tiling.shape().empty()) {
-        write_attribute(dataset, layout::dimensions,
-                        fmt::format("{}", fmt::join(names_of_dimensions(problem), " ")));
+        std::vector<std::string> names;
+        for (const StoredDimension& dimension : stored_dimensions(problem)) {
+            names.push_back(dimension.name);
+        }
+        write_attribute(dataset, layout::dimensions, fmt::format("{}", fmt::join(names, " ")));
         write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
     }
     if (problem.numerics.fill) {
-        add_numbers(file, layout::audit_checked, tiling,
+        add_numbers(file, layout::audit_checked, {tiles},
                     "number of filled points of the tile that were integrated as well");
-        add_numbers(file, layout::audit_wrong, tiling,
+        add_numbers(file, layout::audit_wrong, {tiles},
                     "number of checked points whose integrated value differs from the filled one; "
                     "if there is one, all points of the tile were integrated");
     }
@@ -156,28 +163,20 @@ void add_checksums(hid_t file, const Problem& problem)
 std::string add_coordinates(hid_t file, const Job& job)
 {
     std::vector<std::string> auxiliary;
-    std::vector<std::string> all;
+    std::string checksums;
+    constexpr std::uint64_t any_size = std::numeric_limits<std::uint64_t>::max();
     for (Coordinate& coordinate : coordinates_of(job)) {
         netcdf::Variable& variable = coordinate.variable;
         variable.values = coordinate.values();
         add_variable(file, variable);
-        all.push_back(variable.name);
+        checksums +=
+            fmt::format("{} {}\n", variable.name,
+                        dataset_checksum(hdf5::open_dataset(file, variable.name), any_size));
         if (!variable.is_dimension()) {
             auxiliary.push_back(variable.name);
         }
     }
-    for (const TextCoordinate& text : text_coordinates_of(job)) {
-        add_names(file, text.name, text.dimension, text.values, text.long_name);
-        all.push_back(text.name);
-        auxiliary.push_back(text.name);
-    }
-    std::string checksums;
-    constexpr std::uint64_t any_size = std::numeric_limits<std::uint64_t>::max();
-    for (const std::string& name : all) {
-        checksums += fmt::format("{} {}\n", name,
-                                 dataset_checksum(hdf5::open_dataset(file, name), any_size));
-    }
-    add_text(file, layout::in_run_group(layout::coordinate_checksums), checksums,
+    add_text(file, in_run_group(layout::coordinate_checksums), checksums,
              "checksums of the coordinates, XXH64 of shape and values");
     return fmt::format("{}", fmt::join(auxiliary, " "));
 }
@@ -196,10 +195,12 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job,
             write_attribute(file, "audit", numerics.audit);
         }
     }
-    add_run_token(file); // first, so that it is within any limit of file sizes
+    // The token is the first dataset, so that it is within any limit of file sizes.
+    write_attribute(add_numbers(file, layout::run_token, {}, "random number of the ranks, or 0"),
+                    "comment", "used by the ranks to check at the start that they share the file");
     const std::string auxiliary = add_coordinates(file, job);
     for (const Field field : problem.fields) {
-        fill(add_field(file, field, problem, auxiliary), field, problem, path, between_tiles);
+        fill(add_field(file, field, problem, auxiliary), problem, path, between_tiles);
     }
     add_checksums(file, problem);
 }
@@ -225,18 +226,13 @@ long double spectrum_file_bytes(const Job& job)
         bytes += 1200;
     }
     for (const Coordinate& coordinate : coordinates_of(job)) {
-        Count values = 1;
-        for (const hsize_t length : coordinate.variable.shape) {
-            values *= Count(length);
+        const netcdf::Variable& variable = coordinate.variable;
+        Count bytes_of_values =
+            std::visit([](const auto& values) { return Count(sizeof values[0]); }, variable.values);
+        for (const StoredDimension& dimension : variable.dimensions) {
+            bytes_of_values *= Count(dimension.size);
         }
-        bytes += 600 + 600 * Count(coordinate.variable.shape.size()) + values * sizeof(double);
-    }
-    for (const TextCoordinate& text : text_coordinates_of(job)) {
-        std::size_t longest = 1;
-        for (const std::string& value : text.values) {
-            longest = std::max(longest, value.size());
-        }
-        bytes += 1800 + Count(text.values.size()) * Count(longest);
+        bytes += 600 + 600 * Count(variable.dimensions.size()) + bytes_of_values;
     }
     for (const Motion& motion : job.motions) {
         bytes += Count(record_text(motion).size());

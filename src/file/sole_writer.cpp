@@ -2,7 +2,6 @@
 
 #include "overturn/text/error.hpp"
 
-#include "operating_system.hpp"
 #include "working_file.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,11 @@
 #include "overturn/file/stored_result.hpp"
 
-#include "attributes.hpp"
-#include "dataset_checksum.hpp"
 #include "layout.hpp"
-#include "operating_system.hpp"
 #include "own_dataset.hpp"
 #include "tile_access.hpp"
+#include "working_file.hpp"
 
+#include "overturn/file/spectrum_file.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
 
@@ -16,6 +15,7 @@
 #include <array>
 #include <filesystem>
 #include <iterator>
+#include <new>
 #include <sstream>
 
 namespace overturn {
@@ -23,76 +23,38 @@ namespace overturn {
 using hdf5::check;
 using hdf5::Handle;
 
-struct StoredResult::Open {
-    std::string path;
-    Handle file;
-    FileOrigin origin;
-    TilesSummary tiles;
-    std::vector<std::uint64_t> checksums; ///< by tile number
-    std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
-
-    Tiling tiling() const
-    {
-        Shape shape;
-        for (const AxisSummary& axis : tiles.axes) {
-            shape.push_back(axis.size);
-        }
-        return {std::move(shape), tiles.tile_shape};
-    }
-
-    /// The dimensions of a field, and the place of `crossing` among those of the points.
-    std::vector<AxisSummary> axes_of(Field field) const
-    {
-        return stored_dimensions_of(field, tiles.axes, crossing());
-    }
-    std::size_t crossing() const
-    {
-        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
-                           tiles.axes.begin());
-    }
-};
-
 namespace {
 
-/// Whether all values are stored. This also reads the whole chunk index, so that a damaged index is
-/// found, or crashes HDF5, before the file is used.
-bool is_stored_as_a_whole(hid_t dataset, const std::vector<hsize_t>& shape, hsize_t bytes_per_value)
+/// Returns the result of `read`; converts its errors to an Error that names the file.
+template <class Read>
+auto or_refused(const std::string& path, const Read& read)
 {
-    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-    hsize_t expected = bytes_per_value;
-    std::vector<hsize_t> chunk(shape.size(), 1);
-    if (H5Pget_layout(creation) == H5D_CHUNKED) {
-        check(H5Pget_chunk(creation, int(chunk.size()), chunk.data()));
+    try {
+        return read();
+    } catch (const hdf5::Hdf5Error& error) {
+        throw Error(exit_code::output, "\"{}\" cannot be read or is damaged: {}.", path,
+                    error.what());
+    } catch (const std::bad_alloc&) {
+        throw Error(exit_code::output, "\"{}\" is damaged: it contains an impossible size.", path);
     }
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-        demand(chunk[i] >= 1, "a field has empty chunks");
-        expected *= (shape[i] + chunk[i] - 1) / chunk[i] * chunk[i];
-    }
-    const bool is_compressed = check(H5Pget_nfilters(creation)) > 0;
-    return H5Dget_storage_size(dataset) == expected || is_compressed;
 }
 
-std::string read_text(hid_t file, const std::string& name, std::uint64_t bytes)
+std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
-    const Handle dataset = open_own_dataset(file, name);
-    std::string text(length_of_list(dataset, H5T_C_S1, bytes, "a text is malformed"), '\0');
-    check(H5Dread(dataset, H5T_C_S1, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
-    return text;
+    const Handle dataset = open_own_dataset(file, layout::in_run_group(name));
+    const std::vector<char> text = read_all<char>(dataset, bytes);
+    return {text.begin(), text.end()};
 }
 
-AxisSummary read_axis(hid_t file, const std::string& name, std::uint64_t bytes)
+AxisSummary read_axis(hid_t dataset, const std::string& name, std::uint64_t bytes)
 {
-    constexpr const char* malformed = "an axis is malformed";
-    const Handle dataset = open_own_dataset(file, name);
-    std::vector<double> values(length_of_list(dataset, H5T_IEEE_F64LE, bytes, malformed));
-    demand(!values.empty(), malformed);
-    check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    const std::vector<double> values = read_all<double>(dataset, bytes);
     return {name, std::int64_t(values.size()), values.front(), values.back(),
             hdf5::read_text_attribute(dataset, "units")};
 }
 
 /// The coordinates that are stored as single values.
-std::vector<AxisSummary> read_coordinate_numbers(hid_t file)
+std::vector<AxisSummary> read_coordinate_numbers(hid_t file, std::uint64_t bytes)
 {
     std::vector<AxisSummary> numbers;
     for (const Quantity& quantity : all_quantities()) {
@@ -102,10 +64,8 @@ std::vector<AxisSummary> read_coordinate_numbers(hid_t file)
             continue;
         }
         const Handle dataset = open_own_dataset(file, name);
-        if (shape_of(dataset).empty() && has_type(dataset, H5T_IEEE_F64LE)) {
-            double value = 0;
-            check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value));
-            numbers.push_back({name, 1, value, value, hdf5::read_text_attribute(dataset, "units")});
+        if (shape_of(dataset).empty() && has_type(dataset, hdf5::Type::of(double()))) {
+            numbers.push_back(read_axis(dataset, name, bytes));
         }
     }
     return numbers;
@@ -135,27 +95,10 @@ std::vector<Field> read_fields(hid_t file)
 void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, std::uint64_t bytes)
 {
     const Handle dataset = open_own_dataset(file, std::string(name_of(field)));
-    const std::vector<hsize_t> shape = shape_of(dataset);
-    demand(shape.size() == axes.size() && has_type(dataset, layout::stored_as(field).file),
-           "a field is malformed");
-    std::uint64_t room = bytes / bytes_per_point(field);
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-        demand(shape[i] == hsize_t(axes[i].size), "a field does not fit the axes");
-        demand(shape[i] <= room, "a field is larger than the file");
-        room /= shape[i];
-    }
-    demand(is_stored_as_a_whole(dataset, shape, bytes_per_point(field)),
-           "values of a field are missing");
-}
-
-/// Numbers of the group `run`, one per tile.
-std::vector<std::uint64_t> read_numbers_of_tiles(hid_t file, const char* name, std::int64_t tiles,
-                                                 std::uint64_t bytes)
-{
-    constexpr const char* foreign = "the numbers of the tiles do not fit the tiles";
-    const Handle dataset = open_own_dataset(file, layout::in_run_group(name));
-    demand(length_of_list(dataset, H5T_STD_U64LE, bytes, foreign) == hsize_t(tiles), foreign);
-    return read_numbers(dataset);
+    demand(std::ranges::equal(shape_of(dataset), axes, {}, {},
+                              [](const AxisSummary& axis) { return hsize_t(axis.size); }),
+           "a field does not fit the axes");
+    count_stored(dataset, layout::type_of(field), bytes);
 }
 
 /// The metadata of a file of any kind.
@@ -170,9 +113,8 @@ FileOrigin read_origin(hid_t file, const std::string& path)
                     path, kind.empty() ? "" : fmt::format(": its kind is \"{}\"", kind));
     }
     origin.kind = FileKind(found - layout::kinds.begin());
-    origin.format = hdf5::has_attribute(file, layout::format_version)
-                        ? hdf5::read_integer_attribute(file, layout::format_version)
-                        : 1;
+    const auto format = hdf5::read_integers_attribute(file, layout::format_version);
+    origin.format = format.empty() ? 1 : format.front();
     if (origin.format < layout::oldest_format || origin.format > layout::newest_format) {
         throw Error(exit_code::output,
                     "\"{}\" has format version {}, but this program reads the versions "
@@ -183,7 +125,7 @@ FileOrigin read_origin(hid_t file, const std::string& path)
     origin.title = hdf5::read_text_attribute(file, "title");
     origin.program_version = hdf5::read_text_attribute(file, "program_version");
     origin.program_commit = hdf5::read_text_attribute(file, "program_commit");
-    origin.resolved_job = read_text(file, layout::in_run_group(layout::job_resolved), origin.bytes);
+    origin.resolved_job = read_text(file, layout::job_resolved, origin.bytes);
     return origin;
 }
 
@@ -195,7 +137,7 @@ Handle open_file(const std::string& path)
                     reason ? in_sentence(reason.message())
                            : std::string("it is not a regular file"));
     }
-    hdf5::start();
+    start_hdf5();
     if (check(H5Fis_hdf5(path.c_str())) == 0) {
         throw Error(exit_code::output, "\"{}\" is not an HDF5 file.", path);
     }
@@ -204,65 +146,116 @@ Handle open_file(const std::string& path)
 
 } // namespace
 
-StoredResult::StoredResult(const std::string& path) : open_(std::make_unique<Open>())
+struct StoredResult::Open {
+    std::string path;
+    Handle file;
+    FileOrigin origin;
+    TilesSummary tiles;
+    std::vector<std::uint64_t> checksums; ///< by tile number
+    std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
+
+    Tiling tiling() const
+    {
+        Shape shape;
+        for (const AxisSummary& axis : tiles.axes) {
+            shape.push_back(axis.size);
+        }
+        return {std::move(shape), tiles.tile_shape};
+    }
+
+    /// The place of `crossing` among the axes; any place if there is none.
+    std::size_t crossing() const
+    {
+        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
+                           tiles.axes.begin());
+    }
+
+    void read_tiles()
+    {
+        const std::uint64_t bytes = origin.bytes;
+        const auto open_number = [&](const char* name) {
+            return open_own_dataset(file, layout::in_run_group(name));
+        };
+        const Handle dataset = open_number(layout::checksum);
+        std::istringstream words(hdf5::read_text_attribute(dataset, layout::dimensions));
+        const std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
+        demand(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
+        for (const std::string& name : names) {
+            const Handle axis = open_own_dataset(file, name);
+            demand(shape_of(axis).size() == 1, "an axis is malformed");
+            tiles.axes.push_back(read_axis(axis, name, bytes));
+        }
+        tiles.numbers = read_coordinate_numbers(file, bytes);
+        tiles.fields = read_fields(file);
+        for (const Field field : tiles.fields) {
+            demand(!traits_of(field).is_of_line || crossing() < tiles.axes.size(),
+                   "the dimension `crossing` is missing");
+            check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
+        }
+        tiles.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
+        demand(tiles.tile_shape.size() == tiles.axes.size() &&
+                   std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
+               "the tiles are malformed");
+        tiles.tiles = tiling().size();
+        const auto read_numbers = [&](hid_t numbers) {
+            demand(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
+                   "the numbers of the tiles do not fit the tiles");
+            return read_all<std::uint64_t>(numbers, bytes);
+        };
+        checksums = read_numbers(dataset);
+        tiles.tiles_done = tiles.tiles - std::ranges::count(checksums, not_computed_checksum);
+        if (std::ranges::count(tiles.fields, Field::evaluated) == 0) {
+            return;
+        }
+        const std::vector<std::uint64_t> checked = read_numbers(open_number(layout::audit_checked));
+        const std::vector<std::uint64_t> wrong = read_numbers(open_number(layout::audit_wrong));
+        tiles.audit = AuditCount{};
+        for (std::size_t tile = 0; tile < checked.size(); ++tile) {
+            audits.push_back({std::int64_t(checked[tile]), std::int64_t(wrong[tile])});
+            if (checksums[tile] != not_computed_checksum) {
+                tiles.audit->checked += audits.back().checked;
+                tiles.audit->wrong += audits.back().wrong;
+            }
+        }
+    }
+
+    /// Calls use(tile, values) with every computed tile and its values of the given fields.
+    template <class Use>
+    void for_each_computed_tile(const std::vector<Field>& fields,
+                                const std::function<void()>& between_tiles, const Use& use) const
+    {
+        const Tiling all = tiling();
+        or_refused(path, [&] {
+            std::vector<StoredField> stored;
+            for (const Field field : fields) {
+                stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
+            }
+            for (std::int64_t number = 0; number < all.size(); ++number) {
+                between_tiles();
+                if (checksums[std::size_t(number)] == not_computed_checksum) {
+                    continue;
+                }
+                const Tile tile = all[number];
+                std::vector<FieldValues> values;
+                for (const StoredField& field : stored) {
+                    values.push_back(read_tile(field, tile));
+                }
+                use(tile, values);
+            }
+        });
+    }
+};
+
+StoredResult::StoredResult(const std::string& path) : open_(std::make_shared<Open>())
 {
     open_->path = path;
     or_refused(path, [&] {
         open_->file = open_file(path);
         open_->origin = read_origin(open_->file, path);
         if (open_->origin.has_tiles()) {
-            read_tiles();
+            open_->read_tiles();
         }
     });
-}
-
-StoredResult::~StoredResult() = default;
-StoredResult::StoredResult(StoredResult&&) noexcept = default;
-StoredResult& StoredResult::operator=(StoredResult&&) noexcept = default;
-
-/// Throws Hdf5Error, which the constructor converts.
-void StoredResult::read_tiles()
-{
-    const std::uint64_t bytes = open_->origin.bytes;
-    TilesSummary& summary = open_->tiles;
-    const Handle dataset = open_own_dataset(open_->file, layout::in_run_group(layout::checksum));
-    std::istringstream words(hdf5::read_text_attribute(dataset, layout::dimensions));
-    const std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
-    demand(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
-    for (const std::string& name : names) {
-        summary.axes.push_back(read_axis(open_->file, name, bytes));
-    }
-    summary.numbers = read_coordinate_numbers(open_->file);
-    summary.fields = read_fields(open_->file);
-    for (const Field field : summary.fields) {
-        check_field(open_->file, field, open_->axes_of(field), bytes);
-    }
-    if (!names.empty()) {
-        summary.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
-    }
-    demand(summary.tile_shape.size() == summary.axes.size() &&
-               std::ranges::all_of(summary.tile_shape, [](auto size) { return size >= 1; }),
-           "the tiles are malformed");
-    summary.tiles = open_->tiling().size();
-    const auto numbers = [&](const char* name) {
-        return read_numbers_of_tiles(open_->file, name, summary.tiles, bytes);
-    };
-    open_->checksums = numbers(layout::checksum);
-    summary.tiles_done =
-        summary.tiles - std::ranges::count(open_->checksums, not_computed_checksum);
-    if (std::ranges::count(summary.fields, Field::evaluated) == 0) {
-        return;
-    }
-    const std::vector<std::uint64_t> checked = numbers(layout::audit_checked);
-    const std::vector<std::uint64_t> wrong = numbers(layout::audit_wrong);
-    summary.audit = AuditCount{};
-    for (std::size_t tile = 0; tile < checked.size(); ++tile) {
-        open_->audits.push_back({std::int64_t(checked[tile]), std::int64_t(wrong[tile])});
-        if (open_->checksums[tile] != not_computed_checksum) {
-            summary.audit->checked += open_->audits.back().checked;
-            summary.audit->wrong += open_->audits.back().wrong;
-        }
-    }
 }
 
 const std::string& StoredResult::path() const
@@ -298,8 +291,7 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
     }
     return or_refused(open_->path, [&] {
         const std::uint64_t bytes = open_->origin.bytes;
-        std::istringstream lines(
-            read_text(open_->file, layout::in_run_group(layout::coordinate_checksums), bytes));
+        std::istringstream lines(read_text(open_->file, layout::coordinate_checksums, bytes));
         std::vector<std::string> damaged;
         for (std::string name, checksum; lines >> name >> checksum;) {
             if (dataset_checksum(open_own_dataset(open_->file, name), bytes) != checksum) {
@@ -310,51 +302,18 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
     });
 }
 
-/// Calls `use` with every computed tile and its values of the given fields.
-template <class Use>
-void StoredResult::for_each_computed_tile(const std::vector<Field>& fields,
-                                          const std::function<void()>& between_tiles,
-                                          const Use& use) const
-{
-    const Tiling tiling = open_->tiling();
-    try {
-        std::vector<Handle> datasets;
-        for (const Field field : fields) {
-            datasets.push_back(hdf5::open_dataset(open_->file, name_of(field)));
-        }
-        for (std::int64_t number = 0; number < tiling.size(); ++number) {
-            between_tiles();
-            if (open_->checksums[std::size_t(number)] == not_computed_checksum) {
-                continue;
-            }
-            const Tile tile = tiling[number];
-            std::vector<FieldValues> values;
-            for (std::size_t i = 0; i < fields.size(); ++i) {
-                values.push_back(read_tile(
-                    datasets[i], stored_tile_of(fields[i], tile, open_->crossing()), fields[i]));
-            }
-            use(tile, values);
-        }
-    } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "cannot read the values in \"{}\": {}.", open_->path,
-                    error.what());
-    }
-}
-
 std::vector<std::int64_t>
 StoredResult::damaged_tiles(const std::function<void()>& between_tiles) const
 {
     std::vector<std::int64_t> damaged;
-    for_each_computed_tile(tiles().fields, between_tiles,
-                           [&](const Tile& tile, const std::vector<FieldValues>& values) {
-                               const auto number = std::size_t(tile.number);
-                               const auto audit = open_->tiles.audit
-                                                      ? std::optional(open_->audits[number])
-                                                      : std::nullopt;
-                               if (tile_checksum(values, audit) != open_->checksums[number]) {
-                                   damaged.push_back(tile.number);
-                               }
-                           });
+    const auto check_tile = [&](const Tile& tile, const std::vector<FieldValues>& values) {
+        const auto number = std::size_t(tile.number);
+        const auto audit = open_->tiles.audit ? std::optional(open_->audits[number]) : std::nullopt;
+        if (tile_checksum(values, audit) != open_->checksums[number]) {
+            damaged.push_back(tile.number);
+        }
+    };
+    open_->for_each_computed_tile(tiles().fields, between_tiles, check_tile);
     return damaged;
 }
 
@@ -383,7 +342,7 @@ BoundaryLines StoredResult::count_lines() const
             lines.undecided_share += std::get<std::vector<double>>(values[3])[0];
         }
     };
-    for_each_computed_tile(
+    open_->for_each_computed_tile(
         fields, [] {}, count);
     const auto computed = double(std::max<std::int64_t>(1, lines.computed));
     lines.unsafe_share /= computed;

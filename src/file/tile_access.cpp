@@ -15,9 +15,7 @@ namespace {
 using hdf5::check;
 using hdf5::Handle;
 
-using Extents = std::vector<hsize_t>;
-
-Extents extents(const Shape& shape)
+hdf5::Extents extents(const Shape& shape)
 {
     return {shape.begin(), shape.end()};
 }
@@ -37,58 +35,55 @@ Handle selection(hid_t dataset, const Tile& tile)
 /// point by point, which took half as long as computing the points.
 Handle in_memory(const Tile& tile)
 {
-    return Handle(H5Screate_simple(int(tile.count.size()), extents(tile.count).data(), nullptr),
-                  H5Sclose);
+    return hdf5::space_of(extents(tile.count));
 }
 
 } // namespace
 
 FieldValues not_computed(Field field, std::int64_t count)
 {
-    const auto stored = layout::stored_as(field);
     return std::visit(
         [&](auto value) { return FieldValues(std::vector(std::size_t(count), value)); },
-        stored.fill);
+        layout::fill_value(field));
 }
 
-void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
+void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
-    if (tile.count.empty()) {
-        write_tile(dataset, tile, field, values);
+    const Tile part = stored.part_of(tile);
+    if (part.count.empty()) {
+        write_tile(stored, tile, values);
         return;
     }
     constexpr std::uint32_t no_filter_skipped = 0;
-    const Extents begin = extents(tile.begin);
     std::visit(
         [&](const auto& list) {
-            check(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter_skipped, begin.data(),
-                                 list.size() * sizeof(list[0]), list.data()));
+            check(H5Dwrite_chunk(stored.dataset, H5P_DEFAULT, no_filter_skipped,
+                                 extents(part.begin).data(), list.size() * sizeof(list[0]),
+                                 list.data()));
         },
         values);
 }
 
-void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values)
+void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
-    const Handle place = selection(dataset, tile);
-    const Handle memory = in_memory(tile);
+    const Tile part = stored.part_of(tile);
     std::visit(
         [&](const auto& list) {
-            assert(std::int64_t(list.size()) == tile.points());
-            check(H5Dwrite(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,
-                           list.data()));
+            assert(std::int64_t(list.size()) == part.points());
+            check(H5Dwrite(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),
+                           selection(stored.dataset, part), H5P_DEFAULT, list.data()));
         },
         values);
 }
 
-FieldValues read_tile(hid_t dataset, const Tile& tile, Field field)
+FieldValues read_tile(const StoredField& stored, const Tile& tile)
 {
-    const Handle place = selection(dataset, tile);
-    const Handle memory = in_memory(tile);
-    FieldValues values = make_field_values(field, std::size_t(tile.points()));
+    const Tile part = stored.part_of(tile);
+    FieldValues values = make_field_values(stored.field, std::size_t(part.points()));
     std::visit(
         [&](auto& list) {
-            check(H5Dread(dataset, layout::stored_as(field).memory, memory, place, H5P_DEFAULT,
-                          list.data()));
+            check(H5Dread(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),
+                          selection(stored.dataset, part), H5P_DEFAULT, list.data()));
         },
         values);
     return values;
@@ -119,20 +114,10 @@ std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
 
 void write_number(hid_t dataset, std::int64_t tile, std::uint64_t number)
 {
-    const hsize_t position = hsize_t(tile);
+    const auto position = hsize_t(tile);
     const Handle place(H5Dget_space(dataset), H5Sclose);
     check(H5Sselect_elements(place, H5S_SELECT_SET, 1, &position));
-    const hsize_t one = 1;
-    const Handle memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
-    check(H5Dwrite(dataset, H5T_NATIVE_UINT64, memory, place, H5P_DEFAULT, &number));
-}
-
-std::vector<std::uint64_t> read_numbers(hid_t dataset)
-{
-    const Handle space(H5Dget_space(dataset), H5Sclose);
-    std::vector<std::uint64_t> numbers(std::size_t(check(H5Sget_simple_extent_npoints(space))));
-    check(H5Dread(dataset, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()));
-    return numbers;
+    check(H5Dwrite(dataset, H5T_NATIVE_UINT64, hdf5::space_of({1}), place, H5P_DEFAULT, &number));
 }
 
 } // namespace overturn

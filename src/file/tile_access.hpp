@@ -5,7 +5,7 @@
 #include "hdf5_handles.hpp"
 
 #include "overturn/problem/fields.hpp"
-#include "overturn/problem/tile.hpp"
+#include "overturn/problem/problem.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
 #include <cstdint>
@@ -13,6 +13,12 @@
 #include <vector>
 
 namespace overturn {
+
+/// The place of the dimension `crossing` of a boundary; any place otherwise.
+inline std::size_t place_of_crossing(const Problem& problem)
+{
+    return problem.grid.dimension_of(Role::strength).value_or(0);
+}
 
 /// The entries of a list, one per dimension of the points, for the dimensions of a field: a field
 /// of a line lacks `crossing`, whose place is given.
@@ -25,23 +31,28 @@ List stored_dimensions_of(Field field, List of_points, std::size_t crossing)
     return of_points;
 }
 
-/// The part of a field that belongs to a tile.
-inline Tile stored_tile_of(Field field, const Tile& tile, std::size_t crossing)
-{
-    return {tile.number, stored_dimensions_of(field, tile.begin, crossing),
-            stored_dimensions_of(field, tile.count, crossing)};
-}
+/// A field of an open file.
+struct StoredField {
+    Field field;
+    hdf5::Handle dataset;
+    std::size_t crossing; ///< the place of this dimension of the points
+
+    /// The part of the field that belongs to a tile of the points.
+    Tile part_of(const Tile& tile) const
+    {
+        return {tile.number, stored_dimensions_of(field, tile.begin, crossing),
+                stored_dimensions_of(field, tile.count, crossing)};
+    }
+};
 
 /// The fill values of a field that is not computed yet.
 FieldValues not_computed(Field field, std::int64_t count);
 
-// The tiles of the following functions are those of the field, see stored_tile_of().
-
 /// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
-void write_chunk(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
+void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values);
 
-void write_tile(hid_t dataset, const Tile& tile, Field field, const FieldValues& values);
-FieldValues read_tile(hid_t dataset, const Tile& tile, Field field);
+void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values);
+FieldValues read_tile(const StoredField& stored, const Tile& tile);
 
 inline constexpr std::uint64_t not_computed_checksum = 0;
 
@@ -51,8 +62,7 @@ inline constexpr std::uint64_t not_computed_checksum = 0;
 std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
                             const std::optional<AuditCount>& audit = std::nullopt);
 
-/// Access to a dataset of one number per tile, such as the checksums.
+/// Writes into a dataset of one number per tile, such as the checksums.
 void write_number(hid_t dataset, std::int64_t tile, std::uint64_t number);
-std::vector<std::uint64_t> read_numbers(hid_t dataset);
 
 } // namespace overturn

@@ -1,16 +1,13 @@
 #include "working_file.hpp"
 
-#include "operating_system.hpp"
-
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
+#include <cctype>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace overturn {
@@ -38,6 +35,33 @@ std::string behind_links(const std::string& path)
 
 } // namespace
 
+bool sync(const std::string& path)
+{
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+        return false;
+    }
+    const int result = fsync(descriptor);
+    const int reason = errno;
+    close(descriptor);
+    errno = reason;
+    // Some file systems cannot sync a folder, and return EINVAL.
+    return result == 0 || (reason == EINVAL && std::filesystem::is_directory(path));
+}
+
+std::string in_sentence(std::string message)
+{
+    if (message.size() > 1 && std::islower(static_cast<unsigned char>(message[1]))) {
+        message[0] = char(std::tolower(static_cast<unsigned char>(message[0])));
+    }
+    return message;
+}
+
+std::string system_reason(int error_number)
+{
+    return in_sentence(std::strerror(error_number));
+}
+
 int create_working_file(const std::string& path)
 {
     constexpr mode_t for_all_but_umask = 0666;
@@ -62,24 +86,20 @@ bool is_left_over(const std::string& path)
 PartFile::PartFile(const std::string& path)
     : target_(behind_links(path)), folder_(folder_of(target_)), part_(target_ + ".part")
 {
+    const auto refuse = [](const std::string& path_to_create, const std::string& reason) {
+        throw Error(exit_code::output, "cannot create \"{}\": {} another name with -o.",
+                    path_to_create, reason);
+    };
     if (!std::filesystem::is_directory(folder_)) {
-        throw Error(exit_code::output,
-                    "cannot create \"{}\": there is no folder \"{}\". Create it, or "
-                    "choose another name with -o.",
-                    target_, folder_);
+        refuse(target_, fmt::format("there is no folder \"{}\". Create it, or choose", folder_));
     }
     if (access(folder_.c_str(), W_OK | X_OK) != 0) {
-        throw Error(exit_code::output,
-                    "cannot create \"{}\": the folder \"{}\" is not writable: {}. "
-                    "Choose another name with -o.",
-                    target_, folder_, system_reason(errno));
+        refuse(target_, fmt::format("the folder \"{}\" is not writable: {}. Choose", folder_,
+                                    system_reason(errno)));
     }
     std::error_code none;
     if (std::filesystem::is_symlink(target_, none) && !std::filesystem::exists(target_, none)) {
-        throw Error(exit_code::output,
-                    "cannot create \"{}\": it is a link to a file that does not "
-                    "exist. Remove the link, or choose another name with -o.",
-                    target_);
+        refuse(target_, "it is a link to a file that does not exist. Remove the link, or choose");
     }
     int created = create_working_file(part_);
     if (created < 0 && errno == EEXIST && is_left_over(part_)) {
@@ -87,8 +107,7 @@ PartFile::PartFile(const std::string& path)
         created = create_working_file(part_);
     }
     if (created < 0) {
-        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
-                    part_, system_reason(errno));
+        refuse(part_, fmt::format("{}. Choose", system_reason(errno)));
     }
     close(created);
 }
@@ -102,12 +121,13 @@ PartFile::~PartFile()
 
 std::uint64_t PartFile::available_bytes() const
 {
-    struct statvfs disk = {};
-    if (statvfs(folder_.c_str(), &disk) != 0) {
+    std::error_code reason;
+    const std::filesystem::space_info space = std::filesystem::space(folder_, reason);
+    if (reason) {
         throw Error(exit_code::output, "cannot determine the free space in \"{}\": {}.", folder_,
-                    system_reason(errno));
+                    in_sentence(reason.message()));
     }
-    return std::uint64_t(disk.f_bavail) * disk.f_frsize;
+    return space.available;
 }
 
 void PartFile::move_into_place()

@@ -1,11 +1,22 @@
 // Temporary files next to a result while overturn runs: a lock, and part files that are renamed
 // when they are complete. Files of other programs with such a name are never reused or removed.
+// Also syncing to the disk, and the messages of the operating system.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 namespace overturn {
+
+/// Syncs a file or folder to the disk, so that it survives a power failure, including what other
+/// processes of this machine have written to it. Returns false, with errno, on failure.
+bool sync(const std::string& path);
+
+/// A message as part of a sentence: "No space left" becomes "no space left"; "MPI_ERR" is kept.
+std::string in_sentence(std::string message);
+
+/// The message of a system error number, such as "no space left on device".
+std::string system_reason(int error_number);
 
 /// Creates a working file and returns its descriptor; -1, with errno, on failure.
 int create_working_file(const std::string& path);

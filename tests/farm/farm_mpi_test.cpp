@@ -17,20 +17,6 @@ const StopRequest no_stop{never, never};
 constexpr std::chrono::seconds patience{60};
 const auto no_progress = [](std::int64_t) {};
 
-/// Runs the farm without writing anything.
-FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-                       const std::function<void(std::int64_t)>& compute,
-                       const std::function<void(std::int64_t)>& on_progress,
-                       const std::function<bool()>& stop_requested)
-{
-    const auto compute_whole = [&](std::int64_t number, const std::function<bool()>&) {
-        compute(number);
-        return true;
-    };
-    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}}, on_progress,
-                    {stop_requested, never}, patience);
-}
-
 /// Every `stride`-th number from 0 on rank 0; empty on other ranks, as the farm requires.
 std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_t count,
                                           std::int64_t stride = 1)
@@ -40,6 +26,20 @@ std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_
         tiles.push_back(stride * i);
     }
     return tiles;
+}
+
+/// Runs the farm without writing anything.
+FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t>& tiles,
+                       const std::function<void(std::int64_t)>& compute,
+                       const std::function<bool()>& stop_requested = never,
+                       const std::function<void(std::int64_t)>& on_progress = no_progress)
+{
+    const auto compute_whole = [&](std::int64_t number, const std::function<bool()>&) {
+        compute(number);
+        return true;
+    };
+    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}, on_progress},
+                    {stop_requested, never}, patience);
 }
 
 /// How often each tile number in [0, numbers) was computed by all ranks; returned on all ranks.
@@ -60,11 +60,11 @@ TEST(Farm, ComputesEachTileOnce)
     const MpiSession session;
     for (const int count : {0, 1, 2, 3, 4, 7, 50, 1000}) {
         std::vector<int> times(std::size_t(count), 0);
-        const FarmReport report = compute_all(
-            session, tiles_on_rank_0(session, count),
-            [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
+        const FarmReport report =
+            compute_all(session, tiles_on_rank_0(session, count),
+                        [&](std::int64_t number) { ++times[std::size_t(number)]; });
         EXPECT_EQ(over_all_ranks(session, times), std::vector<int>(std::size_t(count), 1));
-        EXPECT_EQ(report.tiles, count);
+        EXPECT_EQ(report.all.tiles, count);
         EXPECT_FALSE(report.stopped);
     }
 }
@@ -73,9 +73,8 @@ TEST(Farm, ComputesOnlyTheTilesOfTheList)
 {
     const MpiSession session;
     std::vector<int> times(300, 0);
-    compute_all(
-        session, tiles_on_rank_0(session, 100, 3),
-        [&](std::int64_t number) { ++times[std::size_t(number)]; }, no_progress, never);
+    compute_all(session, tiles_on_rank_0(session, 100, 3),
+                [&](std::int64_t number) { ++times[std::size_t(number)]; });
     times = over_all_ranks(session, times);
     for (std::size_t number = 0; number < times.size(); ++number) {
         EXPECT_EQ(times[number], number % 3 == 0 ? 1 : 0) << number;
@@ -95,9 +94,10 @@ TEST(Farm, ReportsTheShareOfEachRank)
                                  [&](std::int64_t) {
                                      work_for(std::chrono::milliseconds(1));
                                      ++own;
-                                 }};
+                                 },
+                             .on_progress = no_progress};
     const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_progress, no_stop, patience);
+        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_stop, patience);
 
     std::vector<std::int64_t> counted(std::size_t(session.size()));
     MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
@@ -122,8 +122,8 @@ TEST(Farm, ProgressIncreasesToTheNumberOfTiles)
     std::vector<std::int64_t> seen{0};
     compute_all(
         session, tiles_on_rank_0(session, 200),
-        [&](std::int64_t) { work_for(std::chrono::microseconds(100)); },
-        [&](std::int64_t done) { seen.push_back(done); }, never);
+        [&](std::int64_t) { work_for(std::chrono::microseconds(100)); }, never,
+        [&](std::int64_t done) { seen.push_back(done); });
     EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
     EXPECT_EQ(seen.back(), session.rank() == 0 ? 200 : 0);
 }
@@ -135,9 +135,8 @@ TEST(Farm, SharesUnequalTilesEvenly)
     const auto cost = [](std::int64_t number) {
         return std::chrono::microseconds(number < 20 ? 19000 : 1000);
     };
-    const FarmReport report = compute_all(
-        session, tiles_on_rank_0(session, 200),
-        [&](std::int64_t number) { work_for(cost(number)); }, no_progress, never);
+    const FarmReport report = compute_all(session, tiles_on_rank_0(session, 200),
+                                          [&](std::int64_t number) { work_for(cost(number)); });
     double most = 0;
     for (const RankShare& rank : report.ranks) {
         most = std::max(most, rank.compute_seconds);
@@ -164,11 +163,11 @@ TEST(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
                 ++times[std::size_t(number)];
                 ++own;
             },
-            no_progress, [&] { return session.rank() == stopping_rank && own >= 5; });
+            [&] { return session.rank() == stopping_rank && own >= 5; });
         times = over_all_ranks(session, times);
         const auto done = std::count(times.begin(), times.end(), 1);
         EXPECT_TRUE(report.stopped);
-        EXPECT_EQ(report.tiles, done);
+        EXPECT_EQ(report.all.tiles, done);
         EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
         // Others finish the ranges that they hold, one in progress and one ahead, each of a 16th of
         // a fair share.
@@ -184,10 +183,9 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
     const MpiSession session;
     int own = 0;
     const FarmReport report = compute_all(
-        session, tiles_on_rank_0(session, 100), [&](std::int64_t) { ++own; }, no_progress,
-        [] { return true; });
+        session, tiles_on_rank_0(session, 100), [&](std::int64_t) { ++own; }, [] { return true; });
     EXPECT_EQ(own, 0);
-    EXPECT_EQ(report.tiles, 0);
+    EXPECT_EQ(report.all.tiles, 0);
     EXPECT_TRUE(report.stopped);
 }
 
@@ -204,14 +202,15 @@ TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
                                      ++begun;
                                      return !drop_requested();
                                  },
-                             .write = [&](std::int64_t) { ++written; }};
-    const FarmReport report = farm_out(session, tiles_on_rank_0(session, 500), tile_work,
-                                       no_progress, {stop, stop}, patience);
+                             .write = [&](std::int64_t) { ++written; },
+                             .on_progress = no_progress};
+    const FarmReport report =
+        farm_out(session, tiles_on_rank_0(session, 500), tile_work, {stop, stop}, patience);
     if (session.rank() == stopping_rank) {
         EXPECT_EQ(written, 2);
     }
     MPI_Allreduce(MPI_IN_PLACE, &written, 1, MPI_INT64_T, MPI_SUM, session.communicator());
-    EXPECT_EQ(report.tiles, written);
+    EXPECT_EQ(report.all.tiles, written);
     EXPECT_TRUE(report.stopped);
 }
 
@@ -229,11 +228,11 @@ TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
                                      }
                                      return true;
                                  },
-                             .write = [](std::int64_t) {}};
-    const FarmReport report = farm_out(
-        session, tiles_on_rank_0(session, count), tile_work,
-        [&](std::int64_t now_done) { done = now_done; }, no_stop, patience);
-    EXPECT_EQ(report.tiles, count);
+                             .write = [](std::int64_t) {},
+                             .on_progress = [&](std::int64_t now_done) { done = now_done; }};
+    const FarmReport report =
+        farm_out(session, tiles_on_rank_0(session, count), tile_work, no_stop, patience);
+    EXPECT_EQ(report.all.tiles, count);
     if (session.rank() == 0 && session.size() > 1) {
         EXPECT_LE(report.ranks[0].tiles, 1);
     }
@@ -243,8 +242,7 @@ TEST(Farm, AStopAfterTheLastTileIsIgnored)
 {
     const MpiSession session;
     const FarmReport report = compute_all(
-        session, tiles_on_rank_0(session, 0), [](std::int64_t) {}, no_progress,
-        [] { return true; });
+        session, tiles_on_rank_0(session, 0), [](std::int64_t) {}, [] { return true; });
     EXPECT_FALSE(report.stopped);
 }
 
@@ -257,7 +255,7 @@ TEST(MpiSession, GivesAllRanksTheValueOfRank0)
 TEST(MpiSession, KnowsTheHostOfEachRankOnRank0)
 {
     const MpiSession session;
-    const auto hosts = session.host_names();
+    const auto& hosts = session.hosts();
     ASSERT_EQ(hosts.size(), session.rank() == 0 ? std::size_t(session.size()) : 0);
     for (const std::string& host : hosts) {
         EXPECT_EQ(host, hosts.front()); // the ranks of a test share one machine

@@ -1,4 +1,6 @@
+#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
+#include "own_dataset.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -8,7 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <cmath>
 #include <optional>
@@ -19,48 +21,27 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Returns the message of the Error thrown by the call; empty if none is thrown.
-template <class Call>
-std::string refusal(const Call& call)
-{
-    try {
-        call();
-        return {};
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        return error.what();
-    }
-}
-
 /// Returns a numeric global attribute, or nullopt if it does not exist.
 std::optional<double> global_number(const std::string& path, const char* name)
 {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    std::optional<double> value;
-    if (H5Aexists(file, name) > 0) {
-        const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-        H5Aread(attribute, H5T_NATIVE_DOUBLE, &value.emplace());
-        H5Aclose(attribute);
-    }
-    H5Fclose(file);
-    return value;
+    const hdf5::Handle file = hdf5::open_to_read(path);
+    double value = 0;
+    return H5LTfind_attribute(file, name) > 0 &&
+                   H5LTget_attribute_double(file, "/", name, &value) >= 0
+               ? std::optional(value)
+               : std::nullopt;
 }
 
 /// The value of a coordinate without dimensions, or nullopt if it does not exist.
 std::optional<double> single_value(const std::string& path, const char* name)
 {
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    std::optional<double> value;
-    if (H5Lexists(file, name, H5P_DEFAULT) > 0) {
-        const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-        const hid_t space = H5Dget_space(dataset);
-        EXPECT_EQ(H5Sget_simple_extent_type(space), H5S_SCALAR) << name;
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value.emplace());
-        H5Sclose(space);
-        H5Dclose(dataset);
+    const hdf5::Handle file = hdf5::open_to_read(path);
+    if (H5Lexists(file, name, H5P_DEFAULT) <= 0) {
+        return std::nullopt;
     }
-    H5Fclose(file);
-    return value;
+    const hdf5::Handle dataset = hdf5::open_dataset(file, name);
+    EXPECT_TRUE(shape_of(dataset).empty()) << name;
+    return read_all<double>(dataset, std::filesystem::file_size(path)).front();
 }
 
 /// The sample with the slenderness of one block.
@@ -74,45 +55,43 @@ Job job_of_one_block()
     return job;
 }
 
-bool is_complete(const StoredResult& result)
-{
-    return result.tiles().tiles_done == result.tiles().tiles;
-}
+class CreateSpectrumFile : public testing::Test {
+protected:
+    void create(const char* name = "a.h5") const { create_spectrum_file(folder / name, job); }
 
-TEST(CreateSpectrumFile, GivesEqualBytesForEqualJobs)
+    ScratchFolder folder;
+    Job job = sample_job();
+};
+
+using SpectrumFileBytes = CreateSpectrumFile;
+
+TEST_F(CreateSpectrumFile, GivesEqualBytesForEqualJobs)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
-    create_spectrum_file(folder / "one.h5", job);
-    create_spectrum_file(folder / "two.h5", job);
+    create("one.h5");
+    create("two.h5");
     EXPECT_EQ(bytes_of(folder / "one.h5"), bytes_of(folder / "two.h5"));
 }
 
-TEST(CreateSpectrumFile, StoresOnlyTheFieldsOfTheJobInItsOrder)
+TEST_F(CreateSpectrumFile, StoresOnlyTheFieldsOfTheJobInItsOrder)
 {
-    const ScratchFolder folder;
-    Job job = sample_job();
     job.problem.fields = {Field::margin, Field::region};
-    create_spectrum_file(folder / "a.h5", job);
+    create();
     EXPECT_THAT(StoredResult(folder / "a.h5").tiles().fields,
                 ElementsAre(Field::margin, Field::region));
 }
 
-TEST(CreateSpectrumFile, StoresJobsTooLongForAnAttribute)
+TEST_F(CreateSpectrumFile, StoresJobsTooLongForAnAttribute)
 {
-    const ScratchFolder folder;
-    Job job = sample_job();
     for (int i = 0; i < 10000; ++i) {
         job.resolved += "value = " + std::to_string(i) + '\n';
     }
     ASSERT_GT(job.resolved.size(), 65536u);
-    create_spectrum_file(folder / "a.h5", job);
+    create();
     EXPECT_EQ(StoredResult(folder / "a.h5").origin().resolved_job, job.resolved);
 }
 
-TEST(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
+TEST_F(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
 {
-    const ScratchFolder folder;
     create_spectrum_file(folder / "without.h5", sample_job());
     create_spectrum_file(folder / "with.h5", job_of_one_block());
     EXPECT_EQ(single_value(folder / "without.h5", "half_height"), std::nullopt);
@@ -123,28 +102,24 @@ TEST(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
     EXPECT_DOUBLE_EQ(single_value(folder / "with.h5", "slenderness").value(), std::atan(1 / 5.67));
 }
 
-TEST(CreateSpectrumFile, StoresTheNumbersOfItsPulseOnly)
+TEST_F(CreateSpectrumFile, StoresTheNumbersOfItsPulseOnly)
 {
-    const ScratchFolder folder;
-    Job job = sample_job();
-    create_spectrum_file(folder / "ricker.h5", job);
+    create("ricker.h5");
     job.problem.scene.pulse = PulseKind::one_sine;
-    create_spectrum_file(folder / "sine.h5", job);
+    create("sine.h5");
     EXPECT_EQ(global_number(folder / "ricker.h5", "window"), 1.25);
     EXPECT_EQ(global_number(folder / "sine.h5", "window"), std::nullopt);
     job.problem.scene.pulse = PulseKind::mavroeidis_papageorgiou;
     job.problem.scene.shape = {.gamma = 2.5, .nu = 0.5};
-    create_spectrum_file(folder / "pulse.h5", job);
+    create("pulse.h5");
     EXPECT_EQ(global_number(folder / "pulse.h5", "gamma"), 2.5);
     EXPECT_EQ(global_number(folder / "pulse.h5", "nu"), 0.5);
     EXPECT_EQ(global_number(folder / "pulse.h5", "cycles"), std::nullopt);
 }
 
-TEST(CreateSpectrumFile, LeavesNoOtherFileInTheFolder)
+TEST_F(CreateSpectrumFile, LeavesNoOtherFileInTheFolder)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
-    create_spectrum_file(folder / "a.h5", job);
+    create();
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "")) {
         names.push_back(entry.path().filename().string());
@@ -152,10 +127,8 @@ TEST(CreateSpectrumFile, LeavesNoOtherFileInTheFolder)
     EXPECT_THAT(names, ElementsAre("a.h5"));
 }
 
-TEST(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
+TEST_F(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
     // A hard link to the part keeps its data when the part is removed.
     struct Killed {};
     const auto link_and_stop = [&] {
@@ -165,36 +138,29 @@ TEST(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
     EXPECT_THROW(create_spectrum_file(folder / "a.h5", job, link_and_stop), Killed);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
     std::filesystem::rename(folder / "left", folder / "a.h5.part");
-    create_spectrum_file(folder / "a.h5", job);
+    create();
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
-    EXPECT_FALSE(is_complete(existing_result(folder / "a.h5", job).value()));
+    EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, 0);
 }
 
-TEST(CreateSpectrumFile, DoesNotRemoveAForeignPart)
+TEST_F(CreateSpectrumFile, DoesNotRemoveAForeignPart)
 {
-    const ScratchFolder folder;
     write_bytes(folder / "a.h5.part", "somebody else's");
-    const Job job = sample_job();
-    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job); }),
+    EXPECT_THAT(refusal([&] { create(); }),
                 HasSubstr("a.h5.part\" exists but is not an overturn part file"));
     EXPECT_EQ(bytes_of(folder / "a.h5.part"), "somebody else's");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
 }
 
-TEST(CreateSpectrumFile, DoesNotReplaceADanglingLink)
+TEST_F(CreateSpectrumFile, DoesNotReplaceADanglingLink)
 {
-    const ScratchFolder folder;
     std::filesystem::create_symlink("nowhere", folder / "a.h5");
-    const Job job = sample_job();
-    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job); }),
-                HasSubstr("a link to a file that does not exist"));
+    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("a link to a file that does not exist"));
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.h5"));
 }
 
-TEST(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
+TEST_F(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
     std::int64_t calls = 0;
     create_spectrum_file(folder / "a.h5", job, [&] { ++calls; });
     EXPECT_EQ(calls, tiling_of(job.problem).size() * std::int64_t(job.problem.fields.size()));
@@ -210,31 +176,25 @@ TEST(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
 }
 
 // A complete result must not keep the permissions of overturn's temporary files.
-TEST(CreateSpectrumFile, GivesTheFileUsualPermissions)
+TEST_F(CreateSpectrumFile, GivesTheFileUsualPermissions)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
-    create_spectrum_file(folder / "a.h5", job);
+    create();
     write_bytes(folder / "usual", "");
     EXPECT_EQ(std::filesystem::status(folder / "a.h5").permissions(),
               std::filesystem::status(folder / "usual").permissions());
 }
 
-TEST(CreateSpectrumFile, ReportsAMissingFolder)
+TEST_F(CreateSpectrumFile, ReportsAMissingFolder)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
-    const auto create = [&] { create_spectrum_file(folder / "results/a.h5", job); };
-    EXPECT_THAT(refusal(create), HasSubstr("there is no folder \"" + folder / "results" + "\""));
+    EXPECT_THAT(refusal([&] { create("results/a.h5"); }),
+                HasSubstr("there is no folder \"" + folder / "results" + "\""));
 }
 
-TEST(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
+TEST_F(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
 {
-    const ScratchFolder folder;
-    Job job = sample_job();
     axis_of(job, "frequency") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
     axis_of(job, "amplitude") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
-    const std::string message = refusal([&] { create_spectrum_file(folder / "a.h5", job); });
+    const std::string message = refusal([&] { create(); });
     EXPECT_THAT(message,
                 HasSubstr(std::to_string(std::uint64_t(spectrum_file_bytes(job))) + " bytes"));
     EXPECT_THAT(message, HasSubstr("are available"));
@@ -243,13 +203,10 @@ TEST(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
 
 // A limit on the size of files simulates a full disk: it needs no privileges, and HDF5 encounters
 // it during its work in the same way.
-TEST(CreateSpectrumFile, LeavesNoFileIfTheDiskFailsDuringCreation)
+TEST_F(CreateSpectrumFile, LeavesNoFileIfTheDiskFailsDuringCreation)
 {
-    const ScratchFolder folder;
-    const Job job = sample_job();
     const FileSizeLimit limit(20000);
-    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job); }),
-                HasSubstr("file too large"));
+    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("file too large"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
@@ -262,17 +219,16 @@ void expect_close_bound(const Job& job, const std::string& path)
     EXPECT_LE(spectrum_file_bytes(job), actual + actual / 32 + 32768) << path;
 }
 
-TEST(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
+TEST_F(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
 {
-    const ScratchFolder folder;
     for (const std::int64_t size : {1, 40, 500, 2000}) {
-        Job job = sample_job();
+        job = sample_job();
         axis_of(job, "frequency") = Axis(AxisRange{0.5, 0.5 * double(size), size, Spacing::linear});
         // Omitting the text would be off by a fifth at 500.
         job.given = std::string(10000 * std::size_t(size), '#');
         expect_close_bound(job, folder / std::to_string(size));
     }
-    Job job = job_of_one_block();
+    job = job_of_one_block();
     expect_close_bound(job, folder / "one_block");
     job.problem.numerics.fill = true;
     job.problem.fields = {Field::region, Field::evaluated};
@@ -280,9 +236,8 @@ TEST(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
     expect_close_bound(boundary_of(job_of_one_block()), folder / "boundary");
 }
 
-TEST(SpectrumFileBytes, IncludeTheTableAndTheRecords)
+TEST_F(SpectrumFileBytes, IncludeTheTableAndTheRecords)
 {
-    const ScratchFolder folder;
     std::string table = "name,height,width,restitution\n";
     for (int i = 1; i <= 3000; ++i) {
         table += "block " + std::to_string(i) + "," + std::to_string(i) + ",0.5,0.9\n";
@@ -309,9 +264,8 @@ TEST(SpectrumFileBytes, IncludeTheTableAndTheRecords)
 }
 
 // The index of many small tiles depends on the number of dimensions.
-TEST(SpectrumFileBytes, DependOnTheNumberOfDimensions)
+TEST_F(SpectrumFileBytes, DependOnTheNumberOfDimensions)
 {
-    const ScratchFolder folder;
     write_bytes(folder / "a.txt", "0.1\n-0.2\n0.1\n");
     const std::string scene = "[scene]\nrecord = ['a.txt']\nunits = 'g'\ntime_step = 0.01\n";
     expect_close_bound(read_job_text(scene +
@@ -329,19 +283,16 @@ TEST(SpectrumFileBytes, DependOnTheNumberOfDimensions)
 }
 
 // A plane can have the largest addressable size, and its coordinates need additional space.
-TEST(SpectrumFileBytes, DoNotOverflow)
+TEST_F(SpectrumFileBytes, DoNotOverflow)
 {
-    Job job = sample_job();
     const AxisRange many{0.1, 0.5, std::int64_t(1) << 31, Spacing::linear};
     axis_of(job, "frequency") = Axis(AxisList{1});
     axis_of(job, "amplitude") = Axis(AxisList{1});
     axis_of(job, "restitution_of_maximum") = Axis(many);
     axis_of(job, "slenderness") = Axis(many);
     job.problem.fields = {Field::region};
-    const ScratchFolder folder;
     EXPECT_GT(spectrum_file_bytes(job), 0x1p65L);
-    EXPECT_THAT(refusal([&] { create_spectrum_file(folder / "a.h5", job); }),
-                HasSubstr("it takes 4"));
+    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("it takes 4"));
 }
 
 } // namespace

@@ -1,4 +1,6 @@
+#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
+#include "own_dataset.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
@@ -7,7 +9,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -26,59 +27,36 @@ using testing::SizeIs;
 /// Returns the message with which the file at `path` is refused; empty if it is accepted.
 std::string refusal(const std::string& path, const Job& job)
 {
-    try {
-        existing_result(path, job);
-        return {};
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        return error.what();
-    }
+    return overturn::refusal([&] { existing_result(path, job); });
+}
+
+hdf5::Handle open_to_change(const std::string& path)
+{
+    return {H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
 }
 
 class ExistingResult : public testing::Test {
 protected:
     void create() { create_spectrum_file(path, job); }
 
-    /// Overwrites a global text attribute, as written by another program of the same format.
-    void set_attribute(const char* name, const std::string& text)
+    /// Overwrites a global attribute, as written by another program of the same format.
+    template <class Value>
+    void set_attribute(const char* name, const Value& value)
     {
-        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-        H5Adelete(file, name);
-        const hid_t type = H5Tcopy(H5T_C_S1);
-        H5Tset_size(type, text.size());
-        const hid_t space = H5Screate(H5S_SCALAR);
-        const hid_t attribute = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-        ASSERT_GE(H5Awrite(attribute, type, text.data()), 0);
-        H5Aclose(attribute);
-        H5Sclose(space);
-        H5Tclose(type);
-        ASSERT_GE(H5Fclose(file), 0);
-    }
-
-    /// Overwrites the version of the layout.
-    void set_format(std::int64_t version)
-    {
-        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-        const hid_t attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
-        ASSERT_GE(H5Awrite(attribute, H5T_NATIVE_INT64, &version), 0);
-        H5Aclose(attribute);
-        ASSERT_GE(H5Fclose(file), 0);
+        const hdf5::Handle file = open_to_change(path);
+        hdf5::check(H5Adelete(file, name));
+        hdf5::write_attribute(file, name, value);
     }
 
     /// Overwrites one value of a coordinate.
     void overwrite(const char* name, std::size_t place, double value)
     {
-        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-        const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-        const hid_t space = H5Dget_space(dataset);
-        std::vector<double> values(std::size_t(H5Sget_simple_extent_npoints(space)));
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+        const hdf5::Handle file = open_to_change(path);
+        const hdf5::Handle dataset = hdf5::open_dataset(file, name);
+        std::vector<double> values = read_all<double>(dataset, std::filesystem::file_size(path));
         values.at(place) = value;
-        ASSERT_GE(
-            H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
-        H5Sclose(space);
-        H5Dclose(dataset);
-        ASSERT_GE(H5Fclose(file), 0);
+        hdf5::check(
+            H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
     }
 
     ScratchFolder folder;
@@ -174,12 +152,6 @@ TEST_F(ExistingResult, RefusesAFileThatIsNotHdf5)
     EXPECT_EQ(bytes_of(path), "the only copy of a thesis");
 }
 
-TEST_F(ExistingResult, RefusesAnEmptyFile)
-{
-    write_bytes(path, "");
-    EXPECT_THAT(refusal(path, job), HasSubstr("is not an HDF5 file"));
-}
-
 TEST_F(ExistingResult, RefusesAFolder)
 {
     EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a regular file"));
@@ -201,14 +173,10 @@ protected:
     {
         create();
         std::filesystem::copy(path, elsewhere);
-        const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-        const hid_t region = H5Dopen2(file, "region", H5P_DEFAULT);
-        const hid_t space = H5Dget_space(region);
-        H5Dclose(region);
-        ASSERT_GE(H5Lmove(file, "region", file, "moved", H5P_DEFAULT, H5P_DEFAULT), 0);
-        ASSERT_GE(add(file, space), 0);
-        H5Sclose(space);
-        ASSERT_GE(H5Fclose(file), 0);
+        const hdf5::Handle file = open_to_change(path);
+        const hdf5::Handle space(H5Dget_space(hdf5::open_dataset(file, "region")), H5Sclose);
+        hdf5::check(H5Lmove(file, "region", file, "moved", H5P_DEFAULT, H5P_DEFAULT));
+        hdf5::check(add(file, space));
     }
 
     /// Creates a dataset in place of `region` with the storage set by `set`.
@@ -216,12 +184,10 @@ protected:
     void store_region(const Set& set)
     {
         replace_region([&](hid_t file, hid_t space) {
-            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+            const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
             set(creation, space);
-            const hid_t region =
-                H5Dcreate2(file, "region", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
-            H5Pclose(creation);
-            return region < 0 ? herr_t(-1) : H5Dclose(region);
+            return H5Dclose(H5Dcreate2(file, "region", H5T_STD_U8LE, space, H5P_DEFAULT, creation,
+                                       H5P_DEFAULT));
         });
     }
 
@@ -296,7 +262,7 @@ TEST_F(ExistingResult, HasChecksumsOfEveryCoordinate)
 TEST_F(ExistingResult, OfAnEarlierFormatCanBeReadButNotResumed)
 {
     create();
-    set_format(3);
+    set_attribute("format_version", std::int64_t(3));
     const StoredResult stored(path);
     EXPECT_EQ(stored.origin().format, 3);
     EXPECT_EQ(stored.tiles().tiles, tiling_of(job.problem).size());
@@ -310,10 +276,10 @@ TEST_F(ExistingResult, OfAnEarlierFormatCanBeReadButNotResumed)
 TEST_F(ExistingResult, OfAnotherFormatIsRefused)
 {
     create();
-    set_format(2);
+    set_attribute("format_version", std::int64_t(2));
     EXPECT_THAT(refusal(path, job), HasSubstr("has format version 2, but this program reads the "
                                               "versions 3 and 4. Use an older program."));
-    set_format(5);
+    set_attribute("format_version", std::int64_t(5));
     EXPECT_THAT(refusal(path, job), HasSubstr("Use a newer program."));
 }
 

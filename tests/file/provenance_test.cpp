@@ -1,3 +1,4 @@
+#include "file/refusal.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -10,8 +11,17 @@
 namespace overturn {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+
+class Sidecar : public testing::Test {
+protected:
+    void write(const RunInfo& run) const { write_sidecar(folder / "a.h5", run); }
+    std::string text() const { return bytes_of(folder / "a.h5.json"); }
+
+    ScratchFolder folder;
+};
 
 RunInfo sample_run()
 {
@@ -25,76 +35,56 @@ RunInfo sample_run()
     return run;
 }
 
-TEST(Sidecar, IsWrittenNextToTheSpectrum)
+TEST_F(Sidecar, StatesTimeAndHostOfTheRun)
 {
-    const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_run());
-    EXPECT_TRUE(std::filesystem::exists(folder / "a.h5.json"));
-}
-
-TEST(Sidecar, StatesTimeAndHostOfTheRun)
-{
-    const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_run());
-    const std::string text = bytes_of(folder / "a.h5.json");
+    write(sample_run());
     // `date -u -d @1600000000`
-    EXPECT_THAT(text, HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
-    EXPECT_THAT(text, HasSubstr("\"wall_seconds\": 12.5,"));
-    EXPECT_THAT(text, HasSubstr("\"requests\": 17,"));
-    EXPECT_THAT(text, HasSubstr("\"dealing_seconds\": 0.5,"));
-    EXPECT_THAT(text, HasSubstr("\"compute_seconds\": 12.25, \"write_seconds\": 0.125}"));
+    EXPECT_THAT(text(), HasSubstr("\"start\": \"2020-09-13T12:26:40Z\""));
+    EXPECT_THAT(text(), HasSubstr("\"wall_seconds\": 12.5,"));
+    EXPECT_THAT(text(), HasSubstr("\"requests\": 17,"));
+    EXPECT_THAT(text(), HasSubstr("\"dealing_seconds\": 0.5,"));
+    EXPECT_THAT(text(), HasSubstr("\"compute_seconds\": 12.25, \"write_seconds\": 0.125}"));
     EXPECT_THAT(
-        text,
+        text(),
         HasSubstr(
             "{\"host\": \"node2\", \"tiles\": 0, \"compute_seconds\": 0, \"write_seconds\": 0}"));
 }
 
-TEST(Sidecar, EscapesCharactersReservedInJson)
+TEST_F(Sidecar, EscapesCharactersReservedInJson)
 {
-    const ScratchFolder folder;
-    write_sidecar(folder / "a.h5", sample_run());
-    EXPECT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr(R"("node\"1\"\\\u000A")"));
+    write(sample_run());
+    EXPECT_THAT(text(), HasSubstr(R"("node\"1\"\\\u000A")"));
 }
 
-TEST(Sidecar, ReplacesAnOlderOne)
+TEST_F(Sidecar, ReplacesAnOlderOne)
 {
-    const ScratchFolder folder;
     RunInfo longer = sample_run();
     longer.kernel = std::string(10000, 'x');
-    write_sidecar(folder / "a.h5", longer);
-    ASSERT_THAT(bytes_of(folder / "a.h5.json"), HasSubstr("xx"));
-    write_sidecar(folder / "a.h5", sample_run());
-    EXPECT_THAT(bytes_of(folder / "a.h5.json"), Not(HasSubstr("xx")));
+    write(longer);
+    ASSERT_THAT(text(), HasSubstr("xx"));
+    write(sample_run());
+    EXPECT_THAT(text(), Not(HasSubstr("xx")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.json.part"));
 }
 
-TEST(Sidecar, DoesNotReplaceAForeignFile)
+TEST_F(Sidecar, DoesNotReplaceAForeignFile)
 {
-    const ScratchFolder folder;
     write_bytes(folder / "a.h5.json", "somebody else's");
-    EXPECT_THROW(write_sidecar(folder / "a.h5", sample_run()), Error);
-    EXPECT_EQ(bytes_of(folder / "a.h5.json"), "somebody else's");
+    EXPECT_THROW(write(sample_run()), Error);
+    EXPECT_EQ(text(), "somebody else's");
 }
 
-TEST(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
+TEST_F(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 {
-    const ScratchFolder folder;
     const FileSizeLimit limit(20);
-    try {
-        write_sidecar(folder / "a.h5", sample_run());
-        ADD_FAILURE() << "the sidecar was written";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        EXPECT_THAT(error.what(),
-                    HasSubstr("a.h5.json\", the sidecar file of this run: file too large"));
-        EXPECT_THAT(error.what(), HasSubstr("nevertheless"));
-    }
+    EXPECT_THAT(refusal([&] { write(sample_run()); }),
+                AllOf(HasSubstr("a.h5.json\", the sidecar file of this run: file too large"),
+                      HasSubstr("nevertheless")));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
-TEST(Sidecar, RequiresAFolder)
+TEST_F(Sidecar, RequiresAFolder)
 {
-    const ScratchFolder folder;
     EXPECT_THROW(write_sidecar(folder / "missing/a.h5", sample_run()), Error);
 }
 

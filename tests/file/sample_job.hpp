@@ -1,11 +1,15 @@
 // A small job with four axes and every field, and artificial values for its tiles.
 #pragma once
 
+#include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
+#include <numeric>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace overturn {
 
@@ -75,6 +79,32 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
         result.values.push_back(std::move(values));
     }
     return result;
+}
+
+inline void write_tiles(SpectrumFile& file, const Job& job,
+                        const std::vector<std::int64_t>& numbers)
+{
+    const Tiling tiling = tiling_of(job.problem);
+    for (const std::int64_t number : numbers) {
+        file.write(tiling[number], sample_values(job, tiling[number]));
+    }
+}
+
+/// 0, 1, ..., count - 1.
+inline std::vector<std::int64_t> first_tiles(std::int64_t count)
+{
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+}
+
+/// Creates the file and writes the first tiles.
+inline void write_spectrum(const std::string& path, const Job& job, std::int64_t tiles)
+{
+    create_spectrum_file(path, job);
+    SpectrumFile file(path, MPI_COMM_SELF, job.problem);
+    write_tiles(file, job, first_tiles(tiles));
+    file.close();
 }
 
 } // namespace overturn

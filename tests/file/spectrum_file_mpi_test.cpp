@@ -1,4 +1,6 @@
+#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/scratch_folder_mpi.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
@@ -9,16 +11,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
-#include <numeric>
-#include <sys/resource.h>
 
 namespace overturn {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 class SpectrumFileOnRanks : public testing::Test {
 protected:
@@ -26,14 +24,6 @@ protected:
     {
         MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    }
-
-    /// All tile numbers, ascending.
-    std::vector<std::int64_t> all_tiles() const
-    {
-        std::vector<std::int64_t> numbers(std::size_t(tiling.size()));
-        std::iota(numbers.begin(), numbers.end(), 0);
-        return numbers;
     }
 
     /// Rank 0 alone creates a file; the others wait for it.
@@ -45,21 +35,11 @@ protected:
         MPI_Barrier(MPI_COMM_WORLD);
     }
 
-    void write_tiles(SpectrumFile& file, const std::vector<std::int64_t>& numbers) const
-    {
-        for (const std::int64_t number : numbers) {
-            file.write(tiling[number], sample_values(job, tiling[number]));
-        }
-    }
-
     /// Returns the bytes of the finished file if one rank writes all tiles in ascending order.
     std::string bytes_from_one_rank(const std::string& path) const
     {
         if (rank == 0) {
-            create_spectrum_file(path, job);
-            SpectrumFile file(path, MPI_COMM_SELF, job.problem);
-            write_tiles(file, all_tiles());
-            file.close();
+            write_spectrum(path, job, tiling.size());
         }
         MPI_Barrier(MPI_COMM_WORLD);
         return bytes_of(path);
@@ -85,15 +65,9 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
             mine.push_back(number);
         }
     }
-    write_tiles(file, mine);
+    write_tiles(file, job, mine);
     file.close();
     EXPECT_TRUE(bytes_of(folder / "many.h5") == expected);
-}
-
-TEST_F(SpectrumFileOnRanks, IsCompleteWhenEveryTileIsWritten)
-{
-    bytes_from_one_rank(folder / "a.h5");
-    EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, tiling.size());
 }
 
 TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
@@ -102,10 +76,10 @@ TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
     {
         SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
         if (rank == ranks - 1) {
-            std::vector<std::int64_t> numbers = all_tiles();
+            std::vector<std::int64_t> numbers = first_tiles(tiling.size());
             numbers.erase(numbers.begin() + 3);
             numbers.pop_back();
-            write_tiles(file, numbers);
+            write_tiles(file, job, numbers);
         }
         file.close();
     }
@@ -126,17 +100,11 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenFinishedLater)
         if (rank == 0) {
             std::vector<std::int64_t> numbers = file.missing_tiles();
             std::erase_if(numbers, [&](auto number) { return number % 2 != remainder; });
-            write_tiles(file, numbers);
+            write_tiles(file, job, numbers);
         }
         file.close();
     }
     EXPECT_TRUE(bytes_of(folder / "resumed.h5") == expected);
-}
-
-TEST_F(SpectrumFileOnRanks, HasValuesThatMatchTheirChecksums)
-{
-    bytes_from_one_rank(folder / "a.h5");
-    EXPECT_THAT(StoredResult(folder / "a.h5").damaged_tiles(), IsEmpty());
 }
 
 TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
@@ -145,7 +113,7 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
     bytes_from_one_rank(folder / "a.h5");
     SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == ranks - 1) {
-        for (const std::int64_t number : all_tiles()) {
+        for (const std::int64_t number : first_tiles(tiling.size())) {
             file.forget(tiling[number]);
         }
     }
@@ -155,13 +123,8 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 
 TEST_F(SpectrumFileOnRanks, CannotBeOpenedIfItDoesNotExist)
 {
-    try {
-        SpectrumFile file(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem);
-        ADD_FAILURE() << "opened";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        EXPECT_THAT(error.what(), HasSubstr("cannot open"));
-    }
+    EXPECT_THAT(refusal([&] { SpectrumFile(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem); }),
+                HasSubstr("cannot open"));
 }
 
 TEST_F(SpectrumFileOnRanks, IsComparedBetweenRanksWithoutBeingChanged)
@@ -194,20 +157,11 @@ TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
     const std::string path = folder / ("limited" + std::to_string(rank));
     create_spectrum_file(path, job);
     SpectrumFile file(path, MPI_COMM_SELF, job.problem);
-    rlimit before = {};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limited{1000, before.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
     std::string message;
-    try {
-        file.write(tiling[17], sample_values(job, tiling[17]));
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
-        message = error.what();
+    {
+        const FileSizeLimit limit(1000);
+        message = refusal([&] { file.write(tiling[17], sample_values(job, tiling[17])); });
     }
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, SIG_DFL);
     EXPECT_EQ(message, "cannot write tile 17 of \"region\": file too large. Run the same command "
                        "again to resume.");
     file.close();

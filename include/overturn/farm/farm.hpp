@@ -8,36 +8,24 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace overturn {
 
-/// Computes and writes a tile, given its number.
+/// Computes and writes a tile, given its number, and reports the progress.
 struct TileWork {
     /// Calls drop_requested at least once a second, because messages are handled there, and drops
     /// the tile if it returns true. Returns false if it was dropped.
     std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
     std::function<void(std::int64_t number)> write;
+    /// Called on rank 0 at intervals, with the number of tiles done by all ranks.
+    std::function<void(std::int64_t done)> on_progress;
 };
 
 /// Whether a rank is asked to stop. Once true, both remain true.
 struct StopRequest {
     std::function<bool()> requested; ///< finish the current tile, and leave
     std::function<bool()> overdue;   ///< drop the current tile
-};
-
-/// A rank has not responded for too long: it was suspended, its disk hangs, or its host is cut off.
-class SilentRank : public std::runtime_error {
-public:
-    SilentRank(int silent_rank, std::chrono::seconds duration)
-        : std::runtime_error("rank " + std::to_string(silent_rank) + " has not responded"),
-          rank(silent_rank), silence(duration)
-    {}
-
-    int rank;
-    std::chrono::seconds silence;
 };
 
 /// The work of one rank. It spent the rest of its time on messages and waiting.
@@ -54,23 +42,21 @@ struct DealingShare {
 };
 
 struct FarmReport {
-    std::int64_t tiles = 0;       ///< done by all ranks
     bool stopped = false;         ///< tiles are left because a rank was asked to stop
+    RankShare all = {};           ///< the sum over all ranks
     std::vector<RankShare> ranks; ///< rank 0 only: one per rank
     DealingShare dealing;         ///< rank 0 only
 };
 
 /// Computes and writes each of the tiles once, on some rank. Collective.
 ///
-/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. on_progress(tiles done) is
-/// called on rank 0 at intervals. A rank that is asked to stop finishes or drops its current tile;
-/// the others finish the ranges that they were given before rank 0 received the stop. An exception
-/// leaves farm_out on one rank only, so the caller must abort the session. SilentRank is
-/// thrown if rank 0 receives nothing from a worker for `patience`, or if a worker waits longer than
-/// that for an answer from rank 0.
+/// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. A rank that is asked to stop
+/// finishes or drops its current tile; the others finish the ranges that they were given before
+/// rank 0 received the stop. An exception leaves farm_out on one rank only, so the caller must
+/// abort the session. Throws Error if rank 0 receives nothing from a worker for `patience`, or if a
+/// worker waits longer than that for an answer from rank 0.
 FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-                    const TileWork& tile_work,
-                    const std::function<void(std::int64_t done)>& on_progress,
-                    const StopRequest& stop, std::chrono::seconds patience);
+                    const TileWork& tile_work, const StopRequest& stop,
+                    std::chrono::seconds patience);
 
 } // namespace overturn

@@ -33,7 +33,6 @@ public:
         return value;
     }
     std::string from_rank_0(std::string text) const;
-    std::vector<double> from_rank_0(std::vector<double> values) const;
 
     /// Returns the values of all ranks, by rank, on rank 0; nothing elsewhere. Collective.
     template <class Value>
@@ -44,8 +43,8 @@ public:
         return values;
     }
 
-    /// The host of each rank, on rank 0; empty elsewhere. Collective.
-    std::vector<std::string> host_names() const;
+    /// The host of each rank, on rank 0; empty elsewhere.
+    const std::vector<std::string>& hosts() const { return hosts_; }
 
     /// Prints `rank 7: message` and stops all ranks; the launcher returns the exit code.
     [[noreturn]] void abort(int exit_code, const std::string& message) const;
@@ -59,14 +58,12 @@ private:
     bool finalizes_ = true;
     int rank_ = 0;
     int size_ = 1;
+    std::vector<std::string> hosts_;
 };
 
 /// Ends all ranks with the exit code. For signal handlers after a crash: if MPI fails or takes
 /// longer than 5 s, this process ends, and the launcher ends the others. Without MPI it ends this
 /// process.
 [[noreturn]] void end_all_ranks(int exit_code);
-
-/// The MPI library's name and version, such as "Open MPI v4.1.4".
-std::string mpi_library();
 
 } // namespace overturn

@@ -38,14 +38,12 @@ public:
     TileRange deal(const RangeLimits& limits = {});
 
     /// The next tile as a range; empty if no tile is left.
-    TileRange deal_one() { return take(1); }
+    TileRange deal_one() { return deal({.least = 1, .most = 1}); }
 
     /// Discards the remaining tiles.
     void stop() { next_ = tiles_.size(); }
 
 private:
-    TileRange take(std::size_t at_most);
-
     std::vector<std::int64_t> tiles_;
     std::size_t next_ = 0;
     std::size_t ranks_;

@@ -23,6 +23,9 @@ std::string compiler_version();
 /// The version of the HDF5 library in use, such as "1.10.8".
 std::string hdf5_version();
 
+/// The MPI library's name and version, such as "Open MPI v4.1.4".
+std::string mpi_library();
+
 /// One rank's share of a run.
 struct RankInfo {
     std::string host;

@@ -13,8 +13,6 @@
 
 namespace overturn {
 
-struct Job;
-
 struct AxisSummary {
     std::string name;
     std::int64_t size = 0;
@@ -65,9 +63,6 @@ class StoredResult {
 public:
     /// Throws Error if the file is missing, not a result file of overturn, or damaged.
     explicit StoredResult(const std::string& path);
-    ~StoredResult();
-    StoredResult(StoredResult&&) noexcept;
-    StoredResult& operator=(StoredResult&&) noexcept;
 
     const std::string& path() const;
     const FileOrigin& origin() const;
@@ -89,17 +84,9 @@ public:
     /// Of a boundary.
     BoundaryLines count_lines() const;
 
-    /// Throws Error unless the file is the result of this job, by this version of the program.
-    void expect_result_of(const Job& job) const;
-
 private:
     struct Open;
-    void read_tiles();
-    template <class Use>
-    void for_each_computed_tile(const std::vector<Field>& fields,
-                                const std::function<void()>& between_tiles, const Use& use) const;
-
-    std::unique_ptr<Open> open_;
+    std::shared_ptr<Open> open_;
 };
 
 } // namespace overturn

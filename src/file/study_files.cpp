@@ -1,0 +1,275 @@
+#include "overturn/file/study_files.hpp"
+
+#include "layout.hpp"
+#include "netcdf.hpp"
+#include "working_file.hpp"
+
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/text/error.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <numeric>
+
+namespace overturn {
+
+namespace {
+
+using hdf5::write_attribute;
+using namespace netcdf;
+
+/// Creates a file of this kind with the content that `write` adds; replaces an existing file of the
+/// same kind. Throws Error.
+void write_whole_file(const std::string& path, FileKind kind, const Job& job,
+                      const std::function<void(hid_t file)>& write)
+{
+    expect_room_for(path, kind);
+    PartFile part(path);
+    try {
+        netcdf::make_file(part.path(), job, kind, write);
+    } catch (const hdf5::Hdf5Error& error) {
+        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
+                    path, error.what());
+    }
+    part.move_into_place();
+}
+
+/// A quantity that is stored for each sample.
+struct SampleQuantity {
+    const char* name;
+    const char* long_name;
+    const char* units;
+    double HistorySample::*value;
+    const char* comment = "";
+};
+
+constexpr SampleQuantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
+                                        "from the beginning of the ground motion"};
+constexpr SampleQuantity quantities[] = {
+    {"angle", "angle theta", "rad", &HistorySample::angle},
+    {"velocity", "d theta / d(p t)", "rad", &HistorySample::velocity},
+    {"acceleration", "d^2 theta / d(p t)^2", "rad", &HistorySample::acceleration},
+    {"q", "q", "rad2", &HistorySample::q,
+     "4 sin^2((alpha - |theta|) / 2) - (d theta / d(p t))^2; linear theory: (alpha - |theta|)^2 - "
+     "(d theta / d(p t))^2"},
+    {"ground", "ground acceleration, over g", "1", &HistorySample::ground},
+};
+
+/// `when` is appended to the long name of the quantity.
+void add_quantity(hid_t file, const std::string& name, const SampleQuantity& quantity,
+                  const std::vector<HistorySample>& samples, const std::string& when = "")
+{
+    const bool is_of_events = name.starts_with("events/");
+    std::vector<double> values;
+    for (const HistorySample& sample : samples) {
+        values.push_back(sample.*quantity.value);
+    }
+    add_variable(file, {name,
+                        {{is_of_events ? "events/event" : "time", std::int64_t(samples.size())}},
+                        values,
+                        quantity.long_name + when,
+                        quantity.units,
+                        quantity.comment});
+}
+
+void add_samples(hid_t file, const std::vector<HistorySample>& samples)
+{
+    add_quantity(file, time_of_sample.name, time_of_sample, samples);
+    for (const SampleQuantity& quantity : quantities) {
+        add_quantity(file, quantity.name, quantity, samples);
+    }
+}
+
+void add_events(hid_t file, const std::vector<HistoryEvent>& events)
+{
+    std::vector<HistorySample> before;
+    std::vector<HistorySample> after;
+    std::vector<std::uint8_t> kinds;
+    for (const HistoryEvent& event : events) {
+        before.push_back(event.before);
+        after.push_back(event.after);
+        kinds.push_back(std::uint8_t(event.kind));
+    }
+    const StoredDimension dimension{"events/event", std::int64_t(events.size())};
+    add_group(file, "events"); // of a different length from the samples
+    add_bare_dimension(file, dimension);
+    add_quantity(file, "events/time", time_of_sample, after);
+    add_variable(file, {.name = "events/kind",
+                        .dimensions = {dimension},
+                        .values = kinds,
+                        .long_name = "kind of the event",
+                        .code_names = event_names});
+    for (const SampleQuantity& quantity : quantities) {
+        const std::string name = std::string("events/") + quantity.name;
+        add_quantity(file, name + "_before", quantity, before, ", before the event");
+        add_quantity(file, name + "_after", quantity, after, ", after the event");
+    }
+}
+
+/// The point and its outcome.
+void add_outcome(hid_t file, const Job& job, const History& history)
+{
+    const Scene& scene = job.problem.scene;
+    const Grid& grid = job.problem.grid;
+    const Coordinates coordinates(scene, grid);
+    const auto add = [&](std::string_view name) {
+        write_attribute(file, std::string(name).c_str(), coordinates.of(name).first());
+    };
+    for (const Quantity& quantity : all_quantities()) {
+        if (grid.find(quantity.name) != nullptr && quantity.role != Role::motion) {
+            add(quantity.name);
+        }
+    }
+    for (const std::string_view name : derived_coordinates(scene.is_recorded())) {
+        if (grid.find(name) == nullptr && coordinates.has(name)) {
+            add(name);
+        }
+    }
+    write_attribute(file, "region", std::int64_t(history.region));
+    write_attribute(file, "margin", history.margin);
+    write_attribute(file, "margin_error", history.error);
+    write_attribute(file, "end_of_pulse", history.end_of_pulse);
+    write_attribute(file, "time_of_rest", history.time_of_rest);
+    write_attribute(file, "time_of_fall", history.time_of_fall);
+    write_attribute(file, "shortened", std::int64_t(history.shortened));
+}
+
+/// Numbers along a dimension of an accuracy study.
+template <class List>
+void add_list(hid_t file, const char* name, const char* dimension, const List& list,
+              const char* long_name)
+{
+    add_variable(file, {name,
+                        {{dimension, std::int64_t(list.size())}},
+                        std::vector<double>(list.begin(), list.end()),
+                        long_name,
+                        "1"});
+}
+
+/// A table with one row per setting.
+class Rows {
+public:
+    Rows(hid_t file, const std::vector<AccuracyRow>& rows) : file_(file), rows_(rows) {}
+
+    /// A column: a member of each row, or the result of a function of it.
+    template <class Value>
+    void add(const char* name, const char* long_name, const char* units, const Value& value) const
+    {
+        std::vector<double> values;
+        for (const AccuracyRow& row : rows_) {
+            values.push_back(double(std::invoke(value, row)));
+        }
+        add_variable(file_, {name, {settings()}, values, long_name, units});
+    }
+
+    /// Columns along a further dimension.
+    template <class Number, std::size_t columns>
+    void add(const char* name, const char* dimension, const char* long_name, const char* units,
+             std::array<Number, columns> AccuracyRow::*member) const
+    {
+        std::vector<double> values;
+        for (const AccuracyRow& row : rows_) {
+            values.insert(values.end(), (row.*member).begin(), (row.*member).end());
+        }
+        add_variable(file_, {name, {settings(), {dimension, columns}}, values, long_name, units});
+    }
+
+    StoredDimension settings() const { return {"setting", std::int64_t(rows_.size())}; }
+
+private:
+    hid_t file_;
+    const std::vector<AccuracyRow>& rows_;
+};
+
+/// The settings and the results of each.
+void add_columns(const Rows& table)
+{
+    using Row = AccuracyRow;
+    table.add("method", "0 rk45, 1 taylor", "1",
+              [](const Row& row) { return int(row.numerics.method); });
+    table.add("tolerance", "tolerance of the local error", "1",
+              [](const Row& row) { return row.numerics.tolerance; });
+    table.add("resolve", "1 if verdicts were resolved", "1",
+              [](const Row& row) { return row.numerics.resolve; });
+    table.add("seconds_per_point", "time per point on one core", "s", &Row::seconds_per_point);
+    table.add("steps", "steps tried per point", "1", &Row::steps);
+    table.add("evaluations", "evaluations of the equation, per point", "1", &Row::evaluations);
+    table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
+              &Row::angle);
+    table.add("velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
+              &Row::velocity);
+    table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
+              &Row::margin);
+    table.add("wrong_verdicts", "wrong verdicts", "1", &Row::wrong_verdicts);
+    table.add("wrong_verdicts_by_region", "region", "wrong verdicts in the region", "1",
+              &Row::wrong_verdicts_by_region);
+    table.add("wrong_verdicts_by_distance", "distance", "wrong verdicts in the class", "1",
+              &Row::wrong_verdicts_by_distance);
+    table.add("undecided", "points without a verdict", "1", &Row::undecided);
+    table.add("bound_exceeded", "share of errors above their bound", "1", &Row::bound_exceeded);
+    table.add("bound_over_error", "median of bound over error", "1", &Row::bound_over_error);
+}
+
+void add_study(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
+{
+    write_attribute(file, "points", sample.grid.points());
+    write_attribute(file, "points_settled", sample.settled);
+    write_attribute(file, "points_in_50_digits", sample.in_digits);
+    const Rows table(file, rows);
+    add_bare_dimension(file, table.settings());
+    add_list(file, "quantile", "quantile", error_quantiles, "share of points with smaller errors");
+    std::vector<std::uint8_t> regions(region_names.size());
+    std::iota(regions.begin(), regions.end(), std::uint8_t(0));
+    add_variable(file, {.name = "region",
+                        .dimensions = {{"region", std::int64_t(regions.size())}},
+                        .values = regions,
+                        .long_name = "region at the end of the ground motion",
+                        .code_names = region_names});
+    add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
+    add_columns(table);
+    add_list(file, "points_by_region", "region", sample.by_region,
+             "number of points of the region");
+    add_list(file, "points_by_distance", "distance", sample.by_distance,
+             "number of points of the class");
+}
+
+} // namespace
+
+void expect_room_for(const std::string& path, FileKind kind)
+{
+    static_cast<void>(PartFile(path)); // throws if the folder is missing or not writable
+    if (!std::filesystem::exists(path)) {
+        return;
+    }
+    start_hdf5();
+    std::string found;
+    try {
+        found = hdf5::read_text_attribute(hdf5::open_to_read(path), "kind");
+    } catch (const hdf5::Hdf5Error&) { // it has none
+    }
+    if (found != layout::name_of(kind)) {
+        throw Error(exit_code::output,
+                    "\"{}\" exists but its kind is not \"{}\". Remove it, or "
+                    "choose another name with -o.",
+                    path, layout::name_of(kind));
+    }
+}
+
+void write_history_file(const std::string& path, const Job& job, const History& history)
+{
+    write_whole_file(path, FileKind::history, job, [&](hid_t file) {
+        add_outcome(file, job, history);
+        add_samples(file, history.samples);
+        add_events(file, history.events);
+    });
+}
+
+void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
+                         const std::vector<AccuracyRow>& rows)
+{
+    write_whole_file(path, FileKind::accuracy, job,
+                     [&](hid_t file) { add_study(file, sample, rows); });
+}
+
+} // namespace overturn
