@@ -111,6 +111,18 @@ class AFinishedFile(Scratch):
         )
         self.assertNotIn("unfinished", result.stdout)
 
+    def test_is_read_if_its_values_are_compressed(self):
+        # All blocks stay at rest: a thousandth of the size, and more values than the file has bytes.
+        self.overturn("run", "small.toml", "-o", "plain.h5", "--set=output.fields=[\"region\"]",
+                      "--set=plane.amplitude={ first = 0.1, last = 0.9, count = 5000 }")
+        subprocess.run(["h5repack", "-f", "GZIP=9", "plain.h5", "small.h5"], cwd=self.folder, check=True)
+        self.assertLess((self.folder / "small.h5").stat().st_size, 2 * 200 * 5000)
+        self.assert_exit(self.overturn("info", "small.h5"), 0, "5000 values from 0.1 to 0.9")
+        self.assert_exit(self.overturn("verify", "small.h5"), 0, "checksums match")
+        with h5py.File(self.folder / "small.h5", "r+") as file:
+            file["region"][0, 1, 2, 3] += 1
+        self.assert_exit(self.overturn("verify", "small.h5"), 74, "1 of 632 finished tiles")
+
     def test_the_sidecar_contains_each_ranks_share(self):
         self.assert_exit(self.overturn("run", "small.toml", ranks=3), 0, "3 ranks")
         sidecar = json.loads((self.folder / "small.h5.json").read_text())
