@@ -206,7 +206,7 @@ void print_size(const Job& job)
     const Tiling tiling = tiling_of(problem);
     const auto points = double(problem.grid.points());
     print_row("points", fmt::format("{} in {} {}", human_count(points), tiling.size(),
-                                    noun_of(double(tiling.size()), "tiles")));
+                                    noun_of(tiling.size(), "tiles")));
     for (const Field field : problem.fields) {
         print_row("field", fmt::format("{}, {}", name_of(field),
                                        human_bytes(points * double(bytes_per_point(field)))));

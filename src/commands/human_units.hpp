@@ -2,18 +2,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace overturn {
 
 /// Three digits and a prefix: "640", "1.20 k", "3.00 M", "1.00 G".
 std::string human_count(double count);
-
-/// The noun for a count: "tile" for 1, "tiles" otherwise; `plural` ends in s.
-constexpr std::string_view noun_of(double count, std::string_view plural)
-{
-    return plural.substr(0, plural.size() - (count == 1 ? 1 : 0));
-}
 
 /// "310 ms", "1.25 s", "12 s", "2 min 05 s", "3 h 07 min", "2 d 04 h"; seconds [s] >= 0.
 std::string human_duration(double seconds);

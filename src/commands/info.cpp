@@ -4,6 +4,7 @@
 #include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
+#include "remarks.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
@@ -65,9 +66,7 @@ void print_axes_and_tiles(const StoredResult& stored)
         print_row(is_boundary ? "lines" : "audit", remark);
     }
     if (tiles.tiles_done < tiles.tiles) {
-        print_row("unfinished", fmt::format("Resume with overturn {} JOB.toml -o {}, with the "
-                                            "job file and the --set arguments of the first run",
-                                            is_boundary ? "boundary" : "run", stored.path()));
+        print_row("unfinished", "Resume with " + command_to_complete(stored));
     }
 }
 

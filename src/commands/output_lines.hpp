@@ -1,10 +1,8 @@
 // The lines that commands print: messages, warnings, and rows of a name and a text.
 #pragma once
 
-#include "audit_text.hpp"
 #include "overturn/text/quoting.hpp"
 
-#include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/problem/plausibility.hpp"
 
@@ -61,43 +59,6 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                           size == 1 ? fmt::to_string(first)
                                     : fmt::format("{} values from {} to {}", size, first, last),
                           unit, is_share ? ", of the maximum" : ""));
-}
-
-/// What a reader of a boundary must know: the number of lines without a minimum overturning
-/// amplitude and of those with undecided verdicts, if there are any; under a record, also the share
-/// of the interval in which the block overturns, and a note that the flips depend on the scan.
-inline std::string lines_text(const BoundaryLines& lines)
-{
-    std::string text;
-    const auto add = [&](std::int64_t count, const char* what) {
-        if (count > 0) {
-            text += fmt::format("{}{}: {} of {} lines", text.empty() ? "" : "; ", what, count,
-                                lines.computed);
-        }
-    };
-    add(lines.unsafe_at_first, "overturning at the first amplitude of the job");
-    add(lines.undecided, "with undecided amplitudes or more flips than are stored");
-    if (lines.has_shares && lines.computed > 0) {
-        text += fmt::format("{}overturning in {:.3g} % of the scanned interval, undecided in "
-                            "{:.2g} %; strips narrower than the steps of the scan are missed",
-                            text.empty() ? "" : "; ", 100 * lines.unsafe_share,
-                            100 * lines.undecided_share);
-    }
-    return text;
-}
-
-/// What a reader of a complete spectrum or boundary must know.
-inline std::vector<std::string> remarks_on(const StoredResult& stored)
-{
-    std::vector<std::string> remarks;
-    if (stored.origin().kind == FileKind::boundary) {
-        remarks.push_back(lines_text(stored.count_lines()));
-    }
-    if (stored.tiles().audit) {
-        remarks.push_back(audit_text(*stored.tiles().audit));
-    }
-    std::erase(remarks, "");
-    return remarks;
 }
 
 } // namespace overturn

@@ -1,7 +1,6 @@
 // The lines that `check` and `run` print about recorded ground motions.
 #pragma once
 
-#include "human_units.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include "overturn/job/job.hpp"
@@ -25,7 +24,7 @@ inline void shorten(std::vector<std::string>& lines)
     if (lines.size() > most_record_lines) {
         const std::size_t more = lines.size() - most_record_lines;
         lines.resize(most_record_lines);
-        lines.push_back(fmt::format("and {} more {}", more, noun_of(double(more), "records")));
+        lines.push_back(fmt::format("and {} more {}", more, noun_of(more, "records")));
     }
 }
 

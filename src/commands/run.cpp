@@ -8,6 +8,7 @@
 #include "prepare_output.hpp"
 #include "progress.hpp"
 #include "record_lines.hpp"
+#include "remarks.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
@@ -64,12 +65,12 @@ std::string start_line(const Task& task, std::int64_t tiles_before)
     std::string what =
         tiles_before == 0
             ? fmt::format("{} {} in {} {}", human_count(double(task.items.count)),
-                          noun_of(double(task.items.count), task.items.name), task.tiling.size(),
-                          noun_of(double(task.tiling.size()), "tiles"))
+                          noun_of(task.items.count, task.items.name), task.tiling.size(),
+                          noun_of(task.tiling.size(), "tiles"))
             : fmt::format("resuming: {} of {} tiles done", tiles_before, task.tiling.size());
     if (!task.damaged.empty()) {
         what += fmt::format(", {} damaged {} to recompute", task.damaged.size(),
-                            noun_of(double(task.damaged.size()), "tiles"));
+                            noun_of(task.damaged.size(), "tiles"));
     }
     return fmt::format("{}: {}; {} {}, kernel {}", task.path, what, task.session.size(),
                        noun_of(task.session.size(), "ranks"), name_of(task.kernel));

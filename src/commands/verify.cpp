@@ -1,6 +1,7 @@
 // Checks the coordinates of a result file against its job, and its tiles against their checksums.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
+#include "remarks.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
@@ -35,15 +36,11 @@ void check_file(const StoredResult& stored)
                     path, fmt::join(damaged, ", "));
     }
     if (const auto damaged = stored.damaged_tiles(); !damaged.empty()) {
-        throw Error(
-            exit_code::output,
-
-            "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match (tile "
-            "numbers: {}). Recompute them with overturn {} JOB.toml -o {}, with the job file "
-            "and "
-            "the --set arguments of the first run.",
-            path, damaged.size(), tiles.tiles_done, list_text(damaged),
-            stored.origin().kind == FileKind::boundary ? "boundary" : "run", path);
+        throw Error(exit_code::output,
+                    "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match "
+                    "(tile numbers: {}). Recompute them with {}.",
+                    path, damaged.size(), tiles.tiles_done, list_text(damaged),
+                    command_to_complete(stored));
     }
     fmt::print("{}: {} of {} {} done; {} match\n", path, tiles.tiles_done, tiles.tiles,
                tiles.tiles == 1 ? "tile is" : "tiles are",

@@ -128,7 +128,6 @@ std::vector<std::optional<Entry>> choices_of(const Entry& scene, std::string_vie
         array_size(*entry, "a component, or an array with one for each record", "Remove the key.");
     if (size != count) {
         refuse(*entry,
-
                " has length {}; the number of records is {}. Give one for each record, or a single "
                "value for all.",
                size, count);

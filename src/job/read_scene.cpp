@@ -101,7 +101,6 @@ void expect_known_errors(const Entry& job, const Problem& problem)
         numerics.resolve || std::find(fields.begin(), fields.end(), Field::error) != fields.end();
     if (asked && !knows_errors(numerics)) {
         refuse(*find(*find(job, "numerics"), "tolerance"),
-
                " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
                "reliable error bounds. Lower it, or use method = \"taylor\".",
                numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",

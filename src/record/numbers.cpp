@@ -52,11 +52,6 @@ std::size_t length_of_number(std::string_view text)
     return text.size();
 }
 
-std::string_view plural(std::size_t count)
-{
-    return count == 1 ? "" : "s";
-}
-
 } // namespace
 
 bool is_number(std::string_view word)
@@ -111,20 +106,21 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
         for (std::string_view rest = trimmed(lines.line()); !rest.empty();) {
             const std::string_view word = rest.substr(0, length_of_number(rest));
             if (values.size() == announced.count) {
-                lines.refuse("{} follows the last of the {} sample{} that {} announces in line {}. "
+                lines.refuse("{} follows the last of the {} {} that {} announces in line {}. "
                              "Correct {} or remove the rest.",
-                             quoted_bytes(word), announced.count, plural(announced.count),
-                             announced.name, announced.line, announced.name);
+                             quoted_bytes(word), announced.count,
+                             noun_of(announced.count, "samples"), announced.name, announced.line,
+                             announced.name);
             }
             values.push_back(number_of(lines, word));
             rest = trimmed(rest.substr(word.size()));
         }
     }
     if (values.size() < announced.count) {
-        lines.refuse("the file ends after {} sample{}, but {} announces {} in line {}. Give the "
+        lines.refuse("the file ends after {} {}, but {} announces {} in line {}. Give the "
                      "complete file.",
-                     values.size(), plural(values.size()), announced.name, announced.count,
-                     announced.line);
+                     values.size(), noun_of(values.size(), "samples"), announced.name,
+                     announced.count, announced.line);
     }
     return values;
 }
@@ -150,10 +146,10 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
         const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
         if (found != expected) {
             lines.refuse(
-                "the line has {} column{} of {} characters, but must have {}: line {} announces {} "
+                "the line has {} {} of {} characters, but must have {}: line {} announces {} "
                 "values of {}, {} per line. Give the file as it was published.",
-                found, plural(found), columns.width, expected, announced.line, announced.count,
-                announced.name, columns.per_line);
+                found, noun_of(found, "columns"), columns.width, expected, announced.line,
+                announced.count, announced.name, columns.per_line);
         }
         for (std::size_t i = 0; i < found; ++i) {
             values.push_back(number_of(lines, column_of(line, columns.width, i)));

@@ -141,8 +141,8 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
                      found);
     }
     if (found != expected) {
-        lines.refuse("the line has {} column{}, but the previous lines have {}. Correct it.", found,
-                     found == 1 ? "" : "s", expected);
+        lines.refuse("the line has {} {}, but the previous lines have {}. Correct it.", found,
+                     noun_of(found, "columns"), expected);
     }
     if (found == 1 && !time_step) {
         lines.refuse("the file has one column, so the time step is not known. Give two columns "

@@ -150,10 +150,11 @@ void for_each_value(Values values, std::size_t columns, const Visit& visit)
         } while (!values.ends_row());
         if (size != columns) {
             values.refuse_row(
-                line, fmt::format("the row has {} value{}, but the first line names {} column{}. "
-                                  "Separate values by commas; put a value that contains one in "
-                                  "quotes. The decimal mark is a point.",
-                                  size, size == 1 ? "" : "s", columns, columns == 1 ? "" : "s"));
+                line,
+                fmt::format("the row has {} {}, but the first line names {} {}. "
+                            "Separate values by commas; put a value that contains one in "
+                            "quotes. The decimal mark is a point.",
+                            size, noun_of(size, "values"), columns, noun_of(columns, "columns")));
         }
     }
 }

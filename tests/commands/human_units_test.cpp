@@ -1,4 +1,5 @@
 #include "commands/human_units.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,6 +18,12 @@ std::string quoted_bytes(std::string_view bytes);
 /// The beginning of a text in UTF-8, followed by "..." if the text has more bytes than this.
 std::string shortened(std::string_view text, std::size_t longest);
 
+/// The noun for a count: "tile" for 1, "tiles" otherwise; `plural` ends in s.
+constexpr std::string_view noun_of(auto count, std::string_view plural)
+{
+    return plural.substr(0, plural.size() - (count == 1 ? 1 : 0));
+}
+
 /// Line ends and other control characters become blanks.
 std::string on_one_line(std::string text);
 

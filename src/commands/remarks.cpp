@@ -1,0 +1,73 @@
+#include "remarks.hpp"
+
+#include "overturn/text/quoting.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace overturn {
+
+namespace {
+
+bool is_boundary(const StoredResult& stored)
+{
+    return stored.origin().kind == FileKind::boundary;
+}
+
+std::string text_of(const BoundaryLines& lines)
+{
+    std::vector<std::string> parts;
+    const auto add = [&](std::int64_t count, const char* what) {
+        if (count > 0) {
+            parts.push_back(fmt::format("{}: {} of {} lines", what, count, lines.computed));
+        }
+    };
+    add(lines.unsafe_at_first, "overturning at the first amplitude of the job");
+    add(lines.undecided, "with undecided amplitudes or more flips than are stored");
+    if (lines.has_shares && lines.computed > 0) {
+        parts.push_back(
+            fmt::format("overturning in {:.3g} % of the scanned interval, undecided in {:.2g} %",
+                        100 * lines.unsafe_share, 100 * lines.undecided_share));
+        parts.emplace_back("strips narrower than the steps of the scan are missed");
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string text_of(const AuditCount& audit)
+{
+    if (audit.checked == 0) {
+        return "no filled point was checked";
+    }
+    constexpr double risk = 0.05;
+    // The upper bound of Clopper and Pearson.
+    const double bound = boost::math::binomial_distribution<>::find_upper_bound_on_p(
+        double(audit.checked), double(audit.wrong), risk);
+    return fmt::format("{} filled {} checked, {} wrong: at most {:.2g} of the filled points were "
+                       "wrong before repair (95 % confidence)",
+                       audit.checked, noun_of(audit.checked, "points"), audit.wrong, bound);
+}
+
+} // namespace
+
+std::vector<std::string> remarks_on(const StoredResult& stored)
+{
+    std::vector<std::string> remarks;
+    if (is_boundary(stored)) {
+        remarks.push_back(text_of(stored.count_lines()));
+    }
+    if (stored.tiles().audit) {
+        remarks.push_back(text_of(*stored.tiles().audit));
+    }
+    std::erase(remarks, "");
+    return remarks;
+}
+
+std::string command_to_complete(const StoredResult& stored)
+{
+    return fmt::format("overturn {} JOB.toml -o {}, with the job file and the --set arguments of "
+                       "the first run",
+                       is_boundary(stored) ? "boundary" : "run", stored.path());
+}
+
+} // namespace overturn
