@@ -76,30 +76,28 @@ CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& p
 }
 
 /// CLI::PositiveNumber would print the largest double as the upper limit.
-const CLI::Validator is_positive(
-    [](const std::string& text) {
-        double value = 0;
-        const bool is_valid =
-            CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-        return is_valid ? "" : fmt::format("{} is not a positive, finite number.", text);
-    },
-    "");
+std::string refusal_of_number(const std::string& text)
+{
+    double value = 0;
+    const bool is_valid =
+        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+    return is_valid ? "" : fmt::format("{} is not a positive, finite number.", text);
+}
 
 /// The steps of a search to a much larger acceleration would be too long, or too many.
-constexpr double largest_pga_max = 1000; // [g]
-const CLI::Validator is_searchable(
-    [](const std::string& text) {
-        double value = 0;
-        const bool is_valid =
-            CLI::detail::lexical_cast(text, value) && std::islessequal(value, largest_pga_max);
-        return is_valid ? "" : fmt::format("{} is above {} g.", text, largest_pga_max);
-    },
-    "");
+std::string refusal_of_pga(const std::string& text)
+{
+    constexpr double largest = 1000; // [g]
+    double value = 0;
+    return CLI::detail::lexical_cast(text, value) && value <= largest
+               ? ""
+               : fmt::format("{} is above {} g.", text, largest);
+}
 
 void add_topple_arguments(CLI::App& command, ToppleOptions& options)
 {
     const auto number = [&](const char* name, auto& value, const char* unit, const char* text) {
-        return command.add_option(name, value, text)->type_name(unit)->check(is_positive);
+        return command.add_option(name, value, text)->type_name(unit)->check(refusal_of_number);
     };
     const auto text = [&](const char* name, auto& value, const char* type, const char* what) {
         return command.add_option(name, value, what)->type_name(type);
@@ -108,7 +106,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     number("--height", options.height, "M", "Height of the block [m]")->required();
     number("--period", options.period, "S", "Period of the pulse [s]");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")
-        ->check(is_searchable);
+        ->check(refusal_of_pga);
     text("--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
     text("--record", options.record, "FILE", "Recorded motion instead of a pulse");
     text("--component", options.component, "NAME", "Name or number in the record; default: 1");
@@ -118,7 +116,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     number("--restitution-of-maximum", options.restitution_of_maximum, "X",
            "r over r_max (Eq. 17); default: 1");
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search")
-        ->check(is_searchable)
+        ->check(refusal_of_pga)
         ->capture_default_str();
     text("--set", options.overrides, "scene.KEY=VALUE", "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);

@@ -34,9 +34,6 @@ public:
                                       : std::nullopt;
     }
 
-    /// The only value, or the first.
-    double first(std::string_view name) const { return coordinates_.of(name).first(); }
-
 private:
     Grid corners_;
     Coordinates coordinates_;

@@ -98,7 +98,6 @@ Job read_job_of_one_point(const HistoryOptions& options)
         if (values.size() > 1) {
             throw Error(
                 exit_code::usage,
-
                 "{} has {} values of plane.{}, from {} to {}, but a history needs exactly one. "
                 "Choose one, for example with --at {}={}.",
                 options.job.path, values.size(), dimension.name, values.first(), values.last(),

@@ -15,19 +15,6 @@ namespace overturn {
 
 namespace {
 
-/// "-o" and "--output"; empty for a positional argument.
-std::vector<std::string> names_of(const CLI::Option& option)
-{
-    std::vector<std::string> names;
-    for (const std::string& name : option.get_snames()) {
-        names.push_back(fmt::format("-{}", name));
-    }
-    for (const std::string& name : option.get_lnames()) {
-        names.push_back(fmt::format("--{}", name));
-    }
-    return names;
-}
-
 /// "OUT.h5", "{auto,double}"; JOB for a positional argument; empty for a flag.
 std::string value_of(const CLI::Option& option)
 {
@@ -135,7 +122,8 @@ std::string bash_completion(const CLI::App& program)
                 ending = value == "JOB" ? "toml" : "h5";
                 continue;
             }
-            const std::vector<std::string> names = names_of(*option);
+            const std::vector<std::string> names =
+                CLI::detail::split(option->get_name(false, true), ','); // "-o" and "--output"
             words += fmt::format("{} ", fmt::join(names, " "));
             if (!value.empty()) {
                 const std::string before = fmt::format("*\\ {}\\ ", command->get_name());
