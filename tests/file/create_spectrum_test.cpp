@@ -1,7 +1,7 @@
-#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
 #include "own_dataset.hpp"
 #include "support/file_size_limit.hpp"
+#include "support/refusal.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
@@ -146,7 +146,7 @@ TEST_F(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
 TEST_F(CreateSpectrumFile, DoesNotRemoveAForeignPart)
 {
     write_bytes(folder / "a.h5.part", "somebody else's");
-    EXPECT_THAT(refusal([&] { create(); }),
+    EXPECT_THAT(refusal(exit_code::output, [&] { create(); }),
                 HasSubstr("a.h5.part\" exists but is not an overturn part file"));
     EXPECT_EQ(bytes_of(folder / "a.h5.part"), "somebody else's");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
@@ -155,7 +155,8 @@ TEST_F(CreateSpectrumFile, DoesNotRemoveAForeignPart)
 TEST_F(CreateSpectrumFile, DoesNotReplaceADanglingLink)
 {
     std::filesystem::create_symlink("nowhere", folder / "a.h5");
-    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("a link to a file that does not exist"));
+    EXPECT_THAT(refusal(exit_code::output, [&] { create(); }),
+                HasSubstr("a link to a file that does not exist"));
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.h5"));
 }
 
@@ -186,7 +187,7 @@ TEST_F(CreateSpectrumFile, GivesTheFileUsualPermissions)
 
 TEST_F(CreateSpectrumFile, ReportsAMissingFolder)
 {
-    EXPECT_THAT(refusal([&] { create("results/a.h5"); }),
+    EXPECT_THAT(refusal(exit_code::output, [&] { create("results/a.h5"); }),
                 HasSubstr("there is no folder \"" + folder / "results" + "\""));
 }
 
@@ -194,7 +195,7 @@ TEST_F(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
 {
     axis_of(job, "frequency") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
     axis_of(job, "amplitude") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
-    const std::string message = refusal([&] { create(); });
+    const std::string message = refusal(exit_code::output, [&] { create(); });
     EXPECT_THAT(message,
                 HasSubstr(std::to_string(std::uint64_t(spectrum_file_bytes(job))) + " bytes"));
     EXPECT_THAT(message, HasSubstr("are available"));
@@ -206,7 +207,7 @@ TEST_F(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
 TEST_F(CreateSpectrumFile, LeavesNoFileIfTheDiskFailsDuringCreation)
 {
     const FileSizeLimit limit(20000);
-    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("file too large"));
+    EXPECT_THAT(refusal(exit_code::output, [&] { create(); }), HasSubstr("file too large"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
@@ -292,7 +293,7 @@ TEST_F(SpectrumFileBytes, DoNotOverflow)
     axis_of(job, "slenderness") = Axis(many);
     job.problem.fields = {Field::region};
     EXPECT_GT(spectrum_file_bytes(job), 0x1p65L);
-    EXPECT_THAT(refusal([&] { create(); }), HasSubstr("it takes 4"));
+    EXPECT_THAT(refusal(exit_code::output, [&] { create(); }), HasSubstr("it takes 4"));
 }
 
 } // namespace

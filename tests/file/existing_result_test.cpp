@@ -1,6 +1,6 @@
-#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
 #include "own_dataset.hpp"
+#include "support/refusal.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
@@ -27,7 +27,7 @@ using testing::SizeIs;
 /// Returns the message with which the file at `path` is refused; empty if it is accepted.
 std::string refusal(const std::string& path, const Job& job)
 {
-    return overturn::refusal([&] { existing_result(path, job); });
+    return overturn::refusal(exit_code::output, [&] { existing_result(path, job); });
 }
 
 hdf5::Handle open_to_change(const std::string& path)

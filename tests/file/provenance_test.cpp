@@ -1,5 +1,5 @@
-#include "file/refusal.hpp"
 #include "support/file_size_limit.hpp"
+#include "support/refusal.hpp"
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
@@ -77,7 +77,7 @@ TEST_F(Sidecar, DoesNotReplaceAForeignFile)
 TEST_F(Sidecar, ThatCannotBeWrittenIsReportedAsTheOnlyLoss)
 {
     const FileSizeLimit limit(20);
-    EXPECT_THAT(refusal([&] { write(sample_run()); }),
+    EXPECT_THAT(refusal(exit_code::output, [&] { write(sample_run()); }),
                 AllOf(HasSubstr("a.h5.json\", the sidecar file of this run: file too large"),
                       HasSubstr("nevertheless")));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));

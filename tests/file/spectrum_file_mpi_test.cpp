@@ -1,6 +1,6 @@
-#include "file/refusal.hpp"
 #include "file/sample_job.hpp"
 #include "support/file_size_limit.hpp"
+#include "support/refusal.hpp"
 #include "support/scratch_folder_mpi.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
@@ -123,7 +123,8 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 
 TEST_F(SpectrumFileOnRanks, CannotBeOpenedIfItDoesNotExist)
 {
-    EXPECT_THAT(refusal([&] { SpectrumFile(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem); }),
+    EXPECT_THAT(refusal(exit_code::output,
+                        [&] { SpectrumFile(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem); }),
                 HasSubstr("cannot open"));
 }
 
@@ -160,7 +161,8 @@ TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
     std::string message;
     {
         const FileSizeLimit limit(1000);
-        message = refusal([&] { file.write(tiling[17], sample_values(job, tiling[17])); });
+        message = refusal(exit_code::output,
+                          [&] { file.write(tiling[17], sample_values(job, tiling[17])); });
     }
     EXPECT_EQ(message, "cannot write tile 17 of \"region\": file too large. Run the same command "
                        "again to resume.");

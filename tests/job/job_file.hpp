@@ -1,14 +1,12 @@
-// Temporary job files for tests.
+// Jobs for tests.
 #pragma once
 
 #include "overturn/job/job.hpp"
 #include "overturn/problem/coordinates.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,28 +14,18 @@
 
 namespace overturn {
 
-/// A job file in a temporary directory.
-class JobFile {
-public:
-    explicit JobFile(const std::string& text)
-    {
-        std::string directory = testing::TempDir() + "overturn_job_XXXXXX";
-        if (mkdtemp(directory.data()) == nullptr) {
-            throw std::runtime_error("cannot create the directory " + directory);
-        }
-        directory_ = directory;
-        std::ofstream(path(), std::ios::binary) << text;
-    }
-    ~JobFile() { std::filesystem::remove_all(directory_); }
-    JobFile(const JobFile&) = delete;
-    JobFile& operator=(const JobFile&) = delete;
+/// The job of a text, whose path in messages is job.toml.
+inline Job job_of(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+    return read_job_text(text, "job.toml", overrides);
+}
 
-    std::string path() const { return directory_ / "job.toml"; }
-    std::string directory() const { return directory_; }
-
-private:
-    std::filesystem::path directory_;
-};
+/// The message with which the text is refused; empty if it is accepted.
+inline std::string refusal_of(const std::string& text,
+                              const std::vector<std::string>& overrides = {})
+{
+    return refusal(exit_code::job, [&] { job_of(text, overrides); });
+}
 
 /// A valid job; the tests of refusals depend on its line numbers.
 inline constexpr const char* sound_job = R"(title = "A sound job"

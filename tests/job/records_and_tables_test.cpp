@@ -1,15 +1,12 @@
 // Names of motions and of columns, and strengths, of jobs with records and tables.
 #include "job_file.hpp"
 
-#include "overturn/job/job.hpp"
-#include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <random>
 
 namespace overturn {
@@ -21,7 +18,7 @@ class JobWithFiles : public testing::Test {
 protected:
     void write(const std::string& name, const std::string& text) const
     {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
+        write_bytes(folder_ / name, text);
     }
 
     void write_record(const std::string& name, const std::string& samples) const
@@ -83,18 +80,6 @@ protected:
 
 using Names = std::vector<std::string>;
 
-template <class Read>
-std::string refusal_of(const Read& read)
-{
-    try {
-        read();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::job);
-        return error.what();
-    }
-    return "accepted";
-}
-
 std::vector<std::string> names_of(const Job& job)
 {
     std::vector<std::string> names;
@@ -137,7 +122,8 @@ TEST_F(Motions, AreRefusedIfOneIsListedTwiceUnderAnySpelling)
     write_components("a.V2A", {"N", "E"});
     for (const char* scene : {"record = ['a.V2A', 'a.V2A']", "record = ['a.V2A', './a.V2A']",
                               "record = ['a.V2A', 'a.*']\ncomponent = [2, 'E']"}) {
-        EXPECT_THAT(refusal_of([&] { plane(scene); }), HasSubstr("is listed more than once"))
+        EXPECT_THAT(refusal(exit_code::job, [&] { plane(scene); }),
+                    HasSubstr("is listed more than once"))
             << scene;
     }
 }
@@ -153,7 +139,7 @@ TEST_F(Motions, AreChosenInTablesByTheirNames)
     EXPECT_EQ(motion_of("a.V2A:E"), AxisList{2});
     EXPECT_EQ(motion_of("a:N"), AxisList{1});
     EXPECT_THAT(
-        refusal_of([&] { motion_of("a.V2A"); }),
+        refusal(exit_code::job, [&] { motion_of("a.V2A"); }),
         HasSubstr("t.csv:2:5: motion = \"a.V2A\" is the name of several records: \"a.V2A:N\" "
                   "and \"a.V2A:E\". Give one of these names."));
 }
@@ -161,7 +147,7 @@ TEST_F(Motions, AreChosenInTablesByTheirNames)
 TEST_F(Motions, OfFilesWhoseNamesAreNotUtf8AreRefused)
 {
     write_record("b\xe9.AT2", "0 1 0");
-    EXPECT_THAT(refusal_of([&] { plane("record = '*.AT2'"); }),
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = '*.AT2'"); }),
                 HasSubstr("matches the file b\u00e9.AT2, whose name is not UTF-8. Rename it."));
 }
 
@@ -181,17 +167,19 @@ TEST_F(Strengths, WhoseFactorOnTheRecordOverflowsAreRefused)
     for (int i = 0; i < 20; ++i) {
         const double peak = std::pow(10.0, -308.5 - double(random() % 100) / 10);
         write_record("b.AT2", fmt::format("0 {} 0", peak));
-        EXPECT_THAT(refusal_of([&] { plane("record = 'b.AT2'", "pga = 1"); }),
+        EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = 'b.AT2'", "pga = 1"); }),
                     HasSubstr("plane.pga = 1 exceeds the range of double precision as a factor on "
                               "the record, whose peak is"))
             << peak;
-        EXPECT_THAT(refusal_of([&] {
-                        table("slenderness,size,restitution,pga\n0.2,1,0.9,0\n0.2,1,0.9,1\n",
-                              "record = 'b.AT2'");
-                    }),
+        EXPECT_THAT(refusal(exit_code::job,
+                            [&] {
+                                table(
+                                    "slenderness,size,restitution,pga\n0.2,1,0.9,0\n0.2,1,0.9,1\n",
+                                    "record = 'b.AT2'");
+                            }),
                     HasSubstr("t.csv:3:4: pga = 1 exceeds the range of double precision"))
             << peak;
-        EXPECT_EQ(refusal_of([&] { plane("record = 'b.AT2'", "scale = 1"); }), "accepted");
+        EXPECT_EQ(refusal(exit_code::job, [&] { plane("record = 'b.AT2'", "scale = 1"); }), "");
     }
 }
 
@@ -211,17 +199,17 @@ TEST_F(Columns, WhoseNamesCannotBeVariablesAreRefused)
         const std::string name = std::string(random() % 3, 'a') +
                                  wrong[std::size_t(i) % wrong.size()] +
                                  std::string(1 + random() % 3, 'b');
-        EXPECT_THAT(refusal_of([&] { table(with_column("c" + name)); }),
+        EXPECT_THAT(refusal(exit_code::job, [&] { table(with_column("c" + name)); }),
                     HasSubstr("t.csv:1:4: the column"))
             << name;
     }
     EXPECT_THAT(
-        refusal_of([&] { table(with_column("my note")); }),
+        refusal(exit_code::job, [&] { table(with_column("my note")); }),
         HasSubstr("t.csv:1:4: the column \"my note\" cannot be a variable of a result file, "
                   "because it contains a blank. Allowed are up to 248 bytes without blanks"));
     for (const std::string& name : {std::string(248, 'x'), std::string("\u00fcber-h\u00f6he;[m]"),
                                     std::string("pgv"), std::string("x_length")}) {
-        EXPECT_EQ(refusal_of([&] { table(with_column(name)); }), "accepted") << name;
+        EXPECT_EQ(refusal(exit_code::job, [&] { table(with_column(name)); }), "") << name;
     }
 }
 
@@ -229,20 +217,22 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
 {
     write_record("b.AT2", "0 1 0");
     for (const char* name : {"run", "block", "motion_name"}) {
-        EXPECT_THAT(refusal_of([&] { table(with_column(name)); }),
+        EXPECT_THAT(refusal(exit_code::job, [&] { table(with_column(name)); }),
                     HasSubstr("is the name of a variable"));
     }
     for (const char* name :
          {"pgv", "arias_intensity", "significant_duration", "motion_name_length"}) {
-        EXPECT_THAT(refusal_of([&] {
-                        write("t.csv", with_column(name));
-                        job("record = 'b.AT2'",
-                            "[blocks]\ntable = \"t.csv\"\n[plane]\nscale = 1\n");
-                    }),
+        EXPECT_THAT(refusal(exit_code::job,
+                            [&] {
+                                write("t.csv", with_column(name));
+                                job("record = 'b.AT2'",
+                                    "[blocks]\ntable = \"t.csv\"\n[plane]\nscale = 1\n");
+                            }),
                     HasSubstr("t.csv:1:4: " + std::string(name) + " is the name of a variable"));
     }
     EXPECT_THAT(
-        refusal_of([&] { table("slenderness,size,restitution,id,id_length\n0.2,1,0.9,a,1\n"); }),
+        refusal(exit_code::job,
+                [&] { table("slenderness,size,restitution,id,id_length\n0.2,1,0.9,a,1\n"); }),
         HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
 }
 
@@ -266,22 +256,22 @@ TEST_F(Columns, MayGiveAnySubsetOfTheQuantities)
 
 TEST_F(Columns, AreRefusedAtTheirRowAndColumn)
 {
-    const auto refusal = [&](const std::string& text, const std::string& plane) {
-        return refusal_of([&] { table(text, "pulse = \"one_sine\"", plane); });
+    const auto refusal_of = [&](const std::string& text, const std::string& plane) {
+        return refusal(exit_code::job, [&] { table(text, "pulse = \"one_sine\"", plane); });
     };
     const std::string motion = "pga = 1\npulse_period = 1\n";
-    EXPECT_THAT(refusal("width,height,restitution\n1,2,0.9\n1,2,1.5\n", motion),
+    EXPECT_THAT(refusal_of("width,height,restitution\n1,2,0.9\n1,2,1.5\n", motion),
                 HasSubstr("t.csv:3:3: restitution = 1.5 is outside (0, 1]."));
-    EXPECT_THAT(refusal("restitution,height,width\n1,1e300,1e-300\n", motion),
+    EXPECT_THAT(refusal_of("restitution,height,width\n1,1e300,1e-300\n", motion),
                 HasSubstr("t.csv:2:3: width makes the block 1e-300 m wide and 1e+300 m high"));
-    EXPECT_THAT(refusal("slenderness,size,restitution_of_maximum\n0.2,1,1\n0.2,1,1.2\n", motion),
+    EXPECT_THAT(refusal_of("slenderness,size,restitution_of_maximum\n0.2,1,1\n0.2,1,1.2\n", motion),
                 HasSubstr("t.csv:3:3: restitution_of_maximum = 1.2 gives r = 1.06"));
-    EXPECT_THAT(refusal("slenderness,size,restitution\n0.2,1,0.9\n", motion + "width = 1\n"),
+    EXPECT_THAT(refusal_of("slenderness,size,restitution\n0.2,1,0.9\n", motion + "width = 1\n"),
                 HasSubstr("t.csv:1:1: slenderness cannot be combined with plane.width, which "
                           "describes the block in another way. Remove one of them."));
-    EXPECT_THAT(refusal("width,height,restitution\n1,2,0.9\n", motion + "size = 1\n"),
+    EXPECT_THAT(refusal_of("width,height,restitution\n1,2,0.9\n", motion + "size = 1\n"),
                 HasSubstr("job.toml:8:8: plane.size cannot be combined with the column width"));
-    EXPECT_THAT(refusal("width,restitution\n1,0.9\n", motion),
+    EXPECT_THAT(refusal_of("width,restitution\n1,0.9\n", motion),
                 HasSubstr("job.toml:5:1: plane.height is missing. Give width and height, or their "
                           "halves, in metres."));
 }
@@ -289,7 +279,8 @@ TEST_F(Columns, AreRefusedAtTheirRowAndColumn)
 TEST_F(Columns, OfABlockWithoutAPlaneAreRefusedAtTheTable)
 {
     write("t.csv", "width,restitution,pga\n1,0.9,0.2\n");
-    EXPECT_THAT(refusal_of([&] { job("pulse = \"one_sine\"", "[blocks]\ntable = \"t.csv\"\n"); }),
+    EXPECT_THAT(refusal(exit_code::job,
+                        [&] { job("pulse = \"one_sine\"", "[blocks]\ntable = \"t.csv\"\n"); }),
                 HasSubstr("t.csv:1: height is missing. Give width and height"));
 }
 
@@ -325,9 +316,9 @@ TEST_F(Motions, AreFoundInATableByNamesThatLookLikeNumbers)
 TEST_F(Motions, AreNotVerticalAndHorizontalAtOnce)
 {
     write_record("a.AT2", "0 0.1 0");
-    EXPECT_THAT(refusal_of([&] { plane("record = \"a.AT2\"\nvertical = 1"); }),
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = \"a.AT2\"\nvertical = 1"); }),
                 HasSubstr("has the accelerations of the horizontal component"));
-    EXPECT_THAT(refusal_of([&] { plane("record = \"a.AT2\"\nvertical = \"a.AT2\""); }),
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = \"a.AT2\"\nvertical = \"a.AT2\""); }),
                 HasSubstr("has the accelerations of the horizontal component"));
 }
 

@@ -8,11 +8,6 @@ namespace overturn {
 
 namespace {
 
-Job read_text(const std::string& text, const std::vector<std::string>& overrides = {})
-{
-    return read_job(JobFile(text).path(), overrides);
-}
-
 void expect_equal(const Column& column, const Column& other)
 {
     EXPECT_EQ(column.quantity, other.quantity);
@@ -36,12 +31,12 @@ void expect_equal(const Grid& grid, const Grid& other)
 TEST(TheResolvedJob, ContainsEveryDefault)
 {
     const Job job =
-        read_text("[scene]\npulse = 'symmetric_ricker'\n"
-                  "[plane]\n"
-                  "slenderness = { values = [0.2] }\n"
-                  "restitution.values = [1] # of = absolute\n"
-                  "amplitude = { count = 3, last = 2, first = 0 }\n"
-                  "frequency = { first = 0.1, last = 1e22, count = 7, spacing = 'log' }\n");
+        job_of("[scene]\npulse = 'symmetric_ricker'\n"
+               "[plane]\n"
+               "slenderness = { values = [0.2] }\n"
+               "restitution.values = [1] # of = absolute\n"
+               "amplitude = { count = 3, last = 2, first = 0 }\n"
+               "frequency = { first = 0.1, last = 1e22, count = 7, spacing = 'log' }\n");
     EXPECT_EQ(job.resolved, R"(title = ""
 
 [scene]
@@ -66,15 +61,15 @@ fields = ["region"]
 
 TEST(TheResolvedJob, HasAWindowOnlyIfThePulseHasOne)
 {
-    EXPECT_EQ(read_text(sound_job).resolved.find("window"), std::string::npos);
+    EXPECT_EQ(job_of(sound_job).resolved.find("window"), std::string::npos);
 }
 
 class ResolvingAgain : public testing::TestWithParam<const char*> {};
 
 TEST_P(ResolvingAgain, ChangesNothing)
 {
-    const Job once = read_text(GetParam());
-    const Job twice = read_text(once.resolved);
+    const Job once = job_of(GetParam());
+    const Job twice = job_of(once.resolved);
     EXPECT_EQ(once.resolved, twice.resolved);
     EXPECT_EQ(once.title, twice.title);
     EXPECT_EQ(once.problem.scene.pulse, twice.problem.scene.pulse);
@@ -129,9 +124,9 @@ slenderness = 0.2
 
 TEST(TheResolvedJob, HasTheNumbersOfItsPulseOnly)
 {
-    const Job job = read_text("[scene]\npulse = 'mavroeidis_papageorgiou'\ngamma = 2\nnu = 0.5\n"
-                              "[plane]\nfrequency = 1\namplitude = 2\nrestitution = 0.9\n"
-                              "slenderness = 0.2\n");
+    const Job job = job_of("[scene]\npulse = 'mavroeidis_papageorgiou'\ngamma = 2\nnu = 0.5\n"
+                           "[plane]\nfrequency = 1\namplitude = 2\nrestitution = 0.9\n"
+                           "slenderness = 0.2\n");
     EXPECT_NE(job.resolved.find("gamma = 2.0\nnu = 0.5\n"), std::string::npos) << job.resolved;
     EXPECT_EQ(job.resolved.find("window"), std::string::npos);
     EXPECT_EQ(job.resolved.find("cycles"), std::string::npos);
@@ -139,21 +134,20 @@ TEST(TheResolvedJob, HasTheNumbersOfItsPulseOnly)
 
 TEST(TheResolvedJob, IsTheSameForTheSameJobWrittenDifferently)
 {
-    const std::string plain = read_text(sound_job).resolved;
-    EXPECT_EQ(read_text(sound_job_with(10, "tolerance = 0.000_000_001 # the default")).resolved,
+    const std::string plain = job_of(sound_job).resolved;
+    EXPECT_EQ(job_of(sound_job_with(10, "tolerance = 0.000_000_001 # the default")).resolved,
               plain);
-    EXPECT_EQ(
-        read_text(sound_job_with(3, "pulse = 'rectangular'"), {"scene.pulse=one_sine"}).resolved,
-        plain);
+    EXPECT_EQ(job_of(sound_job_with(3, "pulse = 'rectangular'"), {"scene.pulse=one_sine"}).resolved,
+              plain);
 }
 
 TEST(TheResolvedJob, DiffersForAnotherJob)
 {
-    const std::string plain = read_text(sound_job).resolved;
+    const std::string plain = job_of(sound_job).resolved;
     // One unit in the last place of one value is another job.
-    EXPECT_NE(read_text(sound_job, {"plane.slenderness.values=[0.17457160000000003]"}).resolved,
+    EXPECT_NE(job_of(sound_job, {"plane.slenderness.values=[0.17457160000000003]"}).resolved,
               plain);
-    EXPECT_NE(read_text(sound_job, {"output.fields=['angle', 'region']"}).resolved, plain);
+    EXPECT_NE(job_of(sound_job, {"output.fields=['angle', 'region']"}).resolved, plain);
 }
 
 } // namespace

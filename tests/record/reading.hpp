@@ -2,7 +2,7 @@
 #pragma once
 
 #include "overturn/record/read_record.hpp"
-#include "overturn/text/error.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,16 +25,10 @@ inline RecordComponent component_of(std::string_view text, const RecordOptions& 
     return std::move(file.components.at(0));
 }
 
-/// The message of the refusal of a text.
+/// The message of the refusal of a text; empty if it is accepted.
 inline std::string refusal_of(std::string_view text, const RecordOptions& options = {})
 {
-    try {
-        parse_record(text, "a.txt", options);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::job);
-        return error.what();
-    }
-    return "accepted";
+    return refusal(exit_code::job, [&] { parse_record(text, "a.txt", options); });
 }
 
 inline std::string with_line_ends(std::string_view text, const std::string& end)

@@ -12,13 +12,7 @@ namespace {
 
 std::string refusal_of_file(const std::string& path)
 {
-    try {
-        read_record(path, in_g);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::job);
-        return error.what();
-    }
-    return "accepted";
+    return refusal(exit_code::job, [&] { read_record(path, in_g); });
 }
 
 TEST(UnitNames, AreInTheOrderOfTheUnits)

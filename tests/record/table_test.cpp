@@ -1,6 +1,6 @@
 // Tables of comma-separated values.
-#include "overturn/text/error.hpp"
 #include "overturn/text/table.hpp"
+#include "support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,7 @@ Table table_of(std::string_view text)
 
 std::string refusal_of(std::string_view text)
 {
-    try {
-        table_of(text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::job);
-        return error.what();
-    }
-    return "no error";
+    return refusal(exit_code::job, [&] { table_of(text); });
 }
 
 TEST(Table, HasTheNumbersOfItsColumns)
@@ -74,30 +68,20 @@ TEST(Table, ReadsAnEmptyValueAsUnknown)
 
 TEST(Table, IsRefusedWithLineAndColumn)
 {
-    EXPECT_TRUE(refusal_of(std::string_view("a\0\n1\0\n", 6)).starts_with("t.csv: is not a table"));
-    EXPECT_TRUE(refusal_of("").starts_with("t.csv:1: the file is empty")) << refusal_of("");
-    EXPECT_TRUE(refusal_of("\n\r\n").starts_with("t.csv:1: the file is empty"))
-        << refusal_of("\n\r\n");
-    EXPECT_TRUE(refusal_of("a,b\n").starts_with("t.csv:2: the table has no rows"))
-        << refusal_of("a,b\n");
-    EXPECT_TRUE(refusal_of("a,,b\n1,2,3\n").starts_with("t.csv:1:2: the column has no name"))
-        << refusal_of("a,,b\n1,2,3\n");
-    EXPECT_TRUE(refusal_of("a,b,a\n1,2,3\n").starts_with("t.csv:1:3: the name \"a\" is repeated"))
-        << refusal_of("a,b,a\n1,2,3\n");
-    EXPECT_TRUE(
-        refusal_of("a,b\n1,2\n1\n").starts_with("t.csv:3: the row has 1 value, but the first "))
-        << refusal_of("a,b\n1,2\n1\n");
-    EXPECT_TRUE(
-        refusal_of("a,b\n1,2,3\n").starts_with("t.csv:2: the row has 3 values, but the first "))
-        << refusal_of("a,b\n1,2,3\n");
-    EXPECT_TRUE(
-        refusal_of("a,b\n1,2\n\n1,2\n").starts_with("t.csv:3: the row has 1 value, but the first "))
-        << refusal_of("a,b\n1,2\n\n1,2\n");
-    EXPECT_TRUE(refusal_of("a,b\n1,\"2\n").starts_with("t.csv:2:2: the quotes are not closed. Ad"))
-        << refusal_of("a,b\n1,\"2\n");
-    EXPECT_TRUE(
-        refusal_of("a,b\n\"1\"2,3\n").starts_with("t.csv:2:1: text follows the closing quot"))
-        << refusal_of("a,b\n\"1\"2,3\n");
+    for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+             {std::string("a\0\n1\0\n", 6), "t.csv: is not a table"},
+             {"", "t.csv:1: the file is empty"},
+             {"\n\r\n", "t.csv:1: the file is empty"},
+             {"a,b\n", "t.csv:2: the table has no rows"},
+             {"a,,b\n1,2,3\n", "t.csv:1:2: the column has no name"},
+             {"a,b,a\n1,2,3\n", "t.csv:1:3: the name \"a\" is repeated"},
+             {"a,b\n1,2\n1\n", "t.csv:3: the row has 1 value, but the first "},
+             {"a,b\n1,2,3\n", "t.csv:2: the row has 3 values, but the first "},
+             {"a,b\n1,2\n\n1,2\n", "t.csv:3: the row has 1 value, but the first "},
+             {"a,b\n1,\"2\n", "t.csv:2:2: the quotes are not closed. Ad"},
+             {"a,b\n\"1\"2,3\n", "t.csv:2:1: text follows the closing quot"}}) {
+        EXPECT_TRUE(refusal_of(text).starts_with(message)) << refusal_of(text);
+    }
 }
 
 TEST(Table, ThatIsNotUtf8IsRefusedWithLineAndColumn)

@@ -160,8 +160,8 @@ TEST(DecimalCommas, AreRefusedInAnyColumnsAndWithAnySeparator)
             text += (has_times ? fmt::format("{}{}", row, separator) : "") +
                     (random() % 2 == 0 ? "-" : "") + fraction + "\n";
         }
-        EXPECT_NE(refusal_of(text, has_times ? in_g : one_column), "accepted") << text;
-        EXPECT_NE(refusal_of(text, has_times ? one_column : in_g), "accepted") << text;
+        EXPECT_NE(refusal_of(text, has_times ? in_g : one_column), "") << text;
+        EXPECT_NE(refusal_of(text, has_times ? one_column : in_g), "") << text;
     }
 }
 

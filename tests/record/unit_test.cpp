@@ -176,7 +176,7 @@ TEST(AStatedUnit, InTheHeadOfAColumnMustBeTheGivenOne)
                               "# acceleration divided by g",
                               "# Acc-gal",
                               "# acceleration g"}) {
-        EXPECT_NE(refusal_of(std::string(other) + "\n1\n", in_metres), "accepted") << other;
+        EXPECT_NE(refusal_of(std::string(other) + "\n1\n", in_metres), "") << other;
     }
     for (const char* same :
          {"# acceleration [m/s2]", "# Time [s]  Acc [m/s^2]", "# in m/s/s", "# no unit",
@@ -204,9 +204,9 @@ TEST(AStatedUnit, InTheNameOfAColumnMustBeTheGivenOne)
             letter = random() % 2 == 0 ? char(std::toupper(letter)) : letter;
         }
         const RecordOptions given{.time_step = 0.01, .unit = AccelerationUnit::m_per_s2};
-        EXPECT_EQ(refusal_of("# " + name + "\n1\n", given) == "accepted", length == "m") << name;
+        EXPECT_EQ(refusal_of("# " + name + "\n1\n", given) == "", length == "m") << name;
         const RecordOptions in_g_too{.time_step = 0.01, .unit = AccelerationUnit::g};
-        EXPECT_NE(refusal_of("# " + name + "\n1\n", in_g_too), "accepted") << name;
+        EXPECT_NE(refusal_of("# " + name + "\n1\n", in_g_too), "") << name;
     }
 }
 
@@ -231,7 +231,7 @@ TEST(AStatedUnit, OfTheTimeStepIsSeconds)
         EXPECT_EQ(component_of(text(seconds)).time_step, 0.01) << seconds;
     }
     for (const char* other : {"10 MSEC", "100 Hz", "10 ms"}) {
-        EXPECT_NE(refusal_of(text(other)), "accepted") << other;
+        EXPECT_NE(refusal_of(text(other)), "") << other;
     }
 }
 

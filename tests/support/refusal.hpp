@@ -9,15 +9,16 @@
 
 namespace overturn {
 
-/// Returns the message of the Error of kind `output` thrown by the call; empty if none is thrown.
+/// Returns the message of the Error with this exit code that the call throws; empty if it throws
+/// none.
 template <class Call>
-std::string refusal(const Call& call)
+std::string refusal(int code, const Call& call)
 {
     try {
         call();
         return {};
     } catch (const Error& error) {
-        EXPECT_EQ(error.code(), exit_code::output);
+        EXPECT_EQ(error.code(), code);
         return error.what();
     }
 }
