@@ -31,6 +31,20 @@ inline std::string refusal_of(std::string_view text, const RecordOptions& option
     return refusal(exit_code::job, [&] { parse_record(text, "a.txt", options); });
 }
 
+/// A text that is refused with a message.
+struct Refusal {
+    const char* name;
+    std::string text;
+    const char* message;
+};
+
+inline void expect_refused(const std::vector<Refusal>& refusals)
+{
+    for (const auto& [name, text, message] : refusals) {
+        EXPECT_EQ(refusal_of(text), message) << name;
+    }
+}
+
 inline std::string with_line_ends(std::string_view text, const std::string& end)
 {
     std::string result;

@@ -88,58 +88,47 @@ TEST(Smc, MayHaveTheLineEndsOfAnySystem)
     }
 }
 
-struct Refusal {
-    const char* name;
-    std::string text;
-    const char* message;
-};
-
-class SmcRefusal : public testing::TestWithParam<Refusal> {};
-
-TEST_P(SmcRefusal, NamesFileLineAndReason)
-{
-    EXPECT_EQ(refusal_of(GetParam().text), GetParam().message);
-}
-
 // clang-format off
-INSTANTIATE_TEST_SUITE_P(Of, SmcRefusal, testing::Values(
-    Refusal{"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
+TEST(Smc, IsRefusedWithFileLineAndReason)
+{
+    expect_refused({
+        {"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
             "a.txt:1: \"3 VELOCITY\" is not an accelerogram. Give the file of the acceleration."},
-    Refusal{"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
+        {"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
             "a.txt:1: \"4 DISPLACEMENT\" is not an accelerogram. Give the file of the acceleration."},
-    Refusal{"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
+        {"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
             "a.txt:1: \"5 RESPONSE SPECTRA\" is not an accelerogram. Give the file of the acceleration."},
-    Refusal{"FewerSamples", with(sound, "-9.7655E-1", ""),
+        {"FewerSamples", with(sound, "-9.7655E-1", ""),
             "a.txt:31: the file ends after 9 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
-    Refusal{"MoreSamples", with(sound, "-9.7655E-1", "-9.7655E-1-9.7655E-1"),
+        {"MoreSamples", with(sound, "-9.7655E-1", "-9.7655E-1-9.7655E-1"),
             "a.txt:31: \"-9.7655E-1\" follows the last of the 10 samples that the header announces in line 14. "
             "Correct the header or remove the rest."},
-    Refusal{"AnEarlyEnd", sound.substr(0, sound.find("| a comment")),
+        {"AnEarlyEnd", sound.substr(0, sound.find("| a comment")),
             "a.txt:28: the file ends after 0 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
-    Refusal{"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
+        {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
             "a.txt:13: the file ends after 13 of the 27 lines of the header. Give the complete file."},
-    Refusal{"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
+        {"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
-    Refusal{"TooManySamples", with(sound, "        10", "2000000000"),
+        {"TooManySamples", with(sound, "        10", "2000000000"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"2000000000\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
-    Refusal{"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
+        {"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
             "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.1700000E+39\", but must be above "
             "0 and below 1.7e38. Correct it."},
-    Refusal{"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
+        {"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
             "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.0000000E+00\", but must be above "
             "0 and below 1.7e38. Correct it."},
-    Refusal{"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
+        {"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
             "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.2000000E-320\", but must be above "
             "0 and below 1.7e38. Correct it."},
-    Refusal{"AMissingRate", with(sound, "  0.2000000E+03", "               "),
+        {"AMissingRate", with(sound, "  0.2000000E+03", "               "),
             "a.txt:18: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"Overflow", with(sound, "-9.7655E-1", "**********"),
-            "a.txt:31: \"2.7397E-1**********\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."}),
-    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+        {"Overflow", with(sound, "-9.7655E-1", "**********"),
+            "a.txt:31: \"2.7397E-1**********\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."}});
+}
 // clang-format on
 
 TEST(Smc, RefusesAUnitBecauseItStatesItsOwn)

@@ -165,89 +165,80 @@ TEST(DecimalCommas, AreRefusedInAnyColumnsAndWithAnySeparator)
     }
 }
 
-struct Refusal {
-    const char* name;
-    std::string text;
-    RecordOptions options;
-    const char* message;
-};
-
-class TextRefusal : public testing::TestWithParam<Refusal> {};
-
-TEST_P(TextRefusal, NamesFileLineAndReason)
-{
-    EXPECT_EQ(refusal_of(GetParam().text, GetParam().options), GetParam().message);
-}
-
 constexpr RecordOptions nothing_given{};
 constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
 
 // clang-format off
-INSTANTIATE_TEST_SUITE_P(Of, TextRefusal, testing::Values(
-    Refusal{"AMissingUnit", "0.1\n", only_a_time_step,
+TEST(Text, IsRefusedWithFileLineAndReason)
+{
+    for (const auto& [name, text, options, message] :
+         std::vector<std::tuple<const char*, std::string, RecordOptions, const char*>>{
+        {"AMissingUnit", "0.1\n", only_a_time_step,
             "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
             "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
-    Refusal{"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
+        {"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
             "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
             "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
-    Refusal{"AMissingTimeStep", "# a\n0.1\n", in_g,
+        {"AMissingTimeStep", "# a\n0.1\n", in_g,
             "a.txt:2: the file has one column, so the time step is not known. Give two columns with time in seconds first, "
             "or the time step in seconds: scene.time_step in a job, --set scene.time_step=... on the command line, or "
             "time_step=... in Python."},
-    Refusal{"ATimeStepForTwoColumns", "0 0.1\n1 0.1\n", one_column,
+        {"ATimeStepForTwoColumns", "0 0.1\n1 0.1\n", one_column,
             "a.txt:1: time_step = 0.02 was given, but the file has two columns, which state the times. Remove "
             "time_step."},
-    Refusal{"ThreeColumns", "0 1 2\n", in_g,
+        {"ThreeColumns", "0 1 2\n", in_g,
             "a.txt:1: the line has 3 columns. Give one column of accelerations, or two of times and accelerations; "
             "the decimal mark is a point."},
-    Refusal{"DecimalCommas", "0,01 0,2\n", in_g,
+        {"DecimalCommas", "0,01 0,2\n", in_g,
             "a.txt:1: \"0,01 0,2\" may be a number with a decimal comma, because the file has no decimal point. Write "
             "numbers with a point, and separate columns by blanks."},
-    Refusal{"ASecondColumnFromSomeLineOn", "1\n2 3\n", one_column,
+        {"ASecondColumnFromSomeLineOn", "1\n2 3\n", one_column,
             "a.txt:2: the line has 2 columns, but the previous lines have 1. Correct it."},
-    Refusal{"AMissingColumn", "0 1\n1\n", in_g,
+        {"AMissingColumn", "0 1\n1\n", in_g,
             "a.txt:2: the line has 1 column, but the previous lines have 2. Correct it."},
-    Refusal{"AnEmptyColumn", "0,1.5\n1,\n", in_g,
+        {"AnEmptyColumn", "0,1.5\n1,\n", in_g,
             "a.txt:2: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"AWord", "1\nend\n", one_column,
+        {"AWord", "1\nend\n", one_column,
             "a.txt:2: \"end\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"NumbersThatTouch", "1\n1-2\n", one_column,
+        {"NumbersThatTouch", "1\n1-2\n", one_column,
             "a.txt:2: \"1-2\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"TwoSigns", "1\n+-2\n", one_column,
+        {"TwoSigns", "1\n+-2\n", one_column,
             "a.txt:2: \"+-2\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"ACommentBehindANumber", "1\n2 # peak\n", one_column,
+        {"ACommentBehindANumber", "1\n2 # peak\n", one_column,
             "a.txt:2: the line has 3 columns. Give one column of accelerations, or two of times and accelerations; "
             "the decimal mark is a point."},
-    Refusal{"Nan", "nan\n1\n", one_column, "a.txt:1: \"nan\" is not finite. Give a record without gaps."},
-    Refusal{"Infinity", "1\n1e999\n", one_column,
+        {"Nan", "nan\n1\n", one_column, "a.txt:1: \"nan\" is not finite. Give a record without gaps."},
+        {"Infinity", "1\n1e999\n", one_column,
             "a.txt:2: \"1e999\" is outside the range of double precision. Correct it."},
-    Refusal{"ATimeThatIsNan", "0 1\nnan 1\n", in_g, "a.txt:2: \"nan\" is not finite. Give a record without gaps."},
-    Refusal{"OneTime", "0 1\n", in_g,
+        {"ATimeThatIsNan", "0 1\nnan 1\n", in_g, "a.txt:2: \"nan\" is not finite. Give a record without gaps."},
+        {"OneTime", "0 1\n", in_g,
             "a.txt:1: the file has one sample, but the time step can be determined only from two or more. Give the complete "
             "file."},
-    Refusal{"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
+        {"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
             "a.txt:4: the time is 0.040 s, but must be 0.03 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
-    Refusal{"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
+        {"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
             "a.txt:101: the time is 0.505 s, but must be 0.5 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
-    Refusal{"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
+        {"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s is not after the previous time, 0 s. Give ascending times with enough digits, "
             "or one column and time_step."},
-    Refusal{"DescendingTimes", "0.1 0\n0.0 0\n", in_g,
+        {"DescendingTimes", "0.1 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s is not after the previous time, 0.1 s. Give ascending times with enough "
             "digits, or one column and time_step."},
-    Refusal{"AbsurdTimes", "0.1 0\n1e300 0\n", in_g,
+        {"AbsurdTimes", "0.1 0\n1e300 0\n", in_g,
             "a.txt:2: the time 1e300 s is outside -1000000000 to 1000000000 s. The first of two columns must be the "
             "time in seconds."},
-    Refusal{"ATimeStepOfZero", "1\n", (RecordOptions{.time_step = 0, .unit = AccelerationUnit::g}),
+        {"ATimeStepOfZero", "1\n", (RecordOptions{.time_step = 0, .unit = AccelerationUnit::g}),
             "a.txt: time_step = 0 was given, but must be above 0 and finite. Give the seconds between two samples."},
-    Refusal{"ANegativeTimeStep", "1\n", (RecordOptions{.time_step = -0.01, .unit = AccelerationUnit::g}),
+        {"ANegativeTimeStep", "1\n", (RecordOptions{.time_step = -0.01, .unit = AccelerationUnit::g}),
             "a.txt: time_step = -0.01 was given, but must be above 0 and finite. Give the seconds between two "
             "samples."},
-    Refusal{"AnInfiniteTimeStep", "1\n", (RecordOptions{.time_step = HUGE_VAL, .unit = AccelerationUnit::g}),
-            "a.txt: time_step = inf was given, but must be above 0 and finite. Give the seconds between two samples."}),
-    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+        {"AnInfiniteTimeStep", "1\n", (RecordOptions{.time_step = HUGE_VAL, .unit = AccelerationUnit::g}),
+            "a.txt: time_step = inf was given, but must be above 0 and finite. Give the seconds between two samples."}}) {
+        EXPECT_EQ(refusal_of(text, options), message) << name;
+    }
+}
 // clang-format on
 
 TEST(Text, RefusesMoreSamplesThanAreAllowed)

@@ -124,68 +124,57 @@ TEST(V2a, MayOmitVelocityAndDisplacement)
     EXPECT_EQ(component_of(text).acceleration.size(), 12);
 }
 
-struct Refusal {
-    const char* name;
-    std::string text;
-    const char* message;
-};
-
-class V2aRefusal : public testing::TestWithParam<Refusal> {};
-
-TEST_P(V2aRefusal, NamesFileLineAndReason)
-{
-    EXPECT_EQ(refusal_of(GetParam().text), GetParam().message);
-}
-
 const std::string counts = "   65536     250     250      12      12      12";
 
 // clang-format off
-INSTANTIATE_TEST_SUITE_P(Of, V2aRefusal, testing::Values(
-    Refusal{"FewerSamples", with(sound, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
+TEST(V2a, IsRefusedWithFileLineAndReason)
+{
+    expect_refused({
+        {"FewerSamples", with(sound, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
             "a.txt:27: the line has 9 columns of 8 characters, but must have 10: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-    Refusal{"MoreSamples", with(sound, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
+        {"MoreSamples", with(sound, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
             "a.txt:28: the line has 3 columns of 8 characters, but must have 2: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-    Refusal{"AMissingLine", with(sound, "     7.0     8.0\n", ""),
+        {"AMissingLine", with(sound, "     7.0     8.0\n", ""),
             "a.txt:28: the line has 10 columns of 8 characters, but must have 2: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-    Refusal{"AnEarlyEnd", sound.substr(0, sound.size() - block(-1).size()),
+        {"AnEarlyEnd", sound.substr(0, sound.size() - block(-1).size()),
             "a.txt:94: the file ends after 0 of the 12 values of displacement that line 84 announces. Give the "
             "complete file."},
-    Refusal{"AnEarlyEndInTheHeader", sound.substr(0, sound.find("   65536")),
+        {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("   65536")),
             "a.txt:19: the file ends after 19 of the 26 lines of the header. Give the complete file."},
-    Refusal{"AGap", with(sound, "    -2.0", "        "),
+        {"AGap", with(sound, "    -2.0", "        "),
             "a.txt:27: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"Nan", with(sound, "    -2.0", "     nan"),
+        {"Nan", with(sound, "    -2.0", "     nan"),
             "a.txt:27: \"nan\" is not finite. Give a record without gaps."},
-    Refusal{"NoPoints", with(sound, counts, "   65536     250     250       0      12      12"),
+        {"NoPoints", with(sound, counts, "   65536     250     250       0      12      12"),
             "a.txt:20: the number of values of acceleration is \"0\", but must be an integer from 1 to 10000000. "
             "Correct it, or give another record."},
-    Refusal{"TooManyPoints", with(sound, counts, "   65536     250     25012345678      12      12"),
+        {"TooManyPoints", with(sound, counts, "   65536     250     25012345678      12      12"),
             "a.txt:20: the number of values of acceleration is \"12345678\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
-    Refusal{"NegativeVelocities", with(sound, counts, "   65536     250     250      12      -1      12"),
+        {"NegativeVelocities", with(sound, counts, "   65536     250     250      12      -1      12"),
             "a.txt:20: the number of values of velocity is \"-1\", but must be an integer from 0 to 10000000. "
             "Correct it, or give another record."},
-    Refusal{"ATimeStepOfZero", with(sound, "  0.0050  0.0200", "  0.0050  0.0000"),
+        {"ATimeStepOfZero", with(sound, "  0.0050  0.0200", "  0.0050  0.0000"),
             "a.txt:23: the time step is 0 s, but must be above 0. Correct it."},
-    Refusal{"AMissingTimeStep", with(sound, "  0.0050  0.0200", "  0.0050        "),
+        {"AMissingTimeStep", with(sound, "  0.0050  0.0200", "  0.0050        "),
             "a.txt:23: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-    Refusal{"AnotherUnit", with(sound, "-100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s", "-100.0 cm/s/s"),
+        {"AnotherUnit", with(sound, "-100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s", "-100.0 cm/s/s"),
             "a.txt:14: \"Acceleration:  peak   -100.0 cm/s/s\" does not state the unit mm/s/s. Give the values as "
             "text with their unit."},
-    Refusal{"AComponentWithoutName", with(sound, "Component N28W", "Direction N28W"),
+        {"AComponentWithoutName", with(sound, "Component N28W", "Direction N28W"),
             "a.txt:13: \"Direction N28W  Some Accelerometer Axis\" does not name the component. Write it as in "
             "Component N28W."},
-    Refusal{"UncorrectedData", with(sound, "Corrected", "Uncorrected"),
+        {"UncorrectedData", with(sound, "Corrected", "Uncorrected"),
             "a.txt:1: this is an uncorrected accelerogram (V1A). Give the V2A file of this record."},
-    Refusal{"AFourthComponent", sound + component("Down", 1),
+        {"AFourthComponent", sound + component("Down", 1),
             "a.txt:97: more text follows the last of the 3 components. Remove it."},
-    Refusal{"AnotherTextBehindAComponent", component("Up", 1) + std::string("rest\n") + component("N", 1),
+        {"AnotherTextBehindAComponent", component("Up", 1) + std::string("rest\n") + component("N", 1),
             "a.txt:33: \"rest\" is not the first line of a component, such as Corrected accelerogram. Give the "
-            "file as it was published."}),
-    [](const testing::TestParamInfo<Refusal>& refusal) { return refusal.param.name; });
+            "file as it was published."}});
+}
 // clang-format on
 
 TEST(V2a, RefusesAUnitBecauseItStatesItsOwn)
