@@ -20,6 +20,14 @@ inline double in_degrees(double angle)
     return angle * 180 / std::numbers::pi;
 }
 
+/// r_max of a block (Eq. 17), which does not exist for wide ones.
+inline std::optional<double> r_max_of(double slenderness)
+{
+    return slenderness < std::asin(std::sqrt(2.0 / 3))
+               ? std::optional(largest_restitution(slenderness))
+               : std::nullopt;
+}
+
 /// The extents of coordinates over all points of a job.
 class JobExtents {
 public:
@@ -51,9 +59,8 @@ inline std::string block_line(const Job& job)
     line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
     if (job.blocks) {
         line += ", r = " + extents.of("restitution")->text("");
-    } else if (alpha.last < std::asin(std::sqrt(2.0 / 3))) { // the limit of Eq. 17
-        line += ", r_max = " +
-                Extent{largest_restitution(alpha.last), largest_restitution(alpha.first)}.text("");
+    } else if (const auto least = r_max_of(alpha.last)) {
+        line += ", r_max = " + Extent{*least, largest_restitution(alpha.first)}.text("");
     }
     if (const auto size = extents.of("size")) {
         line +=

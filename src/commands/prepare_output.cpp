@@ -53,41 +53,32 @@ std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
     });
 }
 
-/// What is left to do for an existing file; nullopt if there is none.
-struct Unfinished {
-    std::vector<std::int64_t> damaged;
-    bool is_complete;
-};
-
-std::optional<Unfinished> examine(const Job& job, const std::string& path, const SoleWriter& writer)
-{
-    const GuardedReading guarded(path, writer.lock());
-    const std::optional<StoredResult> stored = existing_result(path, job);
-    if (!stored) {
-        return std::nullopt;
-    }
-    std::vector<std::int64_t> damaged = find_damaged_tiles(*stored);
-    const bool is_complete = damaged.empty() && stored->tiles().tiles_done == stored->tiles().tiles;
-    return Unfinished{std::move(damaged), is_complete};
-}
-
 } // namespace
 
 std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
                                                         const SoleWriter& writer)
 {
-    std::optional<Unfinished> existing = examine(job, path, writer);
-    if (existing && existing->is_complete) {
+    std::vector<std::int64_t> damaged;
+    bool exists = false;
+    bool is_complete = false;
+    {
+        const GuardedReading guarded(path, writer.lock());
+        if (const auto stored = existing_result(path, job)) {
+            damaged = find_damaged_tiles(*stored);
+            exists = true;
+            is_complete = damaged.empty() && stored->tiles().tiles_done == stored->tiles().tiles;
+        }
+    }
+    if (is_complete) {
         clear_open_mark(path);
         say(path + " is already complete.");
         return std::nullopt;
     }
     demand_place_for_sidecar(path);
-    if (!existing) {
+    if (!exists) {
         make_file(job, path);
-        return std::vector<std::int64_t>();
     }
-    return std::move(existing->damaged);
+    return damaged;
 }
 
 } // namespace overturn

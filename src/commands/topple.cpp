@@ -107,13 +107,6 @@ struct Answer {
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 };
 
-/// r_max of the block (Eq. 17), which does not exist for wide blocks.
-std::optional<double> r_max_of(double alpha)
-{
-    return alpha < std::asin(std::sqrt(2.0 / 3)) ? std::optional(largest_restitution(alpha))
-                                                 : std::nullopt;
-}
-
 Answer answer_of(const Job& job, const ToppleOptions& options)
 {
     Answer answer;
@@ -215,15 +208,20 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     }
 }
 
+/// JSON has neither NaN nor infinity.
+std::string json_of(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
 /// A list of [first, last].
 std::string json_of(const std::vector<std::pair<double, double>>& ranges)
 {
-    std::string list;
+    std::vector<std::string> list;
     for (const auto& [first, last] : ranges) {
-        list += fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", first,
-                            std::isinf(last) ? "null" : fmt::format("{}", last));
+        list.push_back(fmt::format("[{}, {}]", first, json_of(last)));
     }
-    return "[" + list + "]";
+    return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
 std::string json_of(const RestitutionAnswer& answer)
@@ -242,8 +240,7 @@ std::string json_of(const RestitutionAnswer& answer)
         "\"restitution\": {}, \"restitution_of_maximum\": {}, "
         "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
         "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
-        answer.ratio, std::isnan(answer.share) ? "null" : fmt::format("{}", answer.share),
-        json_of(toppling), json_of(ranges.with(Verdict::safe)),
+        answer.ratio, json_of(answer.share), json_of(toppling), json_of(ranges.with(Verdict::safe)),
         json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
 }
 
@@ -261,44 +258,36 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
 
 void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
 {
-    const auto number = [](double value) {
-        return std::isfinite(value) ? fmt::format("{}", value) : std::string("null");
-    };
     const double alpha = only_point_of(job).slenderness;
-    std::string others;
-    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
-        others +=
-            fmt::format("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
-    }
-    const bool is_requested = answer.verdict.has_value();
+    const auto if_requested = [&](double value) {
+        return answer.verdict ? json_of(value) : "null";
+    };
+    const auto member = [](std::string_view name, const auto& value) {
+        fmt::print("  \"{}\": {},\n", name, value);
+    };
     const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
-    fmt::print(
-        "{{\n"
-        "  \"block\": {{\"width\": {}, \"height\": {}}},\n"
-        "  \"motion\": {},\n"
-        "  \"topples\": {},\n"
-        "  \"pga\": {},\n"
-        "  \"peak_of_alpha\": {},\n"
-        "  \"peak_degrees\": {},\n"
-        "  \"slenderness\": {},\n"
-        "  \"frequency_parameter\": {},\n"
-        "  \"gravity\": {},\n"
-        "  \"lifting_pga\": {},\n"
-        "  \"pga_max\": {},\n"
-        "  \"narrower_ranges_exist\": {},\n"
-        "  \"warnings\": [{}],\n"
-        "  {},\n"
-        "  \"by_restitution\": [{}\n  ]\n"
-        "}}\n",
-        options.width, options.height, json_of_motion(job, options),
-        answer.verdict == Verdict::topples ? "true"
-        : answer.verdict == Verdict::safe  ? "false"
-                                           : "null",
-        is_requested ? number(answer.pga) : "null", is_requested ? number(answer.peak) : "null",
-        is_requested ? number(in_degrees(answer.peak * alpha)) : "null", alpha, *parameter_of(job),
-        job.problem.scene.gravity, number(answer.lifting_pga), options.pga_max,
-        job.problem.scene.is_recorded() ? "true" : "null", warning.empty() ? "" : quoted(warning),
-        json_of(answer.by_restitution.front()), others);
+    fmt::print("{{\n");
+    member("block",
+           fmt::format("{{\"width\": {}, \"height\": {}}}", options.width, options.height));
+    member("motion", json_of_motion(job, options));
+    member("topples", answer.verdict == Verdict::topples ? "true"
+                      : answer.verdict == Verdict::safe  ? "false"
+                                                         : "null");
+    member("pga", if_requested(answer.pga));
+    member("peak_of_alpha", if_requested(answer.peak));
+    member("peak_degrees", if_requested(in_degrees(answer.peak * alpha)));
+    member("slenderness", alpha);
+    member("frequency_parameter", *parameter_of(job));
+    member("gravity", job.problem.scene.gravity);
+    member("lifting_pga", json_of(answer.lifting_pga));
+    member("pga_max", options.pga_max);
+    member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
+    member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted(warning)));
+    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
+    }
+    fmt::print("\n  ]\n}}\n");
 }
 
 void write_history(const Job& job, const std::string& path)
