@@ -1,20 +1,15 @@
 """overturn accuracy, its picture, and jobs with errors or resolved verdicts."""
 
-import pathlib
 import re
 import shutil
-import subprocess
-import sys
 import unittest
 
 import h5py
 import numpy as np
 import xarray
 
-from program import Scratch, checksum
+from program import JOBS, Scratch, checksum
 
-PLOT_ACCURACY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_accuracy"
-JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 FEW = ("--points", "1024", "--digits", "16")
 
 
@@ -30,10 +25,6 @@ class AnAccuracyStudy(Scratch):
             self.assert_exit(self.study(), 0)
             AnAccuracyStudy.computed = path.read_bytes()
         path.write_bytes(AnAccuracyStudy.computed)
-
-    def plot(self, *arguments):
-        return subprocess.run([sys.executable, PLOT_ACCURACY, *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=60)
 
     def test_prints_a_row_per_setting_and_writes_them(self):
         result = self.study()
@@ -92,7 +83,7 @@ class AnAccuracyStudy(Scratch):
 
     def test_is_plotted_with_the_names_of_all_methods(self):
         self.have_study()
-        result = self.plot("study.h5", "-o", "study.svg")
+        result = self.tool("plot_accuracy", "study.h5", "-o", "study.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         picture = (self.folder / "study.svg").read_text()
         for words in ("rk45", "taylor", "rk45, resolved", "taylor, resolved", "slope of order 5",
@@ -101,7 +92,7 @@ class AnAccuracyStudy(Scratch):
 
     def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
-        result = self.plot("spectrum.h5")
+        result = self.tool("plot_accuracy", "spectrum.h5")
         self.assertEqual(result.returncode, 74)
         self.assertIn("is not a study written by overturn accuracy", result.stderr)
 
@@ -111,7 +102,7 @@ class AnAccuracyStudy(Scratch):
             shutil.copy(self.folder / "study.h5", self.folder / "nothing_known.h5")
             with h5py.File(self.folder / "nothing_known.h5", "r+") as file:
                 file.attrs[known] = 0
-            result = self.plot("nothing_known.h5", "-o", "nothing_known.png")
+            result = self.tool("plot_accuracy", "nothing_known.h5", "-o", "nothing_known.png")
             self.assertEqual(result.returncode, 74)
             self.assertIn("no reference to compare with", result.stderr)
             self.assertFalse((self.folder / "nothing_known.png").exists())

@@ -2,7 +2,6 @@
 scontrol."""
 
 import os
-import pathlib
 import shutil
 import subprocess
 import unittest
@@ -10,9 +9,9 @@ import unittest
 import h5py
 import numpy as np
 
-from program import ENVIRONMENT, OVERTURN, PATIENCE, Scratch
+from program import ENVIRONMENT, JOBS, OVERTURN, PATIENCE, Scratch
 
-SCRIPT = pathlib.Path(__file__).parents[2] / "jobs" / "slurm" / "run_until_done"
+SCRIPT = JOBS / "slurm" / "run_until_done"
 
 
 class ABatchJob(Scratch):
@@ -39,8 +38,7 @@ class ABatchJob(Scratch):
                "--set", "plane.restitution=0.9")
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5", *few), 0)
         self.assertEqual(self.run_until_done("true").returncode, 0)
-        with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["run/checksum"][0] = 0
+        self.forget("out.h5", 0)
         self.assert_not_done(self.run_until_done("true"))
 
     def test_is_not_done_if_the_launcher_returns_0_and_there_is_no_file(self):
@@ -58,8 +56,7 @@ class ABatchJob(Scratch):
 
     def test_is_requeued_if_the_launcher_returns_0_after_a_stop(self):
         shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
-        with h5py.File(self.folder / "unfinished.h5", "r+") as file:
-            file["run/checksum"][3] = 0
+        self.forget("unfinished.h5", 3)
         result = self.run_until_done("cp", "unfinished.h5", "out.h5")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("23 tiles were added: requeueing", result.stdout)

@@ -1,8 +1,5 @@
 """overturn boundary: on one rank and on several, when resumed, and in conflict with other files."""
 
-import pathlib
-import subprocess
-import sys
 import unittest
 
 import h5py
@@ -13,7 +10,6 @@ from matplotlib.colors import to_rgb
 
 from program import Scratch, checksum
 
-TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 FEW = ("--set", "plane.frequency.count=30", "--set", "plane.amplitude.count=60")
 CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
 UNSAFE, SAFE, UNDECIDED = "#f4e3b0", "#8bc77f", "#f3b3d6"  # shades of plot_boundary
@@ -151,19 +147,15 @@ class ABoundary(Scratch):
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, "crossing 64 values",
                          "60 of 60 done, 64 x 1 flips each")
 
-    def plot(self, *arguments, tool="plot_boundary"):
-        return subprocess.run([sys.executable, TOOLS / tool, *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=60)
-
     def drawn(self, *arguments):
         """Returns the picture as SVG."""
-        result = self.plot(*arguments, "-o", "picture.svg")
+        result = self.tool("plot_boundary", *arguments, "-o", "picture.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         return (self.folder / "picture.svg").read_text()
 
     def shades(self, *arguments):
         """Returns those of the three shades that occur in the picture."""
-        result = self.plot(*arguments, "-o", "picture.png")
+        result = self.tool("plot_boundary", *arguments, "-o", "picture.png")
         self.assertEqual(result.returncode, 0, result.stderr)
         pixels = pyplot.imread(self.folder / "picture.png")[:, :, :3]
         height, width = pixels.shape[:2]
@@ -187,7 +179,7 @@ class ABoundary(Scratch):
 
     def test_of_several_blocks_is_a_sheet(self):
         self.have_boundary()
-        self.assertEqual(self.plot("boundary.h5", "-o", "both.svg").returncode, 0)
+        self.assertEqual(self.tool("plot_boundary", "boundary.h5", "-o", "both.svg").returncode, 0)
         sheet = (self.folder / "both.svg").read_text()
         for title in ("r = 0.7 r_max = 0.6381", "r = r_max = 0.9115"):
             self.assertIn(title, sheet)
@@ -196,21 +188,20 @@ class ABoundary(Scratch):
     def test_overlays_its_own_spectrum_only(self):
         self.have_boundary()
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
-        result = self.plot("spectrum.h5", "--boundary", "boundary.h5", "-o", "both.svg",
-                           tool="plot_spectrum")
+        result = self.tool("plot_spectrum", "spectrum.h5", "--boundary", "boundary.h5", "-o", "both.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(">flip of the verdict<", (self.folder / "both.svg").read_text())
         for setting, words in (("plane.slenderness.values=[0.2]", "slenderness differs"),
                                ("scene.theory=linear", "has theory nonlinear")):
             self.overturn("run", "small.toml", "-o", "other.h5", *FEW, "--set", setting)
-            result = self.plot("other.h5", "--boundary", "boundary.h5", tool="plot_spectrum")
+            result = self.tool("plot_spectrum", "other.h5", "--boundary", "boundary.h5")
             self.assertEqual(result.returncode, 74)
             self.assertIn(words, result.stderr)
             (self.folder / "other.h5").unlink()
 
     def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)
-        result = self.plot("spectrum.h5")
+        result = self.tool("plot_boundary", "spectrum.h5")
         self.assertEqual(result.returncode, 74)
         self.assertIn("is not a boundary written by overturn boundary", result.stderr)
 

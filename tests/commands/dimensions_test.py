@@ -5,7 +5,6 @@ import unittest
 
 import h5py
 import numpy as np
-import xarray
 
 from program import Scratch
 
@@ -37,8 +36,7 @@ class Dimensions(Scratch):
 
     def compute(self, command, name, *arguments):
         self.assert_exit(self.overturn(command, "job.toml", "-o", name, *arguments), 0)
-        with xarray.open_dataset(self.folder / name) as data:
-            return data.load()
+        return self.opened(name)
 
     def equivalent(self, command, name, data, *arguments):
         """Computes the points of one block with the values of the derived coordinates as axes."""

@@ -85,17 +85,12 @@ class ADiskThatFails(OnFaultyDisk):
         for ranks in (None, 2):
             (self.folder / "out.h5").unlink(missing_ok=True)
             self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
-            self.damage()
+            self.forget("out.h5", ...)
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", "--durable",
                                                   ranks=ranks, ERROR=errno.EIO, FAIL_AT_SYNC=1)
             self.assert_exit(result, 74, "cannot write tile", "input/output error")
             self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
             self.assertEqual(checksum(self.folder / "out.h5"), self.whole)
-
-    def damage(self):
-        """Damages the checksums of all tiles, so that a run has tiles to compute."""
-        with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["run/checksum"][:] = 0
 
 
 class AKillAtTheLastWrite(OnFaultyDisk):
@@ -184,8 +179,7 @@ class AFullDisk(Scratch):
 
     def forget_a_tile(self, name):
         shutil.copy(self.whole, self.folder / name)
-        with h5py.File(self.folder / name, "r+") as file:
-            file["run/checksum"][3] = 0
+        self.forget(name, 3)
 
     def test_that_is_read_only_is_reported_when_resuming(self):
         self.forget_a_tile("unfinished.h5")
@@ -200,7 +194,6 @@ class ASlowDisk(OnFaultyDisk):
     missing: its metadata, then the values of all tiles."""
 
     DELAYS = (0.2, 0.6, 1.2)  # of the signal [s]
-    COMMAND = [OVERTURN, "run", "small.toml", "-o", "out.h5"]
 
     def setUp(self):
         super().setUp()
@@ -208,8 +201,7 @@ class ASlowDisk(OnFaultyDisk):
 
     def end_by(self, number, delay):
         settings = {name: str(value) for name, value in self.settings_of({"READ_TAKES": 12}).items()}
-        with subprocess.Popen(self.COMMAND, cwd=self.folder, env=ENVIRONMENT | settings,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+        with self.start("run", "small.toml", "-o", "out.h5", env=ENVIRONMENT | settings) as run:
             time.sleep(delay)
             run.send_signal(number)
             sent = time.monotonic()
@@ -239,11 +231,7 @@ class AFileThatChanges(Scratch):
         """Returns the output of a run after the change, which is made when some tiles are done."""
         output = self.folder / "long.h5"
         output.unlink(missing_ok=True)
-        command = [OVERTURN, "run", "long.toml"]
-        with subprocess.Popen(command if ranks is None else under_mpi(ranks) + command,
-                              cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True) as process:
-            self.addCleanup(process.kill)
+        with self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5")) as process:
             self.assertIn("tiles", process.stdout.readline())
             while self.tiles_done(output.name) < 3:
                 self.assertIsNone(process.poll(), "the run ended too early")

@@ -3,13 +3,12 @@
 import os
 import signal
 import socket
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
-from program import LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, ranks_of, under_mpi
+from program import LONG_TILES, PATIENCE, Scratch, checksum, ranks_of
 
 
 class ADamagedFile(Scratch):
@@ -39,8 +38,7 @@ class ADamagedFile(Scratch):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
         with h5py.File(self.folder / "long.h5", "r+") as file:
             file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
-        with subprocess.Popen([OVERTURN, "run", "long.toml"], cwd=self.folder,
-                              env=self.with_slow("long.h5"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        with self.start("run", "long.toml", env=self.with_slow("long.h5")) as process:
             self.assertIn(f"{LONG_TILES} damaged tiles to recompute", process.stdout.readline())
             process.send_signal(signal.SIGUSR1)
             process.communicate(timeout=PATIENCE)
@@ -71,8 +69,7 @@ class ADamagedFile(Scratch):
 
     def test_is_repaired_together_with_missing_tiles(self):
         self.damage("whole.h5", (5, 6))
-        with h5py.File(self.folder / "whole.h5", "r+") as file:
-            file["run/checksum"][6:9] = 0
+        self.forget("whole.h5", slice(6, 9))
         self.assert_exit(self.overturn("verify", "whole.h5"), 74, "1 of 21 finished tiles", "tile numbers: 5")
         result = self.overturn("run", "small.toml", "-o", "whole.h5")
         self.assert_exit(result, 0, "20 of 24 tiles done, 1 damaged tile to recompute")
@@ -89,11 +86,7 @@ class ADamagedFile(Scratch):
     def test_is_not_complete_if_a_checksum_disappears_during_the_run(self):
         for ranks in (None, 2):
             (self.folder / "long.h5").unlink(missing_ok=True)
-            with subprocess.Popen(
-                    [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "long.toml"],
-                    cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT, text=True) as process:
-                self.addCleanup(process.kill)
+            with self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5")) as process:
                 self.assertIn("tiles", process.stdout.readline())
                 with h5py.File(self.folder / "long.h5", locking=False) as file:
                     place = file["run/checksum"].id.get_offset()
@@ -117,11 +110,8 @@ class ASilentRank(Scratch):
     def test_ends_the_run_which_can_be_resumed(self):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
         for silent in (2, 0):
-            with subprocess.Popen(
-                    [*under_mpi(3), OVERTURN, "run", "long.toml", "--patience", "1"],
-                    cwd=self.folder, env=self.with_slow("long.h5"), stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT, text=True) as process:
-                self.addCleanup(process.kill)
+            with self.start("run", "long.toml", "--patience", "1", ranks=3,
+                            env=self.with_slow("long.h5")) as process:
                 self.assertIn("tiles", process.stdout.readline())
                 os.kill(ranks_of(process.pid)[silent], signal.SIGSTOP)
                 output, _ = process.communicate(timeout=PATIENCE)

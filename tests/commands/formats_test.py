@@ -2,8 +2,6 @@
 
 import pathlib
 import shutil
-import subprocess
-import sys
 import unittest
 
 import h5py
@@ -13,18 +11,12 @@ from program import Scratch
 
 
 FORMAT_3 = pathlib.Path(__file__).resolve().parent / "format_3"
-TOOLS = FORMAT_3.parents[2] / "tools"
 VERIFIED = "checksums of tiles (this format has none of coordinates) match"
 
 
 def set_format(path, version):
     with h5py.File(path, "r+") as file:
         file.attrs.modify("format_version", np.int64(version))
-
-
-def tool(name, *arguments, folder):
-    return subprocess.run([sys.executable, TOOLS / name, *arguments], cwd=folder, text=True,
-                          capture_output=True)
 
 
 class AnEarlierFormat(Scratch):
@@ -61,7 +53,7 @@ class AnEarlierFormat(Scratch):
                 for field in fields:
                     np.testing.assert_array_equal(old[field][:].squeeze(), new[field][:].squeeze())
             for version in ("old", "new"):
-                drawn = tool(f"plot_{name}", f"{version}_{name}.h5", folder=self.folder)
+                drawn = self.tool(f"plot_{name}", f"{version}_{name}.h5")
                 self.assertEqual(drawn.returncode, 0, drawn.stderr)
 
     def test_is_not_resumed(self):
@@ -77,7 +69,7 @@ class AnEarlierFormat(Scratch):
             for command in (["info", "old.h5"], ["verify", "old.h5"], ["run", "small.toml", "-o", "old.h5"]):
                 self.assert_exit(self.overturn(*command), 74,
                                  f"has format version {version}, but this program reads the versions 3 and 4")
-            drawn = tool("plot_spectrum", "old.h5", folder=self.folder)
+            drawn = self.tool("plot_spectrum", "old.h5")
             self.assertEqual(drawn.returncode, 74, drawn.stderr)
             self.assertEqual((self.folder / "old.h5").read_bytes(), before)
 
@@ -89,7 +81,7 @@ class ALaterFormat(Scratch):
         for command in ("info", "verify"):
             self.assert_exit(self.overturn(command, "small.h5"), 74, "newer")
         self.assert_exit(self.overturn("run", "small.toml"), 74, "newer")
-        drawn = tool("plot_spectrum", "small.h5", folder=self.folder)
+        drawn = self.tool("plot_spectrum", "small.h5")
         self.assertEqual(drawn.returncode, 74)
         self.assertIn("newer", drawn.stderr)
 

@@ -1,8 +1,5 @@
 """overturn history and its picture."""
 
-import pathlib
-import subprocess
-import sys
 import unittest.mock
 
 import h5py
@@ -11,17 +8,12 @@ import xarray
 
 from program import ENVIRONMENT, Scratch, checksum
 
-PLOT_HISTORY = pathlib.Path(__file__).resolve().parents[2] / "tools" / "plot_history"
 AT = "--at=frequency=3,amplitude=1.3,restitution=1"
 
 
 class AHistory(Scratch):
     def history(self, *arguments):
         return self.overturn("history", "small.toml", "-o", "history.h5", *arguments)
-
-    def plot(self, *arguments):
-        return subprocess.run([sys.executable, PLOT_HISTORY, *arguments], cwd=self.folder,
-                              capture_output=True, text=True, timeout=60)
 
     def test_prints_the_events_and_writes_them(self):
         self.assert_exit(self.history(AT), 0, "region S", "uplift", "impact", "end_of_pulse",
@@ -101,7 +93,7 @@ class AHistory(Scratch):
 
     def test_is_plotted_with_its_point_and_events(self):
         self.history(AT)
-        result = self.plot("history.h5", "-o", "history.svg")
+        result = self.tool("plot_history", "history.h5", "-o", "history.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         picture = (self.folder / "history.svg").read_text()
         for words in ("A small plane", "uplift", "at rest"):
@@ -110,13 +102,13 @@ class AHistory(Scratch):
 
     def test_is_plotted_with_the_settings_not_shown_below_the_title(self):
         self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")
-        self.assertEqual(self.plot("history.h5", "-o", "history.svg").returncode, 0)
+        self.assertEqual(self.tool("plot_history", "history.h5", "-o", "history.svg").returncode, 0)
         self.assertIn(">A small plane, with scene.pulse='half_sine'<",
                       (self.folder / "history.svg").read_text().replace("&apos;", "'"))
 
     def test_plot_refuses_a_spectrum(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
-        result = self.plot("spectrum.h5")
+        result = self.tool("plot_history", "spectrum.h5")
         self.assertEqual(result.returncode, 74)
         self.assertIn("is not a history written by overturn history", result.stderr)
 

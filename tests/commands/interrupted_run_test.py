@@ -3,12 +3,10 @@
 import os
 import pathlib
 import signal
-import subprocess
 import time
 import unittest
 
-from program import (ENVIRONMENT, LONG_TILES, OVERTURN, PATIENCE, Scratch, checksum, is_mpich, ranks_of,
-                     under_mpi, words)
+from program import LONG_TILES, PATIENCE, Scratch, checksum, is_mpich, ranks_of, words
 
 
 class ScratchWithRuns(Scratch):
@@ -24,16 +22,10 @@ class ScratchWithRuns(Scratch):
         text = words(self.overturn("info", "long.h5").stdout)
         return int(text.split(" tiles ")[1].split(" of ")[0])
 
-    def start(self, ranks=None):
+    def start_long_run(self, ranks=None):
         """Starts the long job, and returns when some of its tiles are done."""
-        command = [OVERTURN, "run", "long.toml"]
         before = self.tiles_done() if "long.h5" in self.files() else 0
-        process = subprocess.Popen(
-            (under_mpi(ranks) if ranks else []) + command, cwd=self.folder, env=self.with_slow("long.h5"),
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        )  # fmt: skip
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
+        process = self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5"))
         deadline = time.monotonic() + PATIENCE
         while "long.h5" not in self.files() or self.tiles_done() < before + 3:
             time.sleep(0.02)
@@ -66,7 +58,7 @@ class ScratchWithRuns(Scratch):
 
 class AnInterruptedRun(ScratchWithRuns):
     def test_is_not_affected_by_a_second_run_of_the_same_job(self):
-        process = self.start()
+        process = self.start_long_run()
         (self.folder / "link.h5").symlink_to("long.h5")
         for name in ("long.h5", "link.h5"):
             result = self.overturn("run", "long.toml", "-o", name)
@@ -85,7 +77,7 @@ class AnInterruptedRun(ScratchWithRuns):
         self.assert_resumes(ranks=2)
 
     def send_sigusr1_to_mpirun(self):
-        process = self.start(ranks=3)
+        process = self.start_long_run(ranks=3)
         process.send_signal(signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
         self.assert_stopped(process.returncode, output, ranks=3)
@@ -93,21 +85,21 @@ class AnInterruptedRun(ScratchWithRuns):
         self.assertIn("Run the same command again to resume", output)
 
     def send_sigusr1_to_one_rank(self):
-        process = self.start(ranks=5)
+        process = self.start_long_run(ranks=5)
         os.kill(ranks_of(process.pid)[-1], signal.SIGUSR1)
         output, _ = process.communicate(timeout=PATIENCE)
         self.assert_stopped(process.returncode, output, ranks=5)
         self.assertIn("resuming: ", output)
 
     def kill_mpirun(self):
-        process = self.start(ranks=2)
+        process = self.start_long_run(ranks=2)
         ranks = ranks_of(process.pid)
         process.kill()
         process.communicate(timeout=PATIENCE)
         self.wait_for_end(ranks)
 
     def kill_a_rank(self):
-        process = self.start(ranks=3)
+        process = self.start_long_run(ranks=3)
         ranks = ranks_of(process.pid)
         os.kill(ranks[1], signal.SIGKILL)
         process.communicate(timeout=PATIENCE)
@@ -127,7 +119,7 @@ class AnInterruptedRun(ScratchWithRuns):
     def test_stops_without_mpirun_on_each_handled_signal(self):
         signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may have been started by nohup
         for polite in (signal.SIGUSR1, signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            process = self.start()
+            process = self.start_long_run()
             process.send_signal(polite)
             output, _ = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 85, output)
@@ -142,10 +134,7 @@ class AnInterruptedRun(ScratchWithRuns):
 
     def test_continues_when_its_output_is_closed(self):
         for ranks in (None,) if is_mpich() else (None, 2):  # its launcher is terminated by SIGPIPE
-            with subprocess.Popen(
-                    [*(under_mpi(ranks) if ranks else []), OVERTURN, "run", "small.toml"],
-                    cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT) as process:
+            with self.start("run", "small.toml", ranks=ranks) as process:
                 process.stdout.close()
                 self.assertEqual(process.wait(timeout=PATIENCE), 0)
             (self.folder / "small.h5.json").unlink()
@@ -155,16 +144,12 @@ class AnInterruptedRun(ScratchWithRuns):
 
 class AStopInTime(ScratchWithRuns):
     def test_stops_at_once_while_its_file_is_created(self):
-        command = [OVERTURN, "run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
+        command = ["run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
                    "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
                    "--set=plane.amplitude.count=32000"]
         for ranks in (None, 2):
             before = self.files()
-            with subprocess.Popen(
-                    command if ranks is None else under_mpi(ranks) + command, cwd=self.folder,
-                    env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                    text=True) as process:
-                self.addCleanup(process.kill)
+            with self.start(*command, ranks=ranks) as process:
                 self.assertIn("creating a file of 1", process.stdout.readline())
                 time.sleep(0.5)  # creation takes one to two seconds
                 process.send_signal(signal.SIGUSR1)
@@ -191,12 +176,8 @@ class ASlowTile(ScratchWithRuns):
                   for end, value in (("first", first), ("last", last), ("count", 64))))
         for product in ("run", "boundary"):
             for ranks in (None, 2):
-                command = [OVERTURN, product, "long.toml", "-o", f"slow_{product}.h5", *slow]
-                with subprocess.Popen(
-                        command if ranks is None else under_mpi(ranks) + command, cwd=self.folder,
-                        env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                        text=True) as process:
-                    self.addCleanup(process.kill)
+                with self.start(product, "long.toml", "-o", f"slow_{product}.h5", *slow,
+                                ranks=ranks) as process:
                     self.assertIn("r = 1 is above r_max", process.stdout.readline())
                     self.assertRegex(process.stdout.readline(), "in (1 tile|[0-9]+ tiles);")
                     process.send_signal(signal.SIGUSR1)

@@ -4,7 +4,6 @@ import unittest
 
 import h5py
 import numpy as np
-import xarray
 
 from program import Scratch
 
@@ -60,8 +59,7 @@ class Lists(Scratch):
 
     def compute(self, job, name, *arguments, ranks=None):
         self.assert_exit(self.overturn("run", job, "-o", name, *arguments, ranks=ranks), 0)
-        with xarray.open_dataset(self.folder / name) as data:
-            return data.load()
+        return self.opened(name)
 
     def test_is_bit_identical_to_a_plane_per_block(self):
         data = self.compute("job.toml", "list.h5")

@@ -11,6 +11,8 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+
 
 def from_environment(name):
     """Returns a variable set by ctest and tools/check."""
@@ -21,6 +23,8 @@ def from_environment(name):
 
 OVERTURN = from_environment("OVERTURN")
 MPIEXEC = from_environment("MPIEXEC")
+JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+TOOLS = JOBS.parent / "tools"
 PATIENCE = 60  # [s] for one run of the program; the longest takes a few seconds
 
 ENVIRONMENT = {
@@ -113,6 +117,30 @@ class Scratch(unittest.TestCase):
             command, cwd=self.folder, env=ENVIRONMENT, timeout=PATIENCE, capture_output=True,
             text=True,
         )
+
+    def start(self, *arguments, ranks=None, env=ENVIRONMENT):
+        """Starts the program. Its output and its messages are read from stdout."""
+        process = subprocess.Popen(
+            [*(under_mpi(ranks) if ranks else []), OVERTURN, *map(str, arguments)], cwd=self.folder,
+            env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(process.kill)
+        return process
+
+    def tool(self, name, *arguments):
+        """Runs a Python tool to its end."""
+        return subprocess.run([sys.executable, TOOLS / name, *arguments], cwd=self.folder, text=True,
+                              timeout=PATIENCE, capture_output=True)
+
+    def opened(self, name):
+        """Returns the content of a result file."""
+        import xarray  # takes half a second
+        with xarray.open_dataset(self.folder / name) as data:
+            return data.load()
+
+    def forget(self, name, tiles):
+        """Marks tiles of a file as not computed."""
+        with h5py.File(self.folder / name, "r+") as file:
+            file["run/checksum"][tiles] = 0
 
     def with_slow(self, name):
         """Returns an environment in which each write to this file takes 10 ms, so that a run lasts

@@ -1,17 +1,13 @@
 """Jobs with recorded ground motions: results, resuming, and refusals."""
 
 import math
-import pathlib
 import shutil
 import unittest
 
 import h5py
 import numpy as np
-import xarray
 
-from program import Scratch, checksum
-
-JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+from program import JOBS, Scratch, checksum
 
 JOB = """
 title = "Blocks under a record"
@@ -39,10 +35,6 @@ class ScratchWithRecords(Scratch):
         self.assert_exit(result, 0)
         return result
 
-    def opened(self, name="out.h5"):
-        with xarray.open_dataset(self.folder / name) as data:
-            return data.load()
-
     def scale_record(self, name, factor, time_step="0.01"):
         """Writes one.AT2 with its accelerations multiplied and another time step."""
         head, *numbers = (self.folder / "one.AT2").read_text().split(" SEC\n")
@@ -54,7 +46,7 @@ class ScratchWithRecords(Scratch):
 class ASpectrumUnderARecord(ScratchWithRecords):
     def test_has_the_dimensions_and_the_origin_of_its_record(self):
         self.run_job()
-        data = self.opened()
+        data = self.opened("out.h5")
         self.assertEqual(data.region.dims,
                          ("slenderness", "restitution_of_maximum", "scale", "size"))
         self.assertEqual(data.region.shape, (2, 1, 40, 40))
@@ -109,7 +101,7 @@ class ASpectrumUnderARecord(ScratchWithRecords):
         self.run_job("--set", fields)
         self.run_job("--set", fields, "--set", "scene.record=slow.AT2", "--set",
                      "plane.size={ first = 1.2, last = 12.0, count = 40 }", out="slow.h5")
-        one, slow = self.opened(), self.opened("slow.h5")
+        one, slow = self.opened("out.h5"), self.opened("slow.h5")
         for name in ("region", "angle", "velocity", "margin"):
             self.assertTrue(np.array_equal(one[name].values, slow[name].values, equal_nan=True))
 
@@ -117,7 +109,7 @@ class ASpectrumUnderARecord(ScratchWithRecords):
         self.scale_record("mirrored.AT2", -1)
         self.run_job()
         self.run_job("--set", "scene.record=mirrored.AT2", out="mirrored.h5")
-        one, other = self.opened(), self.opened("mirrored.h5")
+        one, other = self.opened("out.h5"), self.opened("mirrored.h5")
         self.assertTrue(np.array_equal(one.angle.values, -other.angle.values, equal_nan=True))
         mirror = np.array([0, 2, 1, 4, 3, 6, 5, 8, 7])
         self.assertTrue(np.array_equal(one.region.values, mirror[other.region.values]))
@@ -126,7 +118,7 @@ class ASpectrumUnderARecord(ScratchWithRecords):
     def test_resolves_all_verdicts_and_changes_none_that_was_certain(self):
         self.run_job()
         self.run_job("--set", "numerics.resolve=true", out="resolved.h5")
-        one, resolved = self.opened(), self.opened("resolved.h5")
+        one, resolved = self.opened("out.h5"), self.opened("resolved.h5")
         certain = one.error.values < np.abs(one.margin.values)
         self.assertGreater(certain.mean(), 0.9)
         safe, later = one.region.values <= 2, resolved.region.values <= 2
@@ -137,7 +129,7 @@ class ASpectrumUnderARecord(ScratchWithRecords):
         self.run_job("--set", 'plane.restitution={ values = [1.0], of = "absolute" }', "--set",
                      "plane.scale.count=9", "--set", "plane.size.count=9", "--set",
                      "numerics.resolve=true")
-        data = self.opened()
+        data = self.opened("out.h5")
         undecided = data.region.values == 254
         self.assertTrue((data.region.values[~undecided] <= 8).all())
         self.assertTrue(np.array_equal(undecided, data.status.values & (2 | 8) != 0))
@@ -154,7 +146,7 @@ class OtherAxes(ScratchWithRecords):
                             f"frequency_parameter = {{ values = {p} }}")
         (self.folder / "job.toml").write_text(text)
         self.run_job(out="other.h5")
-        one, other = self.opened(), self.opened("other.h5")
+        one, other = self.opened("out.h5"), self.opened("other.h5")
         self.assertEqual(other.region.dims[-2:], ("pga", "frequency_parameter"))
         self.assertTrue(np.allclose(other["size"], [1, 0.5]))
         self.assertTrue(np.allclose(other.scale, [1, 2], rtol=1e-6))
@@ -166,7 +158,7 @@ class OtherAxes(ScratchWithRecords):
         (self.folder / "job.toml").write_text(
             text + "[block]\nhalf_width = 0.3\nhalf_height = 1.0\n")
         self.run_job()
-        data = self.opened()
+        data = self.opened("out.h5")
         self.assertEqual(data.region.dims, ("restitution_of_maximum", "scale"))
         self.assertAlmostEqual(float(data["size"]), math.hypot(0.3, 1.0), places=15)
 
@@ -174,7 +166,7 @@ class OtherAxes(ScratchWithRecords):
         for name, factor in (("b2.AT2", 2), ("b10.AT2", 1), ("B.AT2", 0.5)):
             self.scale_record(name, factor)
         self.run_job("--set", 'scene.record="[Bb]*.AT2"', "--set", "plane.scale.values=[1, 2]")
-        data = self.opened()
+        data = self.opened("out.h5")
         self.assertEqual(list(data.motion_name.values), ["B.AT2", "b10.AT2", "b2.AT2"])
         self.assertTrue(np.allclose(data.record_pga, [0.2, 0.4, 0.8], rtol=1e-6))
         twice = data.region.sel(scale=2).values[1], data.region.sel(scale=1).values[2]
@@ -187,7 +179,7 @@ class OtherAxes(ScratchWithRecords):
         self.run_job("--set", "plane.scale=1")
         self.run_job("--set", "plane.scale=1", "--set", "scene.record=column.txt", "--set",
                      "scene.units=m/s2", "--set", "scene.time_step=0.01", out="column.h5")
-        one, other = self.opened(), self.opened("column.h5")
+        one, other = self.opened("out.h5"), self.opened("column.h5")
         self.assertTrue(np.array_equal(one.region.values, other.region.values))
         self.assertTrue(np.allclose(one.pga, other.pga, rtol=1e-15))
 
@@ -206,7 +198,7 @@ class VerticalMotion(ScratchWithRecords):
         self.assertTrue(np.isnan(up.angle.values[free]).all())
         self.assertTrue((up.region.values[~free] <= 8).all())
         self.assertFalse(np.array_equal(up.region.values[..., 0:20, :],
-                                        self.opened().region.values[..., 0:20, :]))
+                                        self.opened("out.h5").region.values[..., 0:20, :]))
 
     def test_is_reported_where_it_cancels_gravity(self):
         up = ("--set", "scene.vertical=up.AT2")
@@ -277,7 +269,7 @@ class AHistoryUnderARecord(ScratchWithRecords):
         self.assert_exit(self.overturn("history", "job.toml", at, "-o", "history.h5",
                                        "--samples", "20001"), 0, "region", "impact")
         self.run_job("--set=plane.scale=1", "--set=plane.size=2", "--set=plane.slenderness=0.2")
-        peak = float(self.opened().peak.values.ravel()[0])
+        peak = float(self.opened("out.h5").peak.values.ravel()[0])
         with h5py.File(self.folder / "history.h5") as file:
             self.assertEqual(file.attrs["scale"], 1)
             ground, angle = file["ground"][:], file["angle"][:]

@@ -5,7 +5,7 @@ import socket
 import subprocess
 import unittest
 
-from program import (ENVIRONMENT, JOB, LONG_TILES, MPIEXEC, OVERTURN, PATIENCE, SMALL, Scratch, checksum,
+from program import (ENVIRONMENT, LONG_TILES, MPIEXEC, OVERTURN, PATIENCE, SMALL, Scratch, checksum,
                      is_mpich)
 
 A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7"]
@@ -49,17 +49,12 @@ class TheCommandLine(Scratch):
         self.assert_exit(result, 2, "compute", "--help")
         self.assertNotIn("Did you mean", result.stderr)
 
-    def test_no_subcommand_is_a_usage_error(self):
-        self.assert_refused(2, ["subcommand", "--help"])
-
-    def test_a_missing_job_argument_is_a_usage_error(self):
-        self.assert_refused(2, ["JOB", "--help"], "run")
-
-    def test_an_unknown_option_is_a_usage_error(self):
-        self.assert_refused(2, ["--fast", "--help"], "run", "small.toml", "--fast")
-
-    def test_an_unknown_kernel_is_a_usage_error(self):
-        self.assert_refused(2, ["sse2", "avx512"], "run", "small.toml", "--kernel", "sse2")
+    def test_that_is_incomplete_or_not_known_is_a_usage_error(self):
+        for words, arguments in ((["subcommand", "--help"], []),
+                                 (["JOB", "--help"], ["run"]),
+                                 (["--fast", "--help"], ["run", "small.toml", "--fast"]),
+                                 (["sse2", "avx512"], ["run", "small.toml", "--kernel", "sse2"])):
+            self.assert_refused(2, words, *arguments)
 
     def test_a_launcher_unknown_to_mpi_is_a_usage_error(self):
         # srun --mpi=none would start four ranks that each compute everything.
@@ -73,39 +68,24 @@ class ABadJob(Scratch):
         self.assert_exit(self.overturn("run", "small.toml"), 0)
         self.assert_refused(65, ["small.h5: this is a result file, not a job file", "-o small.h5"], "run", "small.h5")
 
-    def test_a_missing_job_file_is_named(self):
-        self.assert_refused(65, ["nowhere.toml"], "run", "nowhere.toml")
-
-    def test_toml_that_does_not_parse_is_located(self):
+    def test_is_refused_before_computing_by_run_and_check(self):
         (self.folder / "broken.toml").write_text("[scene\n")
-        self.assert_refused(65, ["broken.toml:1"], "run", "broken.toml")
-
-    def test_an_unknown_key_is_reported_with_a_suggestion(self):
-        misspelt = SMALL.replace("slenderness", "slendernes")
-        (self.folder / "misspelt.toml").write_text(misspelt)
-        self.assert_refused(65, ["slendernes", "slenderness"], "run", "misspelt.toml")
-
-    def test_a_value_out_of_range_is_refused_before_computing(self):
-        override = "plane.restitution={ values = [1.2], of = 'absolute' }"
-        self.assert_refused(65, ["1.2"], "run", "small.toml", "--set", override)
-
-    def test_check_refuses_what_run_refuses(self):
-        self.assert_refused(65, ["3"], "check", "small.toml", "--set", "numerics.tolerance=3")
+        (self.folder / "misspelt.toml").write_text(SMALL.replace("slenderness", "slendernes"))
+        for words, arguments in (
+                (["nowhere.toml"], ["nowhere.toml"]),
+                (["broken.toml:1"], ["broken.toml"]),
+                (["slendernes", "slenderness"], ["misspelt.toml"]),
+                (["1.2"], ["small.toml", "--set", "plane.restitution={ values = [1.2], of = 'absolute' }"])):
+            for command in ("run", "check"):
+                self.assert_refused(65, words, command, *arguments)
 
 
 class ABadOutput(Scratch):
-    def test_a_missing_folder_is_refused(self):
-        self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/out.h5")
-
-    def test_a_folder_that_cannot_be_written_is_refused(self):
-        self.assert_refused(74, ["/proc"], "run", "small.toml", "-o", "/proc/out.h5")
-
-    def test_a_file_in_place_of_a_folder_is_refused(self):
-        self.assert_refused(74, ["small.toml/"], "run", "small.toml", "-o", "small.toml/out.h5")
-
-    def test_a_folder_in_place_of_a_file_is_refused(self):
+    def test_without_a_folder_that_can_be_written_is_refused(self):
         (self.folder / "out.h5").mkdir()
-        self.assert_refused(74, ["out.h5"], "run", "small.toml", "-o", "out.h5")
+        for words, output in (("nowhere", "nowhere/out.h5"), ("/proc", "/proc/out.h5"),
+                              ("small.toml/", "small.toml/out.h5"), ("out.h5", "out.h5")):
+            self.assert_refused(74, [words], "run", "small.toml", "-o", output)
 
     def test_a_foreign_file_is_never_overwritten(self):
         (self.folder / "notes.txt").write_text("not to be lost")
@@ -155,10 +135,7 @@ class ABadOutput(Scratch):
             (self.folder / name).unlink()
 
     def test_a_foreign_sidecar_that_appears_during_the_run_is_kept(self):
-        with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
-                              env=self.with_slow("out.h5"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True) as run:
-            self.addCleanup(run.kill)
+        with self.start("run", "long.toml", "-o", "out.h5", env=self.with_slow("out.h5")) as run:
             run.stdout.readline()
             (self.folder / "out.h5.json").write_text("not to be lost")
             output, _ = run.communicate(timeout=PATIENCE)
@@ -179,8 +156,7 @@ class ABadOutput(Scratch):
 
     def test_a_lock_that_cannot_be_opened_is_refused(self):
         lock = self.folder / "out.h5.lock"
-        with subprocess.Popen([OVERTURN, "run", "long.toml", "-o", "out.h5"], cwd=self.folder,
-                              env=self.with_slow("out.h5"), stdout=subprocess.PIPE, text=True) as run:
+        with self.start("run", "long.toml", "-o", "out.h5", env=self.with_slow("out.h5")) as run:
             run.stdout.readline()
             run.kill()
         lock.chmod(lock.stat().st_mode & ~0o777)  # as for the lock of another user
@@ -251,14 +227,10 @@ class UnderMpirun(Scratch):
         self.assert_exit(result, 0)
         self.assertEqual(result.stdout.count("Usage:"), 1)
 
-    def test_a_usage_error_ends_all_ranks(self):
-        self.assert_refused(2, ["--fast"], "run", "small.toml", "--fast", ranks=3)
-
-    def test_a_bad_job_ends_all_ranks(self):
-        self.assert_refused(65, ["nowhere.toml"], "run", "nowhere.toml", ranks=3)
-
-    def test_a_bad_output_ends_all_ranks(self):
-        self.assert_refused(74, ["nowhere"], "run", "small.toml", "-o", "nowhere/o.h5", ranks=3)
+    def test_an_error_ends_all_ranks(self):
+        for code, words, arguments in ((2, "--fast", ["small.toml", "--fast"]), (65, "nowhere.toml", ["nowhere.toml"]),
+                                       (74, "nowhere", ["small.toml", "-o", "nowhere/o.h5"])):
+            self.assert_refused(code, [words], "run", *arguments, ranks=3)
 
     def test_a_colon_in_the_name_selects_no_file_system(self):
         for ranks in (None, 2):

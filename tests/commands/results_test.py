@@ -1,9 +1,7 @@
 """Output of finished runs: what is stored, and equal bytes from equal jobs."""
 
 import json
-import pathlib
 import subprocess
-import sys
 import tomllib
 import unittest
 
@@ -11,12 +9,7 @@ import h5py
 import numpy as np
 import xarray
 
-from program import ENVIRONMENT, OVERTURN, PATIENCE, SMALL, Scratch, checksum, words
-
-TO_CSV = pathlib.Path(__file__).resolve().parents[2] / "tools" / "to_csv"
-
-
-JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
+from program import ENVIRONMENT, JOBS, OVERTURN, PATIENCE, SMALL, Scratch, checksum, words
 
 
 def few_points_of(job):
@@ -74,11 +67,9 @@ class AFinishedFile(Scratch):
 
     def test_a_spectrum_is_written_as_csv_to_the_last_digit(self):
         self.overturn("run", "small.toml")
-        command = [sys.executable, TO_CSV, "small.h5"]
-        subprocess.run(command, cwd=self.folder, check=True, capture_output=True)
+        self.assertEqual(self.tool("to_csv", "small.h5").returncode, 0)
         whole = np.genfromtxt(self.folder / "small.csv", delimiter=",", names=True)
-        subprocess.run([*command, "--restitution", "1"], cwd=self.folder, check=True,
-                       capture_output=True)
+        self.assertEqual(self.tool("to_csv", "small.h5", "--restitution", "1").returncode, 0)
         table = np.genfromtxt(self.folder / "small.csv", delimiter=",", names=True)
         with h5py.File(self.folder / "small.h5") as found:
             self.assertTrue(np.array_equal(whole["region"], found["region"][:].ravel()))

@@ -10,8 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import OVERTURN, Scratch
-from records_test import JOBS
+from program import JOBS, OVERTURN, Scratch
 
 STATUE = ("--width", "0.6", "--height", "1.8")
 PULSE = (*STATUE, "--period", "0.5")
