@@ -246,7 +246,7 @@ class AFileThatChanges(Scratch):
             self.assertIn("was removed, moved or replaced during the run", said)
 
     def test_is_reported_if_moved_and_resumes_once_moved_back(self):
-        elsewhere = self.folder / "elsewhere.h5"
+        elsewhere = self.folder / "long.h5.part"  # writes to a file of this name are slow, too
         said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2)
         self.assertIn("move it back and run the same command again to resume", said)
         elsewhere.rename(self.folder / "long.h5")
