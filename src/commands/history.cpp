@@ -24,54 +24,54 @@ namespace overturn {
 
 namespace {
 
-/// The --set argument that gives an axis a single value.
-std::string override_of(const std::string& at)
+/// An --at argument, its axis, and the --set argument that gives the axis a single value.
+struct At {
+    std::string given;
+    std::string axis;
+    std::string override;
+};
+
+At read_at(const std::string& given)
 {
-    const std::size_t equals = std::min(at.find('='), at.size());
-    const std::string_view text = at;
-    const std::string_view name = trimmed(text.substr(0, equals));
-    const std::string_view value = trimmed(text.substr(std::min(equals + 1, at.size())));
-    const bool known = std::ranges::count(axis_names(), name) > 0;
-    if (!known || value.empty()) {
+    const std::size_t equals = std::min(given.find('='), given.size());
+    const std::string_view text = given;
+    const std::string axis(trimmed(text.substr(0, equals)));
+    const std::string_view value = trimmed(text.substr(std::min(equals + 1, given.size())));
+    if (std::ranges::count(axis_names(), axis) == 0 || value.empty()) {
         throw Error(exit_code::usage,
                     "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
                     "--at frequency=3,amplitude=1.5.",
-                    at, fmt::join(axis_names(), ", "));
+                    given, fmt::join(axis_names(), ", "));
     }
-    return fmt::format("plane.{}.values=[{}]", name, value);
+    return {given, axis, fmt::format("plane.{}.values=[{}]", axis, value)};
 }
 
-/// Refuses two values of one axis, or of two axes that give the same quantity.
-void expect_one_value_per_axis(const std::vector<std::string>& given)
-{
-    const auto axis_of = [](std::string_view at) { return trimmed(at.substr(0, at.find('='))); };
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            if (exclude_each_other(axis_of(given[i]), axis_of(given[j]))) {
-                throw Error(exit_code::usage,
-                            "--at {}: {} gives the same quantity. Give one value.", given[i],
-                            given[j]);
-            }
-        }
-    }
-}
-
-/// Messages name the --at argument, not the override that it stands for.
+/// Refuses two values of one axis, or of two axes that give the same quantity. Messages name the
+/// --at argument, not the override that it stands for.
 Job read_job_at(const HistoryOptions& options)
 {
-    expect_one_value_per_axis(options.at);
+    std::vector<At> places;
     std::vector<std::string> overrides = options.job.overrides;
-    for (const std::string& at : options.at) {
-        overrides.push_back(override_of(at));
+    for (const std::string& given : options.at) {
+        const At at = read_at(given);
+        for (const At& other : places) {
+            if (exclude_each_other(at.axis, other.axis)) {
+                throw Error(exit_code::usage,
+                            "--at {}: {} gives the same quantity. Give one value.", at.given,
+                            other.given);
+            }
+        }
+        overrides.push_back(at.override);
+        places.push_back(at);
     }
     try {
         return read_job(options.job.path, overrides);
     } catch (const Error& error) {
         const std::string_view message = error.what();
-        for (const std::string& at : options.at) {
-            const std::string place = "--set " + override_of(at);
+        for (const At& at : places) {
+            const std::string place = "--set " + at.override;
             if (message.starts_with(place)) {
-                throw Error(exit_code::job, "--at {}{}", at, message.substr(place.size()));
+                throw Error(exit_code::job, "--at {}{}", at.given, message.substr(place.size()));
             }
         }
         throw;

@@ -158,8 +158,7 @@ RecordFile content_of(const Entry& entry, const std::string& file, const Reading
     try {
         return read_record((reading.folder / file).string(), reading.options);
     } catch (const Error& error) {
-        throw Error(exit_code::job, "{}: {}: {}", place_of(entry.node->source()), entry.key,
-                    error.what());
+        refuse(entry, ": {}", error.what());
     }
 }
 

@@ -262,6 +262,16 @@ TEST_F(Columns, AreRefusedAtTheirRowAndColumn)
     const std::string motion = "pga = 1\npulse_period = 1\n";
     EXPECT_THAT(refusal_of("width,height,restitution\n1,2,0.9\n1,2,1.5\n", motion),
                 HasSubstr("t.csv:3:3: restitution = 1.5 is outside (0, 1]."));
+    EXPECT_THAT(refusal_of("width,height,restitution\n1,2,0.9\nwide,2,1\n", motion),
+                HasSubstr("t.csv:3:1: width = \"wide\" is not a number"));
+    EXPECT_THAT(refusal_of("width,height,restitution\n1,2,0.9\n,2,1\n", motion),
+                HasSubstr("t.csv:3:1: width is empty"));
+    EXPECT_THAT(refusal_of("width,half_width,height,restitution\n1,1,2,1\n", motion),
+                HasSubstr("t.csv:1:2: half_width cannot be combined with width"));
+    EXPECT_THAT(refusal_of("width,height,restitution,pga\n1,2,1,1\n", motion),
+                HasSubstr("t.csv:1:4: pga cannot be combined with plane.pga"));
+    EXPECT_THAT(refusal_of("slenderness,restitution\n0.3,0.9\n", motion),
+                HasSubstr("job.toml:7:16: plane.pulse_period needs the dimensions of the block"));
     EXPECT_THAT(refusal_of("restitution,height,width\n1,1e300,1e-300\n", motion),
                 HasSubstr("t.csv:2:3: width makes the block 1e-300 m wide and 1e+300 m high"));
     EXPECT_THAT(refusal_of("slenderness,size,restitution_of_maximum\n0.2,1,1\n0.2,1,1.2\n", motion),
