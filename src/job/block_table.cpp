@@ -1,8 +1,8 @@
 #include "read_steps.hpp"
 
+#include "overturn/record/text_file.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/table.hpp"
-#include "overturn/text/text_file.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>

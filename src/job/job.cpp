@@ -1,7 +1,7 @@
 #include "overturn/job/job.hpp"
 
+#include "overturn/record/text_file.hpp"
 #include "overturn/text/error.hpp"
-#include "overturn/text/text_file.hpp"
 
 #include "deep_key.hpp"
 #include "read_steps.hpp"

@@ -1,6 +1,6 @@
 #include "overturn/record/read_record.hpp"
 
-#include "overturn/text/text_file.hpp"
+#include "overturn/record/text_file.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include "formats.hpp"

@@ -1,4 +1,4 @@
-#include "overturn/text/text_file.hpp"
+#include "overturn/record/text_file.hpp"
 
 #include "overturn/text/error.hpp"
 
