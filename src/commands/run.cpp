@@ -22,6 +22,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -116,12 +117,12 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
 /// On rank 0.
 void write_run_info(const Task& task, const FarmReport& report, double seconds)
 {
-    RunInfo run;
-    run.start = task.start;
-    run.wall_seconds = seconds;
-    run.kernel = name_of(task.kernel);
-    run.requests = report.dealing.requests;
-    run.dealing_seconds = report.dealing.seconds;
+    RunInfo run{.start = task.start,
+                .wall_seconds = seconds,
+                .kernel = std::string(name_of(task.kernel)),
+                .requests = report.dealing.requests,
+                .dealing_seconds = report.dealing.seconds,
+                .ranks = {}};
     for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
         run.ranks.push_back(
@@ -224,9 +225,7 @@ int run(const RunOptions& options)
             damaged = prepare_output(*job, path, *sole_writer);
             if (damaged) {
                 warn_of_implausible_values(*job);
-                for (const std::string& line : notes_on_records(*job)) {
-                    say(line);
-                }
+                std::ranges::for_each(notes_on_records(*job), say);
             }
         } catch (const std::exception& error) {
             code = complain(error);
