@@ -28,44 +28,32 @@ inline std::optional<double> r_max_of(double slenderness)
                : std::nullopt;
 }
 
-/// The extents of coordinates over all points of a job.
-class JobExtents {
-public:
-    explicit JobExtents(const Job& job)
-        : corners_(corners_of(job.problem.grid)), coordinates_(job.problem.scene, corners_)
-    {}
-
-    /// nullopt if the coordinate is not known.
-    std::optional<Extent> of(std::string_view name) const
-    {
-        return coordinates_.has(name) ? std::optional(extent_of(coordinates_.of(name)))
-                                      : std::nullopt;
-    }
-
-private:
-    Grid corners_;
-    Coordinates coordinates_;
-};
+/// The extent of a coordinate over all points of a job; nullopt if the coordinate is not known.
+inline std::optional<Extent> extent_of(const Job& job, std::string_view name)
+{
+    const Grid corners = corners_of(job.problem.grid);
+    const Coordinates coordinates(job.problem.scene, corners);
+    return coordinates.has(name) ? std::optional(extent_of(coordinates.of(name))) : std::nullopt;
+}
 
 /// A line about the blocks.
 inline std::string block_line(const Job& job)
 {
-    const JobExtents extents(job);
-    const Extent alpha = *extents.of("slenderness");
+    const Extent alpha = *extent_of(job, "slenderness");
     std::string line;
     if (job.blocks) {
         line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
     }
     line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
     if (job.blocks) {
-        line += ", r = " + extents.of("restitution")->text("");
+        line += ", r = " + extent_of(job, "restitution")->text("");
     } else if (const auto least = r_max_of(alpha.last)) {
         line += ", r_max = " + Extent{*least, largest_restitution(alpha.first)}.text("");
     }
-    if (const auto size = extents.of("size")) {
-        line +=
-            fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
-                        extents.of("frequency_parameter")->text(" 1/s"), job.problem.scene.gravity);
+    if (const auto size = extent_of(job, "size")) {
+        line += fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
+                            extent_of(job, "frequency_parameter")->text(" 1/s"),
+                            job.problem.scene.gravity);
     }
     return line;
 }
@@ -73,9 +61,8 @@ inline std::string block_line(const Job& job)
 /// A line about the ground motions.
 inline std::string ground_line(const Job& job)
 {
-    const JobExtents extents(job);
-    std::string line = "peak " + extents.of("pga")->text(" g");
-    if (const auto period = extents.of("pulse_period")) {
+    std::string line = "peak " + extent_of(job, "pga")->text(" g");
+    if (const auto period = extent_of(job, "pulse_period")) {
         line = fmt::format("period {}, {}", period->text(" s"), line);
     }
     const Dimension* table = job.problem.grid.table();

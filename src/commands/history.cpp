@@ -188,7 +188,8 @@ int history(const HistoryOptions& options)
         view.until = options.until;
     }
     const History history = history_of_only_point(job, view);
-    const std::optional<double> p = parameter_of(job);
+    const auto parameter = extent_of(job, "frequency_parameter");
+    const auto p = parameter ? std::optional(parameter->first) : std::nullopt; // [1/s]
     print_outcome(history, slenderness, peak_of_only_point(job), p);
     print_events(history, Units(p));
     write_history_file(options.output, job, history);

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 
 namespace overturn {
@@ -20,15 +19,6 @@ namespace overturn {
 inline Point only_point_of(const Job& job)
 {
     return Coordinates(job.problem.scene, job.problem.grid).points().front();
-}
-
-/// p [1/s] of the only block of a job; nullopt if the job does not give its size.
-inline std::optional<double> parameter_of(const Job& job)
-{
-    const Coordinates coordinates(job.problem.scene, job.problem.grid);
-    return coordinates.has("frequency_parameter")
-               ? std::optional(coordinates.of("frequency_parameter").first())
-               : std::nullopt;
 }
 
 /// Throws Error if the motion overflows; a spectrum flags such a point instead.

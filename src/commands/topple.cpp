@@ -277,7 +277,7 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
     member("peak_of_alpha", if_requested(answer.peak));
     member("peak_degrees", if_requested(in_degrees(answer.peak * alpha)));
     member("slenderness", alpha);
-    member("frequency_parameter", *parameter_of(job));
+    member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
     member("gravity", job.problem.scene.gravity);
     member("lifting_pga", json_of(answer.lifting_pga));
     member("pga_max", options.pga_max);
