@@ -92,8 +92,8 @@ private:
     {
         const Dimension& dimension = problem_.grid.dimensions[i];
         if (i == strength_) {
-            const std::string name(crossing_dimension);
-            const std::int64_t count = most_crossings(problem_.scene);
+            const std::string name(flip_dimension);
+            const std::int64_t count = most_flips(problem_.scene);
             add({name, {name}, {}, {}, "number of the flip, counted from 0", "1"}, count, [count] {
                 std::vector<double> numbers = numbers_to(count);
                 std::ranges::for_each(numbers, [](double& number) { --number; });

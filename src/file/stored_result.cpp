@@ -47,7 +47,7 @@ struct StoredResult::Open {
     }
     std::size_t crossing() const
     {
-        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
+        return std::size_t(std::ranges::find(tiles.axes, flip_dimension, &AxisSummary::name) -
                            tiles.axes.begin());
     }
 };

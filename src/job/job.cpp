@@ -165,7 +165,7 @@ Job boundary_of(Job job)
                     "plane has {:.4g} lines of one frequency, restitution and "
                     "slenderness, whose boundaries would take {:.4g} bytes, but at "
                     "most {:.4g} are allowed. Lower the counts.",
-                    size.points / double(most_crossings(problem.scene)), size.bytes, most_bytes);
+                    size.points / double(most_flips(problem.scene)), size.bytes, most_bytes);
     }
     return job;
 }

@@ -206,7 +206,7 @@ void expect_gravity(const Scene& scene, const Grid& grid)
     const Accelerogram* weakest = nullptr; // of those with points
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const Accelerogram& record = *scene.records[i];
-        if (scales[i].smallest < record.largest_scale()) {
+        if (scales[i].smallest < record.free_fall_scale()) {
             return;
         }
         if (std::isfinite(scales[i].smallest) && weakest == nullptr) {
@@ -215,12 +215,13 @@ void expect_gravity(const Scene& scene, const Grid& grid)
     }
     const std::string_view name = grid.find("pga") != nullptr ? "pga" : "scale";
     const Coordinates coordinates(scene, grid);
-    refuse(name, fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
-                             "below the scale {:.6g}, which is a PGA of {:.6g} g.",
-                             extent_of(coordinates.of(name)).first,
-                             coordinates.of(name).values.size() > 1 ? " and more" : "",
-                             scene.records.size() > 1 ? " under every record" : "",
-                             weakest->largest_scale(), weakest->largest_scale() * weakest->peak()));
+    refuse(name,
+           fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
+                       "below the scale {:.6g}, which is a PGA of {:.6g} g.",
+                       extent_of(coordinates.of(name)).first,
+                       coordinates.of(name).values.size() > 1 ? " and more" : "",
+                       scene.records.size() > 1 ? " under every record" : "",
+                       weakest->free_fall_scale(), weakest->free_fall_scale() * weakest->peak()));
 }
 
 } // namespace

@@ -113,13 +113,14 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
         const std::vector<std::int64_t> motions = coordinates.motions(); // of a tile, all are equal
         const PointRun run(scene_, coordinates.points(), kernel_, nullptr,
                            motions.empty() ? 0 : motions.front());
-        Ends ends(std::size_t(run.size()), {.margin = true});
+        Outcomes outcomes(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
-            run.run_exactly<Digits50>(point, ends);
-            if (!(ends.flags[point] & end_flag::undecided)) {
-                in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
-                                      ends.side[point] * ends.tilt[point],
-                                      ends.side[point] * ends.rate[point], ends.margin[point]});
+            run.run_in_more_digits<Digits50>(point, outcomes);
+            if (!(outcomes.flags[point] & outcome_flag::undecided)) {
+                in_digits_.push_back({i, point, (outcomes.flags[point] & outcome_flag::fell) != 0,
+                                      outcomes.side[point] * outcomes.tilt[point],
+                                      outcomes.side[point] * outcomes.rate[point],
+                                      outcomes.margin[point]});
             }
         }
     }

@@ -45,15 +45,15 @@ public:
         }
         computed_ += amplitudes.size();
         const PointRun run(scene_, std::move(points), kernel_, drop_requested_, line_.motion);
-        const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true},
-                                  left_in_50_digits_);
+        const Outcomes outcomes = outcomes_of(
+            run, numerics, {.impacts = true, .region = true, .margin = true}, left_in_50_digits_);
         if (left_in_50_digits_) {
-            *left_in_50_digits_ -= ends.in_50_digits;
+            *left_in_50_digits_ -= outcomes.in_50_digits;
         }
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back(
-                {amplitudes[i], Region(ends.region[i]), ends.margin[i], ends.impacts[i]});
+            probes.push_back({amplitudes[i], Region(outcomes.region[i]), outcomes.margin[i],
+                              outcomes.impacts[i]});
             if (!probes.back().is_settled()) {
                 undecided_.push_back(probes.back());
             }
@@ -84,7 +84,7 @@ public:
     {
         const double free_fall =
             scene_.is_recorded()
-                ? scene_.records[std::size_t(line_.motion)]->largest_scale() * line_.unit
+                ? scene_.records[std::size_t(line_.motion)]->free_fall_scale() * line_.unit
                 : std::numeric_limits<double>::infinity();
         const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
         if (first != amplitudes.end()) {

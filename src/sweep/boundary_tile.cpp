@@ -28,12 +28,12 @@ struct Extents {
     std::size_t faster = 1;
 };
 
-Extents extents_of(const Tile& tile, std::size_t crossing)
+Extents extents_of(const Tile& tile, std::size_t strength)
 {
     Extents extents;
     for (std::size_t i = 0; i < tile.count.size(); ++i) {
-        (i < crossing   ? extents.slower
-         : i > crossing ? extents.faster
+        (i < strength   ? extents.slower
+         : i > strength ? extents.faster
                         : extents.flips) *= std::size_t(tile.count[i]);
     }
     return extents;
@@ -45,15 +45,15 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
                          const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, requested] = problem;
-    const std::size_t crossing = *grid.dimension_of(Role::strength);
-    const auto [slower, flips, faster] = extents_of(tile, crossing);
+    const std::size_t strength = *grid.dimension_of(Role::strength);
+    const auto [slower, flips, faster] = extents_of(tile, strength);
     Tile lines = tile; // with the first strength only
-    lines.begin[crossing] = 0;
-    lines.count[crossing] = 1;
+    lines.begin[strength] = 0;
+    lines.count[strength] = 1;
     const Coordinates coordinates(scene, grid, lines);
     const std::vector<Point> points = coordinates.points();
     const std::vector<std::int64_t> motions = coordinates.motions();
-    const Column& strengths = grid.dimensions[crossing].columns.front();
+    const Column& strengths = grid.dimensions[strength].columns.front();
     const bool is_pga = strengths.quantity->name == "pga";
     BoundaryFields to(slower * flips * faster, points.size());
     for (std::size_t line = 0; line < points.size(); ++line) {

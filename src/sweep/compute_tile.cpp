@@ -21,9 +21,9 @@ namespace {
 
 /// The values of of_point(i) for all points.
 template <class Value, class OfPoint>
-std::vector<Value> for_each_of(const Ends& ends, const OfPoint& of_point)
+std::vector<Value> for_each_of(const Outcomes& outcomes, const OfPoint& of_point)
 {
-    std::vector<Value> result(std::size_t(ends.size()));
+    std::vector<Value> result(std::size_t(outcomes.size()));
     for (std::size_t i = 0; i < result.size(); ++i) {
         result[i] = Value(of_point(i));
     }
@@ -31,39 +31,41 @@ std::vector<Value> for_each_of(const Ends& ends, const OfPoint& of_point)
 }
 
 /// An angle or a velocity with its sign; NaN if the point is undecided.
-std::vector<double> with_sign(const std::vector<double>& values, const Ends& ends)
+std::vector<double> with_sign(const std::vector<double>& values, const Outcomes& outcomes)
 {
-    return for_each_of<double>(ends, [&](std::size_t i) {
-        const double value = ends.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
-        return ends.flags[i] & end_flag::undecided ? std::numeric_limits<double>::quiet_NaN()
-                                                   : value;
+    return for_each_of<double>(outcomes, [&](std::size_t i) {
+        const double value = outcomes.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
+        return outcomes.flags[i] & outcome_flag::undecided
+                   ? std::numeric_limits<double>::quiet_NaN()
+                   : value;
     });
 }
 
 /// recorded: whether the ground motion is a record.
-FieldValues values_of(Field field, const PointRun& points, const Ends& ends, bool recorded)
+FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes, bool recorded)
 {
     switch (field) {
-    case Field::angle: return with_sign(ends.tilt, ends);
-    case Field::velocity: return with_sign(ends.rate, ends);
-    case Field::peak: return points.peaks(ends);
-    case Field::fall_time: return points.fall_times(ends);
+    case Field::angle: return with_sign(outcomes.tilt, outcomes);
+    case Field::velocity: return with_sign(outcomes.rate, outcomes);
+    case Field::peak: return points.peaks(outcomes);
+    case Field::fall_time: return points.fall_times(outcomes);
     case Field::impacts:
         return for_each_of<std::uint16_t>(
-            ends, [&](std::size_t i) { return ends.stored_impacts(i, recorded); });
-    case Field::steps: return std::vector<std::uint32_t>(ends.steps.begin(), ends.steps.end());
+            outcomes, [&](std::size_t i) { return outcomes.stored_impacts(i, recorded); });
+    case Field::steps:
+        return std::vector<std::uint32_t>(outcomes.steps.begin(), outcomes.steps.end());
     case Field::status:
-        return for_each_of<std::uint8_t>(ends, [&](std::size_t i) {
+        return for_each_of<std::uint8_t>(outcomes, [&](std::size_t i) {
             const auto flag = [&](std::uint8_t in, std::uint8_t out) {
-                return ends.flags[i] & in ? out : 0;
+                return outcomes.flags[i] & in ? out : 0;
             };
-            return flag(end_flag::rested, status::came_to_rest) |
-                   flag(end_flag::capped, status::cap_was_hit) |
-                   flag(end_flag::not_finite, status::not_finite) |
-                   flag(end_flag::unresolved, status::unresolved) |
-                   flag(end_flag::free_fall, status::free_fall);
+            return flag(outcome_flag::rested, status::came_to_rest) |
+                   flag(outcome_flag::capped, status::cap_was_hit) |
+                   flag(outcome_flag::not_finite, status::not_finite) |
+                   flag(outcome_flag::unresolved, status::unresolved) |
+                   flag(outcome_flag::free_fall, status::free_fall);
         });
-    default: return {}; // fields of a boundary, or fields moved from the ends by the caller
+    default: return {}; // fields of a boundary, or fields moved from the outcomes by the caller
     }
 }
 
@@ -73,27 +75,27 @@ TileFields fields_of(const PointRun& points, const Numerics& numerics,
     const auto wanted = [&](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    Ends ends =
-        ends_of(points, numerics,
-                {.impacts = wanted(Field::impacts),
-                 .error = wanted(Field::error),
-                 .peak = wanted(Field::peak),
-                 .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
-                 .margin = wanted(Field::margin),
-                 .steps = wanted(Field::steps),
-                 .phase = wanted(Field::fall_time)});
+    Outcomes outcomes = outcomes_of(
+        points, numerics,
+        {.impacts = wanted(Field::impacts),
+         .error = wanted(Field::error),
+         .peak = wanted(Field::peak),
+         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
+         .margin = wanted(Field::margin),
+         .steps = wanted(Field::steps),
+         .phase = wanted(Field::fall_time)});
     TileFields result;
     result.values.reserve(fields.size());
     for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, ends, recorded));
+        result.values.push_back(values_of(field, points, outcomes, recorded));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
         if (fields[i] == Field::region) {
-            result.values[i] = std::move(ends.region);
+            result.values[i] = std::move(outcomes.region);
         } else if (fields[i] == Field::margin) {
-            result.values[i] = std::move(ends.margin);
+            result.values[i] = std::move(outcomes.margin);
         } else if (fields[i] == Field::error) {
-            result.values[i] = std::move(ends.error);
+            result.values[i] = std::move(outcomes.error);
         }
     }
     return result;

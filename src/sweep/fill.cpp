@@ -172,7 +172,7 @@ private:
     /// others.
     std::vector<Cell> pass(const std::vector<Cell>& cells)
     {
-        integrate(places_of_nodes(cells), node_records);
+        integrate(places_of_nodes(cells), node_outputs);
         std::vector<Cell> parts;
         for (const Cell& cell : cells) {
             if (cell.is_smallest()) { // all of its points are nodes
@@ -193,7 +193,8 @@ private:
         return parts;
     }
 
-    /// The nodes that have not been integrated yet, row by row: points of a row share their push.
+    /// The nodes that have not been integrated yet, row by row: points of a row share their scaled
+    /// pulse.
     std::vector<int> places_of_nodes(const std::vector<Cell>& cells)
     {
         std::vector<int> places;
@@ -212,38 +213,39 @@ private:
         return places;
     }
 
-    /// Integrates points and stores them, as nodes if all records of a node are requested. Returns
+    /// Integrates points and stores them, as nodes if all outputs for a node are requested. Returns
     /// the number of points whose stored value has changed.
-    std::int64_t integrate(const std::vector<int>& places, Records records)
+    std::int64_t integrate(const std::vector<int>& places, Outputs outputs)
     {
-        records.region = true;
+        outputs.region = true;
         std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
             points.push_back(points_[std::size_t(place)]);
         }
         const PointRun run = run_.with_points(std::move(points));
-        const Ends ends = ends_of(run, numerics_, records);
+        const Outcomes outcomes = outcomes_of(run, numerics_, outputs);
         std::int64_t changed = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            changed += store(std::size_t(places[i]), ends, i);
+            changed += store(std::size_t(places[i]), outcomes, i);
         }
-        if (records.grazes) {
+        if (outputs.grazes) {
             with_theory(theory_, [&]<Theory theory>() {
                 for (std::size_t i = 0; i < places.size(); ++i) {
                     node_at_[std::size_t(places[i])] = int(nodes_.size());
-                    nodes_.push_back(node_of<theory>(run, ends, int(i)));
+                    nodes_.push_back(node_of<theory>(run, outcomes, int(i)));
                 }
             });
         }
         return changed;
     }
 
-    bool store(std::size_t place, const Ends& ends, std::size_t i)
+    bool store(std::size_t place, const Outcomes& outcomes, std::size_t i)
     {
-        bool changed = ends.region[i] != std::exchange(filled_.region[place], ends.region[i]);
+        bool changed =
+            outcomes.region[i] != std::exchange(filled_.region[place], outcomes.region[i]);
         if (with_impacts()) {
-            const std::uint16_t impacts = ends.stored_impacts(i, false);
+            const std::uint16_t impacts = outcomes.stored_impacts(i, false);
             changed = impacts != std::exchange(filled_.impacts[place], impacts) || changed;
         }
         filled_.evaluated[place] = 1;

@@ -12,11 +12,11 @@
 
 namespace overturn {
 
-/// The arrays that PointEnds points to; those that are not recorded are empty.
-struct Ends {
-    Ends(std::size_t points, const Records& recorded);
+/// The arrays that OutcomePointers points to; those that are no outputs are empty.
+struct Outcomes {
+    Outcomes(std::size_t points, const Outputs& wanted);
 
-    PointEnds pointers();
+    OutcomePointers pointers();
     int size() const { return int(tilt.size()); }
 
     /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
@@ -26,7 +26,7 @@ struct Ends {
     /// The end of a point that cannot be integrated because gravity vanishes.
     void set_free_fall(int point);
 
-    Records records;
+    Outputs outputs;
     int in_50_digits = 0; ///< the number of points that were computed in 50 digits
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
@@ -34,17 +34,18 @@ struct Ends {
         last_impact;
 };
 
-/// The pushes of a pulse in the order of the points; successive points with the same push share it.
-struct Pushes {
-    Pushes() = default;
-    Pushes(const GroundMotion<double>& motion, Theory theory, const std::vector<Point>& points);
+/// The scaled pulses of points, in their order; successive points with the same one share it.
+struct ScaledPulses {
+    ScaledPulses() = default;
+    ScaledPulses(const GroundMotion<double>& motion, Theory theory,
+                 const std::vector<Point>& points);
 
-    const Push& operator[](int point) const
+    const ScaledPulse& operator[](int point) const
     {
-        return pushes[std::size_t(of_point[std::size_t(point)])];
+        return pulses[std::size_t(of_point[std::size_t(point)])];
     }
 
-    std::vector<Push> pushes;
+    std::vector<ScaledPulse> pulses;
     std::vector<int> of_point;
 };
 
@@ -68,28 +69,28 @@ public:
     std::int64_t intervals() const { return record_ ? record_->samples() - 1 : 0; }
 
     /// The pulse that lifts a point.
-    const Push& push_of(int point) const { return pushes_[point]; }
+    const ScaledPulse& pulse_of(int point) const { return pulses_[point]; }
 
     /// Integrates every point, or the chosen ones, which must be in ascending order. Points where
-    /// the ground falls as fast as the block are not integrated and get end_flag::free_fall.
-    void run(const Numerics& numerics, Ends& ends,
-             OnUnknownError on_unknown_error = OnUnknownError::go_on,
+    /// the ground falls as fast as the block are not integrated and get outcome_flag::free_fall.
+    void run(const Numerics& numerics, Outcomes& outcomes,
+             UncertainImpact uncertain_impact = UncertainImpact::go_on,
              const std::vector<int>* chosen = nullptr) const;
 
     /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
     /// are computed before the end is rounded to double.
     template <class T>
-    void run_exactly(int point, Ends& ends) const;
+    void run_in_more_digits(int point, Outcomes& outcomes) const;
 
     /// Settles a point whose bounces are provably low, by bound_of_low_bounces(): it is safe, and
     /// the bound is the error of its margin. If the point is capped, its end is set to rest.
-    bool settle_low_bounces(int point, Ends& ends) const;
+    bool settle_low_bounces(int point, Outcomes& outcomes) const;
 
     /// The largest |theta| / alpha (infinite if the block overturns), and the time from the first
     /// uplift to |theta| = pi/2 [1/p] (infinite if it does not), both during the pulse and after
-    /// it. Require ends with regions, and with peaks or phases.
-    std::vector<double> peaks(const Ends& ends) const;
-    std::vector<double> fall_times(const Ends& ends) const;
+    /// it. Require outcomes with regions, and with peaks or phases.
+    std::vector<double> peaks(const Outcomes& outcomes) const;
+    std::vector<double> fall_times(const Outcomes& outcomes) const;
 
 private:
     void throw_if_dropped() const;
@@ -107,13 +108,14 @@ private:
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;
-    Pushes pushes_;
+    ScaledPulses pulses_;
 };
 
-/// The ends of all points. If verdicts are to be resolved, points in doubt are integrated again
-/// with more and more digits; those that remain in doubt get end_flag::unresolved. See resolve.cpp.
-/// most_in_50_digits: of these points; default: all of them, under a record those of Numerics.
-Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records,
-             std::optional<int> most_in_50_digits = std::nullopt);
+/// The outcomes of all points. If verdicts are to be resolved, points in doubt are integrated again
+/// with more and more digits; those that remain in doubt get outcome_flag::unresolved. See
+/// resolve.cpp. most_in_50_digits: of these points; default: all of them, under a record those of
+/// Numerics.
+Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
+                     std::optional<int> most_in_50_digits = std::nullopt);
 
 } // namespace overturn

@@ -65,9 +65,10 @@ int main(int count, char** words)
     const double in_kernel = shortest(tiling, [&](const Tile& tile) {
         const PointRun points(problem.scene,
                               Coordinates(problem.scene, problem.grid, tile).points(), kernel);
-        Ends ends(std::size_t(tile.points()), {.peak = true, .region = true, .margin = true});
+        Outcomes outcomes(std::size_t(tile.points()),
+                          {.peak = true, .region = true, .margin = true});
         const auto start = Clock::now();
-        points.run(problem.numerics, ends);
+        points.run(problem.numerics, outcomes);
         return since(start);
     });
     const double in_tiles = shortest(tiling, [&](const Tile& tile) {

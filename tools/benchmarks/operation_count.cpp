@@ -94,15 +94,15 @@ namespace overturn::benchmarks {
 namespace {
 
 /// The same excitation as in the kernel.
-Excitation<Counted> excitation_of(const Point& point)
+PulseExcitation<Counted> excitation_of(const Point& point)
 {
-    const Excitation<double> in_doubles = overturn::excitation_of<Theory::nonlinear>(
-        ground_motion<double>(PulseKind::one_sine), point.slenderness, point.amplitude,
-        point.frequency);
-    Excitation<Counted> counting{.motion = in_doubles.motion,
-                                 .acceleration = Counted(in_doubles.acceleration),
-                                 .frequency = Counted(in_doubles.frequency),
-                                 .uplifts = {}};
+    const PulseExcitation<double> in_doubles =
+        pulse_excitation<Theory::nonlinear>(ground_motion<double>(PulseKind::one_sine),
+                                            point.slenderness, point.amplitude, point.frequency);
+    PulseExcitation<Counted> counting{.motion = in_doubles.motion,
+                                      .acceleration = Counted(in_doubles.acceleration),
+                                      .frequency = Counted(in_doubles.frequency),
+                                      .uplifts = {}};
     for (const double phase : in_doubles.uplifts) {
         counting.uplifts.push_back(Counted(phase));
     }
@@ -113,7 +113,7 @@ template <class Method>
 PeerEnd<double> end_of_point(const Point& point, double tolerance)
 {
     const Block<Counted> block{Counted(point.slenderness), Counted(point.restitution)};
-    const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Records{}>(
+    const ForcedEnd<Counted> end = run_forced_stage<Method, Theory::nonlinear, Outputs{}>(
         block, excitation_of(point), tolerance);
     const double code = region_code_after_pulse<Theory::nonlinear>(end.state, block)
                             .value; // counted for all points

@@ -4,7 +4,7 @@
 
 #include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"
-#include "overturn/integrate/records.hpp"
+#include "overturn/integrate/outputs.hpp"
 #include "overturn/integrate/step.hpp"
 
 namespace overturn {
@@ -29,13 +29,13 @@ struct StepEnd {
     mask_t<T> broken;  ///< a number is not finite, and would not be with any other step
 };
 
-/// A step whose errors are recorded.
+/// A step with the output `error`.
 template <Number T>
 struct StepEndWithErrors : StepEnd<T> {
     StepErrors<T> errors;
 };
 
-/// A step whose extreme tilts are recorded.
+/// A step with the output `peak`.
 template <Number T>
 struct StepEndWithPeak : StepEnd<T> {
     T peak;        ///< the largest tilt within the step [rad]

@@ -7,7 +7,7 @@
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/wavelet.hpp"
 
 #include <type_traits>
@@ -15,7 +15,7 @@
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
-template <Theory theory, Number T, Records records = Records{}>
+template <Theory theory, Number T, Outputs outputs = Outputs{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -24,7 +24,8 @@ class RungeKuttaStepper {
     static constexpr double longest_angle = 2;
 
 public:
-    RungeKuttaStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
+    RungeKuttaStepper(const Block<T>& block, const PulseExcitation<T>& excitation,
+                      const S& tolerance)
         : block_(block), excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
           tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
           towards_fall_(zero_), ends_at_event_(zero_ != zero_)
@@ -41,7 +42,7 @@ public:
                 excitation.motion.pulse,
                 T(rough_log2(negligible) - rough_log2(T(abs(excitation.acceleration)))));
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
@@ -61,13 +62,13 @@ public:
         const T push = now.side * excitation_.ground(now.phase);
         const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             remember(sample(now.side, now.tilt, now.rate, now.phase, now.phase), lanes);
         }
     }
 
     /// One trial step in every lane; the results of inactive lanes are meaningless. so_far: peak
-    /// and lowest turn of the previous steps, if recorded.
+    /// and lowest turn of the previous steps, if they are outputs.
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far)
     {
         const StepMotion<T> start{now.tilt, now.rate, acceleration_};
@@ -116,7 +117,7 @@ public:
             delay =
                 move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             const T phase = now.phase + phase_step;
             const Sample last_sample =
                 sample(now.side, step.end.position, step.end.rate, phase, now.phase);
@@ -127,7 +128,7 @@ public:
                          moved);
             }
             return StepEndWithErrors<T>{end, errors};
-        } else if constexpr (records.peak) {
+        } else if constexpr (outputs.peak) {
             const Quintic<T> tilt = dense_output(start, step.end, h);
             const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
             const StepPoint<T> first{start.rate * h, start.acceleration * h * h};
@@ -301,7 +302,7 @@ private:
     }
 
     const Block<T> block_;
-    const Excitation<T> excitation_;
+    const PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const S tolerance_;
     const T zero_;
@@ -316,17 +317,17 @@ private:
     T longest_seen_ = T(S(0)); // longest step that resolves a wavelet [1/p]
 
     struct Nothing {};
-    [[no_unique_address]] std::conditional_t<records.error, Sample, Nothing>
+    [[no_unique_address]] std::conditional_t<outputs.error, Sample, Nothing>
         sample_; // at the beginning of the next step
-    [[no_unique_address]] std::conditional_t<records.error, T, Nothing>
+    [[no_unique_address]] std::conditional_t<outputs.error, T, Nothing>
         embedded_share_; // see errors()
 };
 
 /// Selects Dormand-Prince 5(4).
 struct RungeKutta {
-    template <Theory theory, Number T, Records records, class GroundOf>
-        requires std::same_as<GroundOf, Excitation<T>>
-    using Stepper = RungeKuttaStepper<theory, T, records>;
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+        requires std::same_as<Excitation, PulseExcitation<T>>
+    using Stepper = RungeKuttaStepper<theory, T, outputs>;
 };
 
 } // namespace overturn

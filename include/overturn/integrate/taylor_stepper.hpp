@@ -6,7 +6,7 @@
 #include "overturn/integrate/first_event.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
 #include "overturn/mechanics/wavelet.hpp"
 
@@ -14,8 +14,8 @@ namespace overturn {
 
 /// order: of the series of the rate. tolerance: bound of its last terms at the end of a step, over
 /// the size of the motion [1].
-template <int order, Theory theory, Number T, Records records = Records{},
-          class GroundOf = Excitation<T>>
+template <int order, Theory theory, Number T, Outputs outputs = Outputs{},
+          class Excitation = PulseExcitation<T>>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -25,15 +25,15 @@ class TaylorStepper {
     /// With four terms, errors are up to ten times smaller at the same tolerance; two and four take
     /// the same time for the same largest error.
     static constexpr int last_terms = 4;
-    static constexpr bool may_be_wavelet = decltype(GroundOf::motion)::may_be_wavelet;
-    /// The order to which the series is known if errors are recorded. In the linear theory, a term
-    /// is almost free.
+    static constexpr bool may_be_wavelet = decltype(Excitation::motion)::may_be_wavelet;
+    /// The order to which the series is known if the error is an output. In the linear theory, a
+    /// term is almost free.
     static constexpr int known_order =
-        !records.error ? order : order + (theory == Theory::linear ? 3 : 1);
+        !outputs.error ? order : order + (theory == Theory::linear ? 3 : 1);
     using KnownSeries = RockingSeries<known_order, T>;
 
 public:
-    TaylorStepper(const Block<T>& block, const GroundOf& excitation, const S& tolerance)
+    TaylorStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
         : slenderness_(block.slenderness), excitation_(excitation),
           is_wavelet_(excitation.motion.is_wavelet())
     {
@@ -41,7 +41,7 @@ public:
         const T one(S(1));
         const T frequency = excitation.frequency;
         fastest_ = select<T>(frequency > one, frequency, one);
-        if constexpr (!std::same_as<GroundOf, Excitation<T>>) {
+        if constexpr (!std::same_as<Excitation, PulseExcitation<T>>) {
             // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
             // change by the same share of epsilon in each of thousands of steps, and the error
             // would exceed its bound, in which round-off is random.
@@ -52,7 +52,7 @@ public:
         tolerance_ = T(tolerance);
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             unrolled<last_terms>([&]<int i>() {
                 constexpr int k = order + 1 - last_terms + i;
                 T ratio = rough_power_of_two(T(log2_tolerance_ * T(S(1) / k)));
@@ -79,7 +79,7 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     /// One step in every lane; the results of inactive lanes are meaningless. so_far: peak and
-    /// lowest turn of the previous steps, if recorded.
+    /// lowest turn of the previous steps, if they are outputs.
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
     {
         const auto push =
@@ -119,9 +119,9 @@ public:
             const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
             move_to_event(end, event.strikes, event.falls, acceleration, excitation_);
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             return StepEndWithErrors<T>{end, errors(now, known, push, bounds, end, h)};
-        } else if constexpr (records.peak) {
+        } else if constexpr (outputs.peak) {
             const auto sample_at = [&](const T& share) -> MotionSample<T> {
                 const T time = share * h;
                 return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
@@ -261,7 +261,7 @@ private:
     auto pushes_at(const Rocking<T>& now, const auto& push, const T& middle, const T& h,
                    const T& end) const
     {
-        if constexpr (std::same_as<GroundOf, Excitation<T>>) {
+        if constexpr (std::same_as<Excitation, PulseExcitation<T>>) {
             std::array<T, 3> pushes = excitation_.ground(
                 std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end});
             for (T& value : pushes) {
@@ -297,7 +297,7 @@ private:
     }
 
     const T slenderness_;
-    const GroundOf excitation_;
+    const Excitation excitation_;
     const bool is_wavelet_;
     T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
     T fastest_;        // its reciprocal
@@ -306,14 +306,14 @@ private:
     T log2_tolerance_;
     T log2_most_allowed_;
     T lost_ = T(S(0));                                            // see acceleration()
-    std::array<T, records.error ? last_terms : 0> following_per_; // see errors()
+    std::array<T, outputs.error ? last_terms : 0> following_per_; // see errors()
 };
 
 /// Selects Taylor series of this order.
 template <int order>
 struct Taylor {
-    template <Theory theory, Number T, Records records, class GroundOf>
-    using Stepper = TaylorStepper<order, theory, T, records, GroundOf>;
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+    using Stepper = TaylorStepper<order, theory, T, outputs, Excitation>;
 };
 
 } // namespace overturn

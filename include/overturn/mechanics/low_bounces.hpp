@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness, const auto& e
 
 template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const Excitation<double>& excitation)
+                                               const PulseExcitation<double>& excitation)
 {
     constexpr double step = std::numbers::pi / (1 << 12);
     const double between =
@@ -126,8 +126,9 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
 
 /// None with a vertical motion.
 template <Theory theory>
-std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const RecordExcitation<double, true>& excitation)
+std::optional<LowBounces>
+bound_of_low_bounces(double slenderness,
+                     const RecordExcitation<double, Directions::both>& excitation)
 {
     if (!excitation.motion.record->upwards().empty()) {
         return std::nullopt;
