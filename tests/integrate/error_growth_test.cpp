@@ -112,7 +112,7 @@ TEST(ErrorGrowth, OfTheTimeIsAlongTheMotion)
     const double time = 1e-14;
     const double speed = 0.5;
     const double acceleration = -2;
-    growth.add_round_off(0, 0, time, speed, acceleration, true);
+    growth.add_round_off({0, 0, time}, speed, acceleration, true);
     EXPECT_NEAR(growth.bound(1, 0), time * speed, time * speed * 0x1p-12);
     EXPECT_NEAR(growth.bound(0, 1), time * 2, time * 2 * 0x1p-12);
     // The energy is constant, except for 2^-12 of the squares, the uncertainty of variations.

@@ -116,24 +116,24 @@ public:
         const Mask ends_at_event = event.strikes || event.falls;
         if (any<T>(ends_at_event)) {
             end.tilt = select<T>(ends_at_event, tilt, end.tilt);
-            const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
-            move_to_event(end, event.strikes, event.falls, acceleration, excitation_);
+            move_to_event(end, event.strikes, event.falls,
+                          T(slope_of_series(series.rate, h) * (fastest_ * fastest_)), excitation_);
         }
         if constexpr (outputs.error) {
-            return StepEndWithErrors<T>{end, errors(now, known, push, bounds, end, h)};
+            StepErrors<T> errors = this->errors(now, known, push, end, h);
+            errors.turning_tilt = turning_tilt_of(series, bounds, end, h);
+            return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
-            const auto sample_at = [&](const T& share) -> MotionSample<T> {
-                const T time = share * h;
-                return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
-                        slope_of_series(series.rate, time) * h * h};
-            };
-            const T most = upper_bound(bounds.upper());
+            const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
             const T per_step = h * unit_;
-            const StepPoint<T> first{now.rate * per_step, series.rate[1] * h * h};
-            const StepPoint<T> after{end.rate * per_step, slope_of_series(series.rate, h) * h * h};
+            const TurnsInStep<T> turns(
+                {now.rate * per_step, series.rate[1] * h * h},
+                {end.rate * per_step, slope_of_series(series.rate, h) * h * h}, T(S(1)));
             return StepEndWithPeak<T>{
-                end, highest_tilt<T>(now.tilt, end.tilt, most, so_far.peak, sample_at),
-                lowest_turn<T>(first, after, lower_bound(bounds.lower()), so_far.lowest_turn,
+                end,
+                highest_tilt<T>(now.tilt, end.tilt, upper_bound(bounds.upper()), so_far.peak,
+                                sample_at),
+                lowest_turn<T>(turns, lower_bound(bounds.lower()), so_far.lowest_turn,
                                active && !end.strikes, sample_at)};
         } else {
             return end;
@@ -141,6 +141,14 @@ public:
     }
 
 private:
+    /// The motion at a share of a step of length h.
+    static MotionSample<T> sample_of(const Series& series, const T& h, const T& share)
+    {
+        const T time = share * h;
+        return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
+                slope_of_series(series.rate, time) * h * h};
+    }
+
     /// The peak ground acceleration over g, positive towards the side of the tilt; 0 once a wavelet
     /// is below the round-off of the acceleration of the block.
     T acceleration(const Rocking<T>& now) const
@@ -195,10 +203,9 @@ private:
     /// follow are not. In the linear theory, the terms of the motion decrease faster than any
     /// geometric series; after the known terms, the ratio is at most a third. The push of a wavelet
     /// is added. The bound is twice the sum; in one of 10^7 points it was too small.
-    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known, const auto& push,
-                         const Enclosure<T>& bounds, const StepEnd<T>& end, const T& h) const
+    T truncation_error(const Rocking<T>& now, const KnownSeries& known, const auto& push,
+                       const T& h) const
     {
-        using arithmetic::fma;
         using std::abs;
         T next(S(0));
         T following(S(0));
@@ -220,14 +227,38 @@ private:
             }
         });
         const T sum = next + following;
-        const T left_out = sum + sum;
+        return sum + sum;
+    }
 
+    /// All except the turning tilt.
+    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known, const auto& push,
+                         const StepEnd<T>& end, const T& h) const
+    {
+        using arithmetic::fma;
+        const T left_out = truncation_error(now, known, push, h);
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
         const auto pushes = pushes_at(now, push, middle, h, end.phase);
         const auto stiffness = [&](const T& tilt, const auto& push_there) -> T {
             return rocking_stiffness<theory>(tilt, slenderness_, push_there);
         };
+        const T duration = h * unit_;
+        const T longest = T(S(longest_variation));
+        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
+        return {.variation =
+                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
+                                      stiffness(value_of_series(series.tilt, middle), pushes[1]),
+                                      stiffness(end.tilt, pushes[2])),
+                .tilt = left_out * h * T(S(1) / (order + 2)),
+                .rate = fma(left_out, fastest_, unknown),
+                .acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_),
+                .turning_tilt = {}};
+    }
+
+    /// See turning_tilt().
+    T turning_tilt_of(const Series& series, const Enclosure<T>& bounds, const StepEnd<T>& end,
+                      const T& h) const
+    {
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
             const T zero(S(0));
             const T one(S(1));
@@ -240,21 +271,10 @@ private:
             }
             return value_of_series(series.tilt, time);
         };
-        const T duration = h * unit_;
-        const T longest = T(S(longest_variation));
-        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
-        const T acceleration = slope_of_series(series.rate, h);
-        return {.variation =
-                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
-                                      stiffness(value_of_series(series.tilt, middle), pushes[1]),
-                                      stiffness(end.tilt, pushes[2])),
-                .tilt = left_out * h * T(S(1) / (order + 2)),
-                .rate = fma(left_out, fastest_, unknown),
-                .acceleration = acceleration * (fastest_ * fastest_),
-                .turning_tilt = turning_tilt<T>(slenderness_, {series.rate[0], series.rate[1]},
-                                                {end.rate * unit_, acceleration}, h,
-                                                lower_bound(bounds.lower()),
-                                                upper_bound(bounds.upper()), tilt_at_turn)};
+        const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
+                                   {end.rate * unit_, slope_of_series(series.rate, h)}, h);
+        return turning_tilt<T>(slenderness_, turns, lower_bound(bounds.lower()),
+                               upper_bound(bounds.upper()), tilt_at_turn);
     }
 
     /// The push at the beginning, in the middle and at the end of a step.
