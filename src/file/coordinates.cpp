@@ -55,7 +55,7 @@ public:
         if (job_.blocks) {
             add_table(job_.blocks->table);
         }
-        for (const std::string_view name : derived_coordinates(problem_.scene.is_recorded())) {
+        for (const std::string_view name : derived_coordinates) {
             add_derived(name);
         }
         if (problem_.scene.is_recorded()) {

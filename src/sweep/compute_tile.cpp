@@ -1,15 +1,14 @@
 #include "overturn/sweep/compute_tile.hpp"
 
-#include "boundary_tile.hpp"
 #include "point_run.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/fill.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <type_traits>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -41,17 +40,20 @@ std::vector<double> with_sign(const std::vector<double>& values, const Outcomes&
     });
 }
 
-/// recorded: whether the ground motion is a record.
-FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes, bool recorded)
+FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
     switch (field) {
+    case Field::region: return outcomes.region;
     case Field::angle: return with_sign(outcomes.tilt, outcomes);
     case Field::velocity: return with_sign(outcomes.rate, outcomes);
+    case Field::margin: return outcomes.margin;
+    case Field::error: return outcomes.error;
     case Field::peak: return points.peaks(outcomes);
     case Field::fall_time: return points.fall_times(outcomes);
     case Field::impacts:
-        return for_each_of<std::uint16_t>(
-            outcomes, [&](std::size_t i) { return outcomes.stored_impacts(i, recorded); });
+        return for_each_of<std::uint16_t>(outcomes, [&](std::size_t i) {
+            return outcomes.stored_impacts(i, points.scene().is_recorded());
+        });
     case Field::steps:
         return std::vector<std::uint32_t>(outcomes.steps.begin(), outcomes.steps.end());
     case Field::status:
@@ -65,53 +67,8 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                    flag(outcome_flag::unresolved, status::unresolved) |
                    flag(outcome_flag::free_fall, status::free_fall);
         });
-    default: return {}; // fields of a boundary, or fields moved from the outcomes by the caller
+    default: return {}; // fields of a boundary or of a filled spectrum
     }
-}
-
-TileFields fields_of(const PointRun& points, const Numerics& numerics,
-                     const std::vector<Field>& fields, bool recorded)
-{
-    const auto wanted = [&](Field field) {
-        return std::find(fields.begin(), fields.end(), field) != fields.end();
-    };
-    Outcomes outcomes = outcomes_of(
-        points, numerics,
-        {.impacts = wanted(Field::impacts),
-         .error = wanted(Field::error),
-         .peak = wanted(Field::peak),
-         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
-         .margin = wanted(Field::margin),
-         .steps = wanted(Field::steps),
-         .phase = wanted(Field::fall_time)});
-    TileFields result;
-    result.values.reserve(fields.size());
-    for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, outcomes, recorded));
-    }
-    for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
-        if (fields[i] == Field::region) {
-            result.values[i] = std::move(outcomes.region);
-        } else if (fields[i] == Field::margin) {
-            result.values[i] = std::move(outcomes.margin);
-        } else if (fields[i] == Field::error) {
-            result.values[i] = std::move(outcomes.error);
-        }
-    }
-    return result;
-}
-
-/// Copies the values of some points of a tile to their places in it.
-void place(const FieldValues& from, const std::vector<std::size_t>& places, FieldValues& to)
-{
-    std::visit(
-        [&](const auto& values) {
-            auto& all = std::get<std::decay_t<decltype(values)>>(to);
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                all[places[i]] = values[i];
-            }
-        },
-        from);
 }
 
 TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
@@ -130,44 +87,77 @@ TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
     return result;
 }
 
-/// The places of the points of each motion.
-std::map<std::int64_t, std::vector<std::size_t>>
-places_by_motion(const std::vector<std::int64_t>& motions)
-{
-    std::map<std::int64_t, std::vector<std::size_t>> places;
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-        places[motions[i]].push_back(i);
-    }
-    return places;
-}
-
 TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel,
                          const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const Coordinates coordinates(scene, grid, tile);
-    std::vector<Point> points = coordinates.points();
-    const auto places = places_by_motion(coordinates.motions());
-    const bool recorded = scene.is_recorded();
-    if (places.size() <= 1) {
-        const std::int64_t motion = places.empty() ? 0 : places.begin()->first;
-        const PointRun run(scene, std::move(points), kernel, drop_requested, motion);
-        return fields_of(run, numerics, fields, recorded);
-    }
+    const auto wanted = [&fields = fields](Field field) {
+        return std::find(fields.begin(), fields.end(), field) != fields.end();
+    };
+    const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested);
+    const Outcomes outcomes = outcomes_of(
+        points, numerics,
+        {.impacts = wanted(Field::impacts),
+         .error = wanted(Field::error),
+         .peak = wanted(Field::peak),
+         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
+         .margin = wanted(Field::margin),
+         .steps = wanted(Field::steps),
+         .phase = wanted(Field::fall_time)});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(make_field_values(field, points.size()));
+        result.values.push_back(values_of(field, points, outcomes));
     }
-    for (const auto& [motion, places_of_motion] : places) {
-        std::vector<Point> chosen;
-        for (const std::size_t i : places_of_motion) {
-            chosen.push_back(points[i]);
-        }
-        const PointRun run(scene, std::move(chosen), kernel, drop_requested, motion);
-        const TileFields part = fields_of(run, numerics, fields, recorded);
-        for (std::size_t i = 0; i < fields.size(); ++i) {
-            place(part.values[i], places_of_motion, result.values[i]);
-        }
+    return result;
+}
+
+TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel,
+                         const DropRequested& drop_requested)
+{
+    const auto& [scene, grid, numerics, product, fields] = problem;
+    const std::size_t along = *grid.dimension_of(Role::strength);
+    Tile beginning = tile; // at the first strength
+    beginning.begin[along] = 0;
+    beginning.count[along] = 1;
+    const Point point = Coordinates(scene, grid, beginning).points().front();
+    const Column& strengths = grid.dimensions[along].columns.front();
+    const bool is_pga = strengths.quantity->name == "pga";
+    const double unit = pga_of_unit(scene, point);
+    FlipSearch search = flip_search(scene);
+    search.most_flips = std::size_t(tile.points());
+    search.drop_requested = drop_requested;
+    const Boundary boundary = boundary_on(scene,
+                                          {.slenderness = point.slenderness,
+                                           .restitution = point.restitution,
+                                           .frequency = point.frequency,
+                                           .motion = point.motion,
+                                           .unit = is_pga ? unit : 1},
+                                          strengths.values.values(), kernel, search);
+    std::vector<double> amplitude(search.most_flips, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> pga = amplitude;
+    std::vector<std::uint8_t> below(search.most_flips, no_flip);
+    std::vector<std::uint8_t> above = below;
+    below.front() = std::uint8_t(boundary.region_at_first);
+    for (std::size_t i = 0; i < boundary.flips.size(); ++i) {
+        const Flip& flip = boundary.flips[i];
+        amplitude[i] = is_pga ? flip.amplitude() / unit : flip.amplitude();
+        pga[i] = is_pga ? flip.amplitude() : flip.amplitude() * unit;
+        below[i] = std::uint8_t(flip.region_below);
+        above[i] = std::uint8_t(flip.region_above);
+    }
+    if (boundary.has_more) {
+        above.back() = std::uint8_t(Region::undecided);
+    }
+    const std::map<Field, FieldValues> computed{
+        {Field::flip_amplitude, std::move(amplitude)},
+        {Field::region_below, std::move(below)},
+        {Field::region_above, std::move(above)},
+        {Field::flip_pga, std::move(pga)},
+        {Field::unsafe_share, std::vector{boundary.unsafe_share}},
+        {Field::undecided_share, std::vector{boundary.undecided_share}}};
+    TileFields result;
+    for (const Field field : fields) {
+        result.values.push_back(computed.at(field));
     }
     return result;
 }

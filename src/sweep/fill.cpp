@@ -28,13 +28,19 @@ struct Cell {
     bool is_smallest() const { return length(0) <= 2 && length(1) <= 2; }
 };
 
-/// Calls visit(begin, end) for the parts of a range; neighbours share an end.
-template <class Visitor>
-void split(int begin, int end, int parts, const Visitor& visit)
+/// The parts of a cell, as many along each axis; neighbours share a side.
+std::vector<Cell> parts_of(const Cell& cell, const std::array<int, 2>& count)
 {
-    for (int i = 0; i < parts; ++i) {
-        visit(begin + (end - begin) * i / parts, begin + (end - begin) * (i + 1) / parts);
+    const auto place = [&](std::size_t axis, int part) {
+        return cell.begin[axis] + cell.length(axis) * part / count[axis];
+    };
+    std::vector<Cell> parts;
+    for (int i = 0; i < count[0]; ++i) {
+        for (int j = 0; j < count[1]; ++j) {
+            parts.push_back({{place(0, i), place(1, j)}, {place(0, i + 1), place(1, j + 1)}});
+        }
     }
+    return parts;
 }
 
 /// The longest side of a cell along the dimension of this role [points]: 1/32 of the axis, but at
@@ -156,16 +162,11 @@ private:
 
     std::vector<Cell> largest_cells() const
     {
-        std::vector<Cell> cells;
-        const auto parts = [&](int points, int longest) {
+        const auto parts = [](int points, int longest) {
             return std::max(1, (points - 2 + longest) / longest);
         };
-        split(0, rows() - 1, parts(rows(), longest_[0]), [&](int top, int bottom) {
-            split(0, columns() - 1, parts(columns(), longest_[1]), [&](int left, int right) {
-                cells.push_back({{top, left}, {bottom, right}});
-            });
-        });
-        return cells;
+        return parts_of({{0, 0}, {rows() - 1, columns() - 1}},
+                        {parts(rows(), longest_[0]), parts(columns(), longest_[1])});
     }
 
     /// Integrates the nodes of the cells, fills the uniform cells and returns the parts of the
@@ -184,11 +185,7 @@ private:
                 continue;
             }
             const auto halves = [&](std::size_t axis) { return cell.length(axis) > 2 ? 2 : 1; };
-            split(cell.begin[0], cell.end[0], halves(0), [&](int top, int bottom) {
-                split(cell.begin[1], cell.end[1], halves(1), [&](int left, int right) {
-                    parts.push_back({{top, left}, {bottom, right}});
-                });
-            });
+            std::ranges::copy(parts_of(cell, {halves(0), halves(1)}), std::back_inserter(parts));
         }
         return parts;
     }

@@ -6,6 +6,8 @@
 #include "overturn/problem/fields.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace overturn {
 
@@ -35,17 +37,10 @@ OutcomePointers Outcomes::pointers()
 
 void Outcomes::set_free_fall(int point)
 {
-    const auto i = std::size_t(point);
-    flags[i] = outcome_flag::free_fall;
-    if (outputs.region) {
-        region[i] = std::uint8_t(Region::undecided);
-    }
-    if (outputs.margin) {
-        margin[i] = unknown;
-    }
-    if (outputs.error) {
-        error[i] = infinity;
-    }
+    put(flags, point, outcome_flag::free_fall);
+    put(region, point, std::uint8_t(Region::undecided));
+    put(margin, point, unknown);
+    put(error, point, infinity);
 }
 
 std::uint16_t Outcomes::stored_impacts(std::size_t point, bool recorded) const
@@ -77,11 +72,10 @@ ScaledPulses::ScaledPulses(const GroundMotion<double>& motion, Theory theory,
 }
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-                   DropRequested drop_requested, std::int64_t motion)
-    : scene_(scene), record_(scene.is_recorded() ? scene.records[std::size_t(motion)] : nullptr),
-      motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
+                   DropRequested drop_requested)
+    : scene_(scene), motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
-      pulses_(record_ ? ScaledPulses() : ScaledPulses(motion_, scene.theory, points_))
+      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(motion_, scene.theory, points_))
 {}
 
 PointRun PointRun::with_points(std::vector<Point> points) const
@@ -92,28 +86,35 @@ PointRun PointRun::with_points(std::vector<Point> points) const
     return run;
 }
 
+std::vector<int> PointRun::all() const
+{
+    std::vector<int> all(points_.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+}
+
 bool PointRun::falls_freely(int point) const
 {
-    return record_ && !(points_[std::size_t(point)].amplitude < record_->free_fall_scale());
+    const Accelerogram* record = record_of(point);
+    return record != nullptr && !(this->point(point).amplitude < record->free_fall_scale());
 }
 
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const Point& at = points_[std::size_t(point)];
-    if (record_) {
-        return visit(record_excitation<theory>(*record_, T(at.slenderness), T(at.amplitude),
-                                               T(at.frequency)));
+    const auto& [slenderness, restitution, amplitude, frequency, motion] = this->point(point);
+    if (const Accelerogram* record = record_of(point)) {
+        return visit(
+            record_excitation<theory>(*record, T(slenderness), T(amplitude), T(frequency)));
     }
-    const auto motion = [&] {
-        if constexpr (std::same_as<T, double>) {
-            return motion_;
-        } else {
-            return ground_motion<T>(scene_.pulse, scene_.shape);
-        }
-    }();
-    return visit(
-        pulse_excitation<theory>(motion, T(at.slenderness), T(at.amplitude), T(at.frequency)));
+    if constexpr (std::same_as<T, double>) {
+        const ScaledPulse& pulse = pulse_of(point);
+        return visit(
+            PulseExcitation<double>{motion_, pulse.acceleration, frequency, pulse.uplifts});
+    } else {
+        return visit(pulse_excitation<theory>(ground_motion<T>(scene_.pulse, scene_.shape),
+                                              T(slenderness), T(amplitude), T(frequency)));
+    }
 }
 
 void PointRun::throw_if_dropped() const
@@ -123,43 +124,48 @@ void PointRun::throw_if_dropped() const
     }
 }
 
-void PointRun::run(const Numerics& numerics, Outcomes& outcomes, UncertainImpact uncertain_impact,
-                   const std::vector<int>* chosen) const
+void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
+                   UncertainImpact uncertain_impact) const
 {
-    std::vector<int> not_falling;
-    if (record_ && std::isfinite(record_->free_fall_scale())) {
-        for (int i = 0; i < (chosen != nullptr ? int(chosen->size()) : size()); ++i) {
-            const int point = chosen != nullptr ? (*chosen)[std::size_t(i)] : i;
-            if (falls_freely(point)) {
-                outcomes.set_free_fall(point);
-            } else {
-                not_falling.push_back(point);
-            }
-        }
-        chosen = &not_falling;
+    const auto is_dropped = [](const void* requested) {
+        const auto& drop_requested = *static_cast<const DropRequested*>(requested);
+        return drop_requested && drop_requested();
+    };
+    const auto run_under = [&](const Accelerogram* record, const std::vector<int>& points) {
+        const KernelTask task{.pulse = motion_,
+                              .record = record,
+                              .points = points_.data(),
+                              .pulse_of_point = pulses_.of_point.data(),
+                              .pulses = pulses_.pulses.data(),
+                              .tolerance = numerics.tolerance,
+                              .outputs = outcomes.outputs,
+                              .uncertain_impact = uncertain_impact,
+                              .chosen = points.data(),
+                              .chosen_count = int(points.size()),
+                              .drop_requested = is_dropped,
+                              .context = &drop_requested_};
+        const Directions directions = record != nullptr && !record->upwards().empty()
+                                          ? Directions::both
+                                          : Directions::horizontal;
+        sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, outcomes.outputs,
+                     directions)(task, outcomes.pointers());
+        throw_if_dropped(); // if dropped, some outcomes may be missing
+    };
+    if (!scene_.is_recorded()) {
+        run_under(nullptr, chosen);
+        return;
     }
-    const KernelTask task{.pulse = motion_,
-                          .record = record_.get(),
-                          .points = points_.data(),
-                          .pulse_of_point = pulses_.of_point.data(),
-                          .pulses = pulses_.pulses.data(),
-                          .tolerance = numerics.tolerance,
-                          .outputs = outcomes.outputs,
-                          .uncertain_impact = uncertain_impact,
-                          .chosen = chosen != nullptr ? chosen->data() : nullptr,
-                          .chosen_count = chosen != nullptr ? int(chosen->size()) : size(),
-                          .drop_requested =
-                              [](const void* context) {
-                                  const auto& requested =
-                                      *static_cast<const DropRequested*>(context);
-                                  return requested && requested();
-                              },
-                          .context = &drop_requested_};
-    const Directions directions =
-        record_ && !record_->upwards().empty() ? Directions::both : Directions::horizontal;
-    sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, outcomes.outputs,
-                 directions)(task, outcomes.pointers());
-    throw_if_dropped(); // if dropped, some outcomes may be missing
+    std::map<const Accelerogram*, std::vector<int>> points_of;
+    for (const int point : chosen) {
+        if (falls_freely(point)) {
+            outcomes.set_free_fall(point);
+        } else {
+            points_of[record_of(point)].push_back(point);
+        }
+    }
+    for (const auto& [record, points] : points_of) {
+        run_under(record, points);
+    }
 }
 
 template <class T>
@@ -171,8 +177,8 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         return;
     }
     with_theory(scene_.theory, [&]<Theory theory>() {
-        const auto i = std::size_t(point);
-        const Block<T> block{T(points_[i].slenderness), T(points_[i].restitution)};
+        const Point& at = this->point(point);
+        const Block<T> block{T(at.slenderness), T(at.restitution)};
         const ForcedEnd<T> end = with_excitation<T, theory>(point, [&](const auto& excitation) {
             return overturn::run_in_more_digits<T, theory>(block, excitation, drop_requested_);
         });
@@ -181,27 +187,21 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
         const bool in_doubt = !(error < std::abs(margin));
-        outcomes.flags[i] = std::uint8_t((end.fell ? outcome_flag::fell : 0) |
-                                         (end.rested ? outcome_flag::rested : 0) |
-                                         (end.capped ? outcome_flag::capped : 0) |
-                                         (end.not_finite ? outcome_flag::not_finite : 0) |
-                                         (in_doubt ? outcome_flag::in_doubt : 0));
-        const auto put = [&](std::vector<double>& values, double value) {
-            if (!values.empty()) {
-                values[i] = value;
-            }
-        };
-        put(outcomes.tilt, double(end.state.tilt));
-        put(outcomes.rate, double(end.state.rate));
-        put(outcomes.side, double(end.state.side));
-        put(outcomes.margin, margin);
-        put(outcomes.error, error);
-        put(outcomes.impacts, double(end.impacts));
-        put(outcomes.steps, double(end.steps));
-        put(outcomes.phase, double(end.phase));
-        if (outcomes.outputs.region) {
-            outcomes.region[i] = std::uint8_t(region_of<theory>(end, block));
-        }
+        put(outcomes.flags, point,
+            std::uint8_t((end.fell ? outcome_flag::fell : 0) |
+                         (end.rested ? outcome_flag::rested : 0) |
+                         (end.capped ? outcome_flag::capped : 0) |
+                         (end.not_finite ? outcome_flag::not_finite : 0) |
+                         (in_doubt ? outcome_flag::in_doubt : 0)));
+        put(outcomes.tilt, point, double(end.state.tilt));
+        put(outcomes.rate, point, double(end.state.rate));
+        put(outcomes.side, point, double(end.state.side));
+        put(outcomes.margin, point, margin);
+        put(outcomes.error, point, error);
+        put(outcomes.impacts, point, double(end.impacts));
+        put(outcomes.steps, point, double(end.steps));
+        put(outcomes.phase, point, double(end.phase));
+        put(outcomes.region, point, std::uint8_t(region_of<theory>(end, block)));
     });
 }
 
@@ -231,54 +231,56 @@ bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
         outcomes.rate[i] = 0;
     }
     outcomes.error[i] = error;
-    if (outcomes.outputs.region) {
-        outcomes.region[i] = std::uint8_t(Region::S);
-    }
-    if (outcomes.outputs.margin && !(outcomes.flags[i] & outcome_flag::undecided)) {
-        outcomes.margin[i] = 1;
+    put(outcomes.region, point, std::uint8_t(Region::S));
+    if (!(outcomes.flags[i] & outcome_flag::undecided)) {
+        put(outcomes.margin, point, 1);
     }
     return true;
 }
 
-std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
+template <class OfPoint>
+std::vector<double> PointRun::after_the_pulse(const Outcomes& outcomes,
+                                              const OfPoint& of_point) const
 {
-    std::vector<double> values(outcomes.tilt.size());
+    std::vector<double> values(outcomes.tilt.size(), unknown);
     with_theory(scene_.theory, [&]<Theory theory>() {
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const auto region = Region(outcomes.region[i]);
-            const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
-            const Block<double> block{points_[i].slenderness, points_[i].restitution};
-            values[i] = is_safe(region)
-                            ? std::max(outcomes.peak[i], largest_free_tilt<theory>(end, block)) /
-                                  block.slenderness
-                        : is_unsafe(region) ? infinity
-                                            : unknown;
+            if (Region(outcomes.region[i]) != Region::undecided) {
+                const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
+                const Block<double> block{points_[i].slenderness, points_[i].restitution};
+                values[i] = of_point.template operator()<theory>(i, end, block);
+            }
         }
     });
     return values;
 }
 
+std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
+{
+    const auto peak = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
+        return is_unsafe(Region(outcomes.region[i]))
+                   ? infinity
+                   : std::max(outcomes.peak[i], largest_free_tilt<theory>(end, block)) /
+                         block.slenderness;
+    };
+    return after_the_pulse(outcomes, peak);
+}
+
 std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
 {
-    std::vector<double> values(outcomes.tilt.size());
-    with_theory(scene_.theory, [&]<Theory theory>() {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const auto region = Region(outcomes.region[i]);
-            const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
-            const Block<double> block{points_[i].slenderness, points_[i].restitution};
-            const double first_uplift =
-                with_excitation<double, theory>(int(i), [](const auto& excitation) {
-                    return excitation.next_uplift(true, excitation.motion.begin, -infinity);
-                });
-            const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
-            const bool fell = region == Region::F_plus || region == Region::F_minus;
-            values[i] = fell                ? forced
-                        : is_unsafe(region) ? forced + free_fall_time<theory>(end, block)
-                        : is_safe(region)   ? infinity
-                                            : unknown;
+    const auto fall_time = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
+        if (is_safe(Region(outcomes.region[i]))) {
+            return infinity;
         }
-    });
-    return values;
+        const double first_uplift =
+            with_excitation<double, theory>(int(i), [](const auto& excitation) {
+                return excitation.next_uplift(true, excitation.motion.begin, -infinity);
+            });
+        const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
+        return outcomes.flags[i] & outcome_flag::fell ? forced
+                                                      : forced + free_fall_time<theory>(end, block);
+    };
+    return after_the_pulse(outcomes, fall_time);
 }
 
 } // namespace overturn

@@ -8,6 +8,7 @@
 #include "overturn/problem/tile.hpp"
 
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace overturn {
@@ -23,7 +24,7 @@ struct Outcomes {
     /// which a block may be lifted again after a bounce series.
     std::uint16_t stored_impacts(std::size_t point, bool recorded) const;
 
-    /// The end of a point that cannot be integrated because gravity vanishes.
+    /// The outcome of a point that cannot be integrated because gravity vanishes.
     void set_free_fall(int point);
 
     Outputs outputs;
@@ -33,6 +34,15 @@ struct Outcomes {
     std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact,
         last_impact;
 };
+
+/// Sets the value of a point in an array of outcomes, unless it is no output.
+template <class Value>
+void put(std::vector<Value>& values, int point, std::type_identity_t<Value> value)
+{
+    if (!values.empty()) {
+        values[std::size_t(point)] = value;
+    }
+}
 
 /// The scaled pulses of points, in their order; successive points with the same one share it.
 struct ScaledPulses {
@@ -52,30 +62,36 @@ struct ScaledPulses {
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
 class PointRun {
 public:
-    /// motion: the number of the record, if there are any.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-             DropRequested drop_requested = nullptr, std::int64_t motion = 0);
+             DropRequested drop_requested = nullptr);
 
-    /// The same scene and kernel with other points.
+    /// The same pulse and kernel with other points.
     PointRun with_points(std::vector<Point> points) const;
 
+    const Scene& scene() const { return scene_; }
     int size() const { return int(points_.size()); }
     const Point& point(int i) const { return points_[std::size_t(i)]; }
+
+    /// The indices of all points.
+    std::vector<int> all() const;
 
     /// The phase at the end of the pulse [rad].
     double end_of_pulse() const { return motion_.end; }
 
-    /// The number of intervals of the record; 0 under a pulse.
-    std::int64_t intervals() const { return record_ ? record_->samples() - 1 : 0; }
+    /// The record of a point; nullptr under a pulse.
+    const Accelerogram* record_of(int point) const
+    {
+        return scene_.is_recorded() ? scene_.records[std::size_t(this->point(point).motion)].get()
+                                    : nullptr;
+    }
 
     /// The pulse that lifts a point.
     const ScaledPulse& pulse_of(int point) const { return pulses_[point]; }
 
-    /// Integrates every point, or the chosen ones, which must be in ascending order. Points where
-    /// the ground falls as fast as the block are not integrated and get outcome_flag::free_fall.
-    void run(const Numerics& numerics, Outcomes& outcomes,
-             UncertainImpact uncertain_impact = UncertainImpact::go_on,
-             const std::vector<int>* chosen = nullptr) const;
+    /// Integrates the chosen points, which must be in ascending order. Points where the ground
+    /// falls as fast as the block are not integrated and get outcome_flag::free_fall.
+    void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
+             UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
     /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
     /// are computed before the end is rounded to double.
@@ -102,19 +118,23 @@ private:
     template <class T, Theory theory, class Visitor>
     auto with_excitation(int point, const Visitor& visit) const;
 
+    /// The values of of_point.operator()<theory>(point, end, block), end: its state at the end of
+    /// the forced stage, for the points with a verdict; NaN for the others.
+    template <class OfPoint>
+    std::vector<double> after_the_pulse(const Outcomes& outcomes, const OfPoint& of_point) const;
+
     Scene scene_;
-    std::shared_ptr<const Accelerogram> record_; // null: a pulse
     GroundMotion<double> motion_;
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;
-    ScaledPulses pulses_;
+    ScaledPulses pulses_; // only under a pulse
 };
 
 /// The outcomes of all points. If verdicts are to be resolved, points in doubt are integrated again
 /// with more and more digits; those that remain in doubt get outcome_flag::unresolved. See
-/// resolve.cpp. most_in_50_digits: of these points; default: all of them, under a record those of
-/// Numerics.
+/// resolve.cpp. most_in_50_digits: of the points under one motion; default: all of them, under a
+/// record those of Numerics.
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
                      std::optional<int> most_in_50_digits = std::nullopt);
 

@@ -2,9 +2,8 @@
 
 #include "overturn/integrate/more_digits.hpp"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
+#include <limits>
+#include <map>
 
 namespace overturn {
 
@@ -13,9 +12,7 @@ namespace {
 void give_up(int point, Outcomes& outcomes)
 {
     outcomes.flags[std::size_t(point)] |= outcome_flag::unresolved;
-    if (outcomes.outputs.region) {
-        outcomes.region[std::size_t(point)] = std::uint8_t(Region::undecided);
-    }
+    put(outcomes.region, point, std::uint8_t(Region::undecided));
 }
 
 /// Settles the points that took too many steps, for which more digits do not help, and returns
@@ -42,38 +39,39 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
 template <class T>
 bool may_settle_in(const PointRun& run, int point, const Outcomes& outcomes)
 {
+    const Accelerogram* record = run.record_of(point);
+    const double intervals = record != nullptr ? double(record->samples() - 1) : 0;
     return std::numeric_limits<T>::digits > std::numeric_limits<double>::digits &&
-           outcomes.steps[std::size_t(point)] <=
-               MoreDigits<T>::most_steps + double(run.intervals());
+           outcomes.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + intervals;
 }
 
 template <class T>
 bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 {
-    if (!may_settle_in<T>(run, point, outcomes)) {
-        return false;
-    }
     run.run_in_more_digits<T>(point, outcomes);
     return !(outcomes.flags[std::size_t(point)] &
              (outcome_flag::in_doubt | outcome_flag::undecided));
 }
 
+/// most_in_50_digits: of the points under one motion.
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
 {
-    std::vector<int> all(outcomes.tilt.size());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<int> in_doubt = settle_capped(run, all, outcomes);
+    std::vector<int> in_doubt = settle_capped(run, run.all(), outcomes);
     if (!in_doubt.empty()) {
-        // Settles almost every point, still in double.
-        run.run(most_accurate, outcomes, UncertainImpact::go_on, &in_doubt);
+        run.run(most_accurate, outcomes, in_doubt); // settles almost every point, still in double
     }
-    in_doubt = settle_capped(run, in_doubt, outcomes);
-    for (const int point : in_doubt) {
-        const bool settled = run.settle_low_bounces(point, outcomes) ||
-                             settle_in<long double>(run, point, outcomes) ||
-                             (may_settle_in<Digits50>(run, point, outcomes) &&
-                              outcomes.in_50_digits < most_in_50_digits &&
-                              ++outcomes.in_50_digits && settle_in<Digits50>(run, point, outcomes));
+    std::map<int, int> in_50_digits; // of each motion
+    for (const int point : settle_capped(run, in_doubt, outcomes)) {
+        bool settled = run.settle_low_bounces(point, outcomes) ||
+                       (may_settle_in<long double>(run, point, outcomes) &&
+                        settle_in<long double>(run, point, outcomes));
+        int& count = in_50_digits[run.point(point).motion];
+        if (!settled && may_settle_in<Digits50>(run, point, outcomes) &&
+            count < most_in_50_digits) {
+            ++count;
+            ++outcomes.in_50_digits;
+            settled = settle_in<Digits50>(run, point, outcomes);
+        }
         if (!settled) {
             give_up(point, outcomes);
         }
@@ -90,15 +88,16 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.steps = outputs.steps || numerics.resolve; // see settle_in()
     computed.peak = outputs.peak && !computed.error;
     Outcomes outcomes(std::size_t(points.size()), computed);
-    points.run(numerics, outcomes,
+    points.run(numerics, outcomes, points.all(),
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
-        const int by_default = points.intervals() > 0 ? numerics.most_in_50_digits : points.size();
+        const int by_default =
+            points.scene().is_recorded() ? numerics.most_in_50_digits : points.size();
         resolve(points, most_in_50_digits.value_or(by_default), outcomes);
     }
     if (outputs.peak && !computed.peak) {
         Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
-        points.run(numerics, with_peaks);
+        points.run(numerics, with_peaks, points.all());
         outcomes.peak = std::move(with_peaks.peak);
         outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
         outcomes.softest_impact = std::move(with_peaks.softest_impact);

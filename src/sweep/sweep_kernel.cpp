@@ -25,11 +25,6 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-int point_at(const KernelTask& task, int i)
-{
-    return task.chosen == nullptr ? i : task.chosen[i];
-}
-
 /// Stores the lanes of one pack, except those without a point.
 template <Theory theory, Outputs outputs>
 [[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
@@ -39,7 +34,7 @@ template <Theory theory, Outputs outputs>
     const auto put = [&](const T& number, auto* array) {
         const auto values = lanes_of(number);
         for (int i = 0; i < count; ++i) {
-            array[point_at(task, first + i)] = std::remove_pointer_t<decltype(array)>(values[i]);
+            array[task.chosen[first + i]] = std::remove_pointer_t<decltype(array)>(values[i]);
         }
     };
     put(end.state.tilt, to.tilt);
@@ -89,7 +84,7 @@ struct PackPoints {
     {
         for (int i = 0; i < lanes; ++i) {
             const int last = task.chosen_count - 1;
-            point[i] = point_at(task, first + i < last ? first + i : last);
+            point[i] = task.chosen[first + i < last ? first + i : last];
             spare[i] = first + i > last ? std::numeric_limits<double>::infinity() : 0;
         }
     }

@@ -31,7 +31,7 @@ struct KernelTask {
     Outputs outputs;
     UncertainImpact uncertain_impact;
 
-    const int* chosen; ///< points to compute, ascending; nullptr: the first chosen_count
+    const int* chosen; ///< points to compute, ascending
     int chosen_count;
 
     bool (*drop_requested)(const void* context); ///< called regularly; true ends the computation

@@ -135,8 +135,8 @@ TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
         const PointRun run({}, points, widest_kernel());
         Outcomes whole(std::size_t(run.size()), {.error = true, .steps = true});
         Outcomes ended = whole;
-        run.run(numerics, whole, UncertainImpact::go_on);
-        run.run(numerics, ended, UncertainImpact::stop);
+        run.run(numerics, whole, run.all());
+        run.run(numerics, ended, run.all(), UncertainImpact::stop);
         double steps_of_doubtful = 0;
         double steps_until_doubt = 0;
         for (std::size_t i = 0; i < whole.tilt.size(); ++i) {
@@ -168,7 +168,7 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
             const PointRun run({.theory = theory}, points, widest_kernel());
             Outcomes outcomes(std::size_t(run.size()), {.error = true, .margin = true});
-            run.run(numerics, outcomes);
+            run.run(numerics, outcomes, run.all());
             for (std::size_t i = 0; i < outcomes.margin.size(); ++i) {
                 const bool in_doubt = outcomes.flags[i] & outcome_flag::in_doubt;
                 EXPECT_EQ(in_doubt, !(outcomes.error[i] < std::abs(outcomes.margin[i])));

@@ -68,7 +68,7 @@ int main(int count, char** words)
         Outcomes outcomes(std::size_t(tile.points()),
                           {.peak = true, .region = true, .margin = true});
         const auto start = Clock::now();
-        points.run(problem.numerics, outcomes);
+        points.run(problem.numerics, outcomes, points.all());
         return since(start);
     });
     const double in_tiles = shortest(tiling, [&](const Tile& tile) {

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -70,6 +71,8 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
     const std::vector<Point> points = Coordinates(scene, grid, work.tile).points();
     const ScaledPulses pulses(motion, scene.theory, points);
     const std::size_t count = points.size();
+    std::vector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
     const Outputs outputs{.impacts = requested == ByHand::impacts,
                           .region = requested == ByHand::region};
     const KernelTask task{.pulse = motion,
@@ -80,7 +83,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                           .tolerance = numerics.tolerance,
                           .outputs = outputs,
                           .uncertain_impact = UncertainImpact::go_on,
-                          .chosen = nullptr,
+                          .chosen = all.data(),
                           .chosen_count = int(count),
                           .drop_requested = [](const void*) { return false; },
                           .context = nullptr};
