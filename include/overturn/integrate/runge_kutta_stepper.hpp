@@ -77,12 +77,13 @@ public:
         const Mask last = !ends_at_event_ && longest >= left;
         const T h = select<T>(ends_at_event_, step_to_event_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
-        const Step<T> step = trial_step(now, h, phase_step);
-        const T error = relative_error(step);
+        const StepMotion<T> start{now.tilt, now.rate, acceleration_};
+        const Step<T> step = trial_step(start, h, now, phase_step);
+        const T error = relative_error(step, h);
         const Mask accepted = error <= T(S(1));
 
         const Mask checked = active && accepted && !ends_at_event_;
-        const Mask event = checked && find_event(step, checked);
+        const Mask event = checked && find_event(start, step, h, checked);
         const Mask moved = active && accepted && !event;
         acceleration_ = select<T>(moved, step.end.acceleration, acceleration_);
         // A step that ends at an event does not change the step size.
@@ -110,7 +111,7 @@ public:
             const T phase = now.phase + phase_step;
             const Sample last_sample =
                 sample(now.side, step.end.position, step.end.rate, phase, now.phase);
-            const StepErrors<T> errors = this->errors(now, step, delay, last_sample);
+            const StepErrors<T> errors = this->errors(now, {start, step, h}, delay, last_sample);
             remember(last_sample, moved);
             if (excitation_.motion.has_kink()) { // the jerk is different on the next piece
                 remember(sample(now.side, step.end.position, step.end.rate, phase, end.phase),
@@ -118,7 +119,7 @@ public:
             }
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
-            return with_extremes(step, end, so_far, moved && !arrived);
+            return with_extremes({start, step, h}, end, so_far, moved && !arrived);
         } else {
             return end;
         }
@@ -135,11 +136,19 @@ private:
                            : step_size_;
     }
 
+    /// A step with its beginning and its length. With copies instead of references, steps take a
+    /// quarter longer.
+    struct TrialStep {
+        const StepMotion<T>& start;
+        const Step<T>& step;
+        const T& length;
+    };
+
     /// The stages are compiled for each pulse. Computing the pushes before the stages, or selecting
     /// the pulse in each stage, costs a tenth more, because it prevents overlapping execution.
-    Step<T> trial_step(const Rocking<T>& now, const T& h, const T& phase_step) const
+    Step<T> trial_step(const StepMotion<T>& start, const T& h, const Rocking<T>& now,
+                       const T& phase_step) const
     {
-        const StepMotion<T> start{now.tilt, now.rate, acceleration_};
         return excitation_.motion.with_formula([&](const auto& formula) {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
                 using arithmetic::fma;
@@ -151,18 +160,18 @@ private:
     }
 
     /// turning: the lanes in which the turns of the step count.
-    StepEndWithPeak<T> with_extremes(const Step<T>& step, const StepEnd<T>& end, const auto& so_far,
-                                     const Mask& turning) const
+    StepEndWithPeak<T> with_extremes(const TrialStep& trial, const StepEnd<T>& end,
+                                     const auto& so_far, const Mask& turning) const
     {
-        const T& h = step.length;
-        const Quintic<T> tilt = dense_output(step.start, step.end, h);
+        const auto& [start, step, h] = trial;
+        const Quintic<T> tilt = dense_output(start, step.end, h);
         const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
-        const TurnsInStep<T> turns({step.start.rate * h, step.start.acceleration * h * h},
+        const TurnsInStep<T> turns({start.rate * h, start.acceleration * h * h},
                                    {step.end.rate * h, step.end.acceleration * h * h}, T(S(1)));
-        return {end,
-                highest_tilt<T>(step.start.position, end.tilt, upper_bound(tilt), so_far.peak,
-                                sample_at),
-                lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, sample_at)};
+        return {
+            end,
+            highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
+            lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, sample_at)};
     }
 
     /// Local error over the allowed error. The latter is the tolerance times the size of the
@@ -170,7 +179,7 @@ private:
     /// alpha over the step. If the size were always alpha, a block lifted by a millionth of alpha
     /// would strike with a speed that is wrong by 1e-6 at a tolerance of 1e-10, and a series of
     /// bounces would propagate this error.
-    T relative_error(const Step<T>& step) const
+    T relative_error(const Step<T>& step, const T& h) const
     {
         using arithmetic::fma;
         using std::abs;
@@ -178,8 +187,7 @@ private:
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
         const T size = lesser<T>(tilt + rate, alpha);
-        const T round_off =
-            T(16 * std::numeric_limits<S>::epsilon()) * fma(alpha, step.length, tilt + rate);
+        const T round_off = T(16 * std::numeric_limits<S>::epsilon()) * fma(alpha, h, tilt + rate);
         const T allowed = fma(T(tolerance_), size, round_off);
         const T position_error = abs(step.position_error);
         const T rate_error = abs(step.rate_error);
@@ -233,12 +241,13 @@ private:
     ///
     /// delay: time from the end of the step to the event. If the variation did not include it,
     /// errors of the time would become errors of the energy at each of thousands of bounces.
-    StepErrors<T> errors(const Rocking<T>& now, const Step<T>& step, const T& delay,
+    StepErrors<T> errors(const Rocking<T>& now, const TrialStep& trial, const T& delay,
                          const Sample& last) const
     {
         using arithmetic::fma;
         using std::abs;
-        const auto& [start, end, h, position_error, rate_error] = step;
+        const auto& [start, step, h] = trial;
+        const StepMotion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);
         const T middle_tilt =
             ((tilt[0] + tilt[5]) + T(S(5)) * (tilt[1] + tilt[4]) + T(S(10)) * (tilt[2] + tilt[3])) *
@@ -255,8 +264,8 @@ private:
                                         fma(T(S(16) / 60), middle.acceleration,
                                             T(S(1) / 60) * fma(h, first.jerk, last.acceleration))),
                                     start.rate);
-        const T missing_tilt = abs((end.position - start.position) - tilt_gain);
-        const T missing_rate = abs((end.rate - start.rate) - rate_gain);
+        const T tilt_error = abs((end.position - start.position) - tilt_gain);
+        const T rate_error = abs((end.rate - start.rate) - rate_gain);
         // Where the push is linear or negligible, the length is measured in units of 1/p.
         const S& fastest = excitation_.motion.fastest;
         T length = fastest == S(0) ? h : phase_step * T(fastest);
@@ -284,8 +293,8 @@ private:
                                    h);
         return {.variation = variation_over<T>(lesser<T>(h + delay, longest), first.stiffness,
                                                middle.stiffness, last.stiffness),
-                .tilt = two * fma(embedded_share_, abs(position_error), missing_tilt),
-                .rate = fma(two, fma(embedded_share_, abs(rate_error), missing_rate), unknown),
+                .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
+                .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
                 .turning_tilt = turning_tilt<T>(block_.slenderness, turns, lower_bound(tilt),
                                                 upper_bound(tilt), tilt_at_turn)};
@@ -293,11 +302,10 @@ private:
 
     /// Finds the first impact or fall within an accepted step. In lanes with an event, the next
     /// step ends at it.
-    Mask find_event(const Step<T>& step, const Mask& lanes)
+    Mask find_event(const StepMotion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
-        const T& h = step.length;
         const T noise = dip_of_round_off(block_.slenderness, h);
-        const Quintic<T> tilt = dense_output(step.start, step.end, h);
+        const Quintic<T> tilt = dense_output(start, step.end, h);
         const Mask suspect =
             lanes && (lower_bound(tilt) < -noise || T(pi<S>() / 2) - upper_bound(tilt) < -noise);
         return any<T>(suspect) ? aim_at_event(tilt, noise, h, suspect) : suspect;

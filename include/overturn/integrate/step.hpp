@@ -46,9 +46,7 @@ Quintic<T> dense_output(const StepMotion<T>& start, const StepMotion<T>& end, co
 
 template <Number T>
 struct Step {
-    StepMotion<T> start;
     StepMotion<T> end;
-    T length;
     T position_error; ///< local error estimates
     T rate_error;
 };
@@ -90,9 +88,7 @@ Step<T> runge_kutta_step(const StepMotion<T>& start, const T& h, const Accelerat
         (run_stage.template operator()<i + 1>(), ...);
     }(std::make_index_sequence<Table::stages - 1>());
 
-    return {.start = start,
-            .end = {position, rate[6], pull[6]},
-            .length = h,
+    return {.end = {position, rate[6], pull[6]},
             .position_error = h * weighted_sum<Table::error, 7>(rate),
             .rate_error = h * weighted_sum<Table::error, 7>(pull)};
 }

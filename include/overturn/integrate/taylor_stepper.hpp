@@ -120,9 +120,7 @@ public:
                           T(slope_of_series(series.rate, h) * (fastest_ * fastest_)), excitation_);
         }
         if constexpr (outputs.error) {
-            StepErrors<T> errors = this->errors(now, known, push, end, h);
-            errors.turning_tilt = turning_tilt_of(series, bounds, end, h);
-            return StepEndWithErrors<T>{end, errors};
+            return StepEndWithErrors<T>{end, errors(now, {known, bounds, h}, push, end)};
         } else if constexpr (outputs.peak) {
             const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
             const T per_step = h * unit_;
@@ -141,6 +139,13 @@ public:
     }
 
 private:
+    /// The motion within a step of this length.
+    struct Motion {
+        const KnownSeries& known;
+        const Enclosure<T>& bounds; ///< of the tilt
+        const T& length;
+    };
+
     /// The motion at a share of a step of length h.
     static MotionSample<T> sample_of(const Series& series, const T& h, const T& share)
     {
@@ -230,11 +235,11 @@ private:
         return sum + sum;
     }
 
-    /// All except the turning tilt.
-    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known, const auto& push,
-                         const StepEnd<T>& end, const T& h) const
+    StepErrors<T> errors(const Rocking<T>& now, const Motion& motion, const auto& push,
+                         const StepEnd<T>& end) const
     {
         using arithmetic::fma;
+        const auto& [known, bounds, h] = motion;
         const T left_out = truncation_error(now, known, push, h);
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
@@ -242,24 +247,7 @@ private:
         const auto stiffness = [&](const T& tilt, const auto& push_there) -> T {
             return rocking_stiffness<theory>(tilt, slenderness_, push_there);
         };
-        const T duration = h * unit_;
-        const T longest = T(S(longest_variation));
-        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
-        return {.variation =
-                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
-                                      stiffness(value_of_series(series.tilt, middle), pushes[1]),
-                                      stiffness(end.tilt, pushes[2])),
-                .tilt = left_out * h * T(S(1) / (order + 2)),
-                .rate = fma(left_out, fastest_, unknown),
-                .acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_),
-                .turning_tilt = {}};
-    }
-
-    /// See turning_tilt().
-    T turning_tilt_of(const Series& series, const Enclosure<T>& bounds, const StepEnd<T>& end,
-                      const T& h) const
-    {
-        const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
+        const auto tilt_at_turn = [&, &h = h](const Mask& turns, const T& share) -> T {
             const T zero(S(0));
             const T one(S(1));
             T time = h * share;
@@ -271,10 +259,21 @@ private:
             }
             return value_of_series(series.tilt, time);
         };
+        const T duration = h * unit_;
+        const T longest = T(S(longest_variation));
+        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
+        const T acceleration = slope_of_series(series.rate, h);
         const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
-                                   {end.rate * unit_, slope_of_series(series.rate, h)}, h);
-        return turning_tilt<T>(slenderness_, turns, lower_bound(bounds.lower()),
-                               upper_bound(bounds.upper()), tilt_at_turn);
+                                   {end.rate * unit_, acceleration}, h);
+        return {.variation =
+                    variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
+                                      stiffness(value_of_series(series.tilt, middle), pushes[1]),
+                                      stiffness(end.tilt, pushes[2])),
+                .tilt = left_out * h * T(S(1) / (order + 2)),
+                .rate = fma(left_out, fastest_, unknown),
+                .acceleration = acceleration * (fastest_ * fastest_),
+                .turning_tilt = turning_tilt<T>(slenderness_, turns, lower_bound(bounds.lower()),
+                                                upper_bound(bounds.upper()), tilt_at_turn)};
     }
 
     /// The push at the beginning, in the middle and at the end of a step.
