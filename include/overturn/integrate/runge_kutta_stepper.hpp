@@ -2,8 +2,8 @@
 // is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
-#include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/event_correction.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/mechanics/block.hpp"

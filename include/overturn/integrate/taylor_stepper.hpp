@@ -2,8 +2,8 @@
 // determine the step size. An event is a root of the series and ends the step. No step is repeated.
 #pragma once
 
-#include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"

@@ -151,8 +151,8 @@ struct RecordExcitation {
         const T high = excess(there);
         const mask_t<T> crosses = low < zero && high > low;
         const T share = select<T>(crosses, -low, zero) / select<T>(crosses, high - low, one);
-        const T crossing = select<T>(sample == zero, zero, before + lesser<T>(share, one));
-        const T earliest = greater<T>(crossing, phase);
+        const T reached = select<T>(sample == zero, zero, before + lesser<T>(share, one));
+        const T earliest = greater<T>(reached, phase);
         // Rounding must not lift the block at the same phase again.
         const T previous = greater<T>(latest, -one);
         const T after_latest =
