@@ -43,11 +43,8 @@ std::vector<double> with_sign(const std::vector<double>& values, const Outcomes&
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
     switch (field) {
-    case Field::region: return outcomes.region;
     case Field::angle: return with_sign(outcomes.tilt, outcomes);
     case Field::velocity: return with_sign(outcomes.rate, outcomes);
-    case Field::margin: return outcomes.margin;
-    case Field::error: return outcomes.error;
     case Field::peak: return points.peaks(outcomes);
     case Field::fall_time: return points.fall_times(outcomes);
     case Field::impacts:
@@ -67,7 +64,7 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                    flag(outcome_flag::unresolved, status::unresolved) |
                    flag(outcome_flag::free_fall, status::free_fall);
         });
-    default: return {}; // fields of a boundary or of a filled spectrum
+    default: return {}; // fields of other products, or moved from the outcomes by the caller
     }
 }
 
@@ -95,7 +92,7 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested);
-    const Outcomes outcomes = outcomes_of(
+    Outcomes outcomes = outcomes_of(
         points, numerics,
         {.impacts = wanted(Field::impacts),
          .error = wanted(Field::error),
@@ -107,6 +104,15 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
     TileFields result;
     for (const Field field : fields) {
         result.values.push_back(values_of(field, points, outcomes));
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
+        if (fields[i] == Field::region) {
+            result.values[i] = std::move(outcomes.region);
+        } else if (fields[i] == Field::margin) {
+            result.values[i] = std::move(outcomes.margin);
+        } else if (fields[i] == Field::error) {
+            result.values[i] = std::move(outcomes.error);
+        }
     }
     return result;
 }
