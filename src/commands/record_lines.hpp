@@ -80,7 +80,7 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
     }
     const std::vector<ScaleRange> scales = scales_of(scene, job.problem.grid);
     for (std::size_t i = 0; i < scales.size(); ++i) {
-        const double largest = scene.records[i]->largest_scale();
+        const double largest = scene.records[i]->free_fall_scale();
         if (std::isfinite(largest) && !(scales[i].largest < largest)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "

@@ -113,8 +113,7 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
     const Scene& scene = job.problem.scene;
     const Point point = only_point_of(job);
     const double alpha = point.slenderness;
-    const double unit =
-        scene.is_recorded() ? scene.records.front()->peak() : uplift_threshold(scene.theory, alpha);
+    const double unit = pga_of_unit(scene, point);
     answer.pga = options.pga ? *options.pga : point.amplitude * unit;
     if (options.pga || options.scale) {
         answer.peak = peak_of_only_point(job);
@@ -122,7 +121,7 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
     }
-    answer.lifting_pga = lifting_pga(scene, 0, alpha);
+    answer.lifting_pga = lifting_pga(scene, point);
     const double requested = point.restitution;
     const auto r_max = r_max_of(alpha);
     std::vector<double> ratios{requested};

@@ -28,18 +28,19 @@ std::vector<double> scan(const Scene& scene, double first, double last)
         .values();
 }
 
-SearchResolution resolution_of(const Scene& scene)
+FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
 {
-    SearchResolution resolution = search_resolution(scene);
+    FlipSearch search = flip_search(scene);
+    search.drop_requested = drop_requested;
     if (scene.is_recorded()) {
         // Above every step of the scan, which is therefore not divided.
-        resolution.finest_step = 2 * toppling_step;
-        resolution.most_in_50_digits = 0;
+        search.finest_step = 2 * toppling_step;
+        search.most_in_50_digits = 0;
     } else {
-        resolution.most_amplitudes = most_amplitudes;
-        resolution.most_in_50_digits = most_in_50_digits;
+        search.most_amplitudes = most_amplitudes;
+        search.most_in_50_digits = most_in_50_digits;
     }
-    return resolution;
+    return search;
 }
 
 /// "1.1110 to 1.6440 g" for each range, and "above 2.1300 g" if the last one reaches the end of the
@@ -82,7 +83,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
     ranges.lifting = lifting;
     if (scene.is_recorded()) {
         const double free_fall =
-            scene.records[std::size_t(line.motion)]->largest_scale() * line.unit;
+            scene.records[std::size_t(line.motion)]->free_fall_scale() * line.unit;
         // Just below, by more than the roundings of a scale.
         const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
         ranges.ends_in_free_fall = last < end;
@@ -98,8 +99,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         accelerations.insert(place, included);
     }
     const Boundary boundary =
-        boundary_on(scene, line, accelerations, widest_kernel(),
-                    std::numeric_limits<std::size_t>::max(), drop_requested, resolution_of(scene));
+        boundary_on(scene, line, accelerations, widest_kernel(), search_in(scene, drop_requested));
     ranges.coarse = boundary.coarse;
     ranges.all.push_back({0, lifting, Verdict::safe});
     const auto end_last_range_at = [&](double last) {

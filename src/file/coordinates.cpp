@@ -57,7 +57,7 @@ public:
         if (job_.blocks) {
             add_table(job_.blocks->table);
         }
-        for (const std::string_view name : derived_coordinates(!job_.motions.empty())) {
+        for (const std::string_view name : derived_coordinates) {
             add_derived(name);
         }
         if (!job_.motions.empty()) {
@@ -119,7 +119,7 @@ private:
     void add_dimension(std::size_t i)
     {
         const StoredDimension& dimension = dimensions_[i];
-        if (dimension.name == crossing_dimension) {
+        if (dimension.name == flip_dimension) {
             add_numbers(dimension.name, {dimension}, 0, "number of the flip, counted from 0");
         } else if (dimension.name == table_dimension) {
             add_numbers(dimension.name, {dimension}, 1, "number of the block in the table");
@@ -166,7 +166,7 @@ private:
         Dimensions along;
         for (const std::size_t i : derived_->dimensions_of(name)) {
             along.push_back(dimensions_[i]);
-            if (along.back().name == crossing_dimension) {
+            if (along.back().name == flip_dimension) {
                 return;
             }
         }

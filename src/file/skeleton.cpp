@@ -84,9 +84,9 @@ void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
         write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
     }
     if (field == Field::flip_amplitude) {
-        const SearchResolution resolution = search_resolution(scene);
-        write_attribute(dataset, "width", resolution.flip_width);
-        write_attribute(dataset, "finest_step", resolution.finest_step);
+        const FlipSearch search = flip_search(scene);
+        write_attribute(dataset, "width", search.flip_width);
+        write_attribute(dataset, "finest_step", search.finest_step);
     }
     write_flags(dataset, field);
     write_attribute(dataset, "comment", traits.comment);

@@ -166,7 +166,7 @@ struct StoredResult::Open {
     /// The place of `crossing` among the axes; any place if there is none.
     std::size_t crossing() const
     {
-        return std::size_t(std::ranges::find(tiles.axes, crossing_dimension, &AxisSummary::name) -
+        return std::size_t(std::ranges::find(tiles.axes, flip_dimension, &AxisSummary::name) -
                            tiles.axes.begin());
     }
 
@@ -188,7 +188,7 @@ struct StoredResult::Open {
         tiles.numbers = read_coordinate_numbers(file, bytes);
         tiles.fields = read_fields(file);
         for (const Field field : tiles.fields) {
-            demand(!traits_of(field).is_of_line || crossing() < tiles.axes.size(),
+            demand(!is_of_line(field) || crossing() < tiles.axes.size(),
                    "the dimension `crossing` is missing");
             check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
         }

@@ -121,7 +121,7 @@ void add_outcome(hid_t file, const Job& job, const History& history)
             add(quantity.name);
         }
     }
-    for (const std::string_view name : derived_coordinates(scene.is_recorded())) {
+    for (const std::string_view name : derived_coordinates) {
         if (grid.find(name) == nullptr && coordinates.has(name)) {
             add(name);
         }

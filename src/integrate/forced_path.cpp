@@ -4,21 +4,21 @@
 
 namespace overturn {
 
-template <Theory theory, class GroundOf>
-ForcedPath forced_path(const Block<double>& block, const GroundOf& excitation)
+template <Theory theory, class Excitation>
+ForcedPath forced_path(const Block<double>& block, const Excitation& excitation)
 {
-    constexpr Records records{.impacts = true, .error = true, .events = true};
-    ForcedStage<Taylor<path_order>, theory, records, double, GroundOf> stage(block, excitation,
-                                                                             path_tolerance);
+    constexpr Outputs outputs{.impacts = true, .error = true, .events = true};
+    ForcedStage<Taylor<path_order>, theory, outputs, double, Excitation> stage(block, excitation,
+                                                                               path_tolerance);
     while (stage.is_active()) {
         stage.advance();
     }
     return {stage.events(), stage.end()};
 }
 
-template <Theory theory, class GroundOf>
+template <Theory theory, class Excitation>
 State<double> state_after(const Event<double>& event, const Block<double>& block,
-                          const GroundOf& excitation, double phase)
+                          const Excitation& excitation, double phase)
 {
     const Rocking<double>& from = event.rocking;
     const double unit = 1 / std::max(1.0, excitation.frequency); // as in TaylorStepper
@@ -33,13 +33,13 @@ State<double> state_after(const Event<double>& event, const Block<double>& block
             .side = from.side};
 }
 
-#define OVERTURN_INSTANTIATE(theory, GroundOf)                                                     \
-    template ForcedPath forced_path<theory, GroundOf>(const Block<double>&, const GroundOf&);      \
-    template State<double> state_after<theory, GroundOf>(                                          \
-        const Event<double>&, const Block<double>&, const GroundOf&, double);
-using Recorded = RecordExcitation<double, true>;
-OVERTURN_INSTANTIATE(Theory::nonlinear, Excitation<double>)
-OVERTURN_INSTANTIATE(Theory::linear, Excitation<double>)
+#define OVERTURN_INSTANTIATE(theory, Excitation)                                                   \
+    template ForcedPath forced_path<theory, Excitation>(const Block<double>&, const Excitation&);  \
+    template State<double> state_after<theory, Excitation>(                                        \
+        const Event<double>&, const Block<double>&, const Excitation&, double);
+using Recorded = RecordExcitation<double, Directions::both>;
+OVERTURN_INSTANTIATE(Theory::nonlinear, PulseExcitation<double>)
+OVERTURN_INSTANTIATE(Theory::linear, PulseExcitation<double>)
 OVERTURN_INSTANTIATE(Theory::nonlinear, Recorded)
 OVERTURN_INSTANTIATE(Theory::linear, Recorded)
 

@@ -2,15 +2,15 @@
 
 namespace overturn {
 
-template <class T, Theory theory, class GroundOf>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const GroundOf& excitation,
+template <class T, Theory theory, class Excitation>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested, double tolerance,
                                 int step_limit)
 {
-    using Method =
-        std::conditional_t<std::same_as<GroundOf, Excitation<T>>, typename MoreDigits<T>::Method,
-                           typename MoreDigits<T>::MethodForRecords>;
-    ForcedStage<Method, theory, Records{.impacts = true, .error = true}, T, GroundOf> stage(
+    using Method = std::conditional_t<std::same_as<Excitation, PulseExcitation<T>>,
+                                      typename MoreDigits<T>::Method,
+                                      typename MoreDigits<T>::MethodForRecords>;
+    ForcedStage<Method, theory, Outputs{.impacts = true, .error = true}, T, Excitation> stage(
         block, excitation, T(tolerance));
     constexpr int steps_between_checks = 16;
     const int limit = step_limit + int(excitation.motion.pieces());
@@ -31,10 +31,10 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const GroundOf& excitatio
 
 #define OVERTURN_INSTANTIATE(T, theory)                                                            \
     template ForcedEnd<T> run_in_more_digits<T, theory>(                                           \
-        const Block<T>&, const Excitation<T>&, const std::function<bool()>&, double, int);         \
+        const Block<T>&, const PulseExcitation<T>&, const std::function<bool()>&, double, int);    \
     template ForcedEnd<T> run_in_more_digits<T, theory>(                                           \
-        const Block<T>&, const RecordExcitation<T, true>&, const std::function<bool()>&, double,   \
-        int);
+        const Block<T>&, const RecordExcitation<T, Directions::both>&,                             \
+        const std::function<bool()>&, double, int);
 OVERTURN_INSTANTIATE(long double, Theory::nonlinear)
 OVERTURN_INSTANTIATE(long double, Theory::linear)
 OVERTURN_INSTANTIATE(Digits50, Theory::nonlinear)

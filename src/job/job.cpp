@@ -151,13 +151,13 @@ Job boundary_of(Job job)
     problem.product = Product::boundary;
     problem.fields = boundary_fields(problem.scene, problem.grid);
     job.resolved = resolved_text(job);
-    // With fewer strengths than crossings, the boundary is larger than the spectrum.
+    // With fewer strengths than flips, the boundary is larger than the spectrum.
     if (const JobSize size = size_of(problem); size.bytes > most_bytes) {
         throw Error(
             exit_code::job,
             "plane has {:.4g} lines of one frequency, restitution and slenderness, whose "
             "boundaries would take {:.4g} bytes, but at most {:.4g} are allowed. Lower the counts.",
-            size.points / double(most_crossings(problem.scene)), size.bytes, most_bytes);
+            size.points / double(most_flips(problem.scene)), size.bytes, most_bytes);
     }
     return job;
 }

@@ -34,7 +34,7 @@ Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> u
     }
 }
 
-double Accelerogram::largest_scale() const
+double Accelerogram::free_fall_scale() const
 {
     const double deepest = upwards_.empty() ? 0 : later_fall_.front();
     return deepest > 0 ? 1 / deepest : std::numeric_limits<double>::infinity();

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace overturn {
 
@@ -24,13 +22,19 @@ double uplift_threshold(Theory theory, double slenderness)
                        [&]<Theory known>() { return uplift_acceleration<known>(slenderness); });
 }
 
-double lifting_pga(const Scene& scene, std::int64_t motion, double slenderness)
+double pga_of_unit(const Scene& scene, const Point& point)
 {
-    const double threshold = uplift_threshold(scene.theory, slenderness);
+    return scene.is_recorded() ? scene.records[std::size_t(point.motion)]->peak()
+                               : uplift_threshold(scene.theory, point.slenderness);
+}
+
+double lifting_pga(const Scene& scene, const Point& point)
+{
+    const double threshold = uplift_threshold(scene.theory, point.slenderness);
     if (!scene.is_recorded()) {
         return threshold;
     }
-    const Accelerogram& record = *scene.records[std::size_t(motion)];
+    const Accelerogram& record = *scene.records[std::size_t(point.motion)];
     return record.peak() * record.lifting_scale(threshold);
 }
 
@@ -43,9 +47,9 @@ enum class Under { any_motion, pulse, record };
 /// A coordinate that follows from one or two others, x and y.
 struct Derivation {
     std::string_view name;
-    Under motion;
     std::array<std::string_view, 2> from;
     double (*value)(const Scene& scene, double x, double y);
+    Under motion = Under::any_motion;
 };
 
 const Accelerogram& record_of(const Scene& scene, double motion)
@@ -53,83 +57,68 @@ const Accelerogram& record_of(const Scene& scene, double motion)
     return *scene.records[std::size_t(motion) - 1];
 }
 
-constexpr std::array derivations{
-    Derivation{"half_width",
-               Under::any_motion,
-               {"width"},
-               [](const Scene&, double width, double) { return width / 2; }},
-    Derivation{"half_height",
-               Under::any_motion,
-               {"height"},
-               [](const Scene&, double height, double) { return height / 2; }},
-    Derivation{"slenderness",
-               Under::any_motion,
-               {"half_width", "half_height"},
-               [](const Scene&, double b, double h) { return std::atan(b / h); }},
-    Derivation{"size",
-               Under::any_motion,
-               {"half_width", "half_height"},
-               [](const Scene&, double b, double h) { return std::hypot(b, h); }},
-    Derivation{
-        "size",
-        Under::any_motion,
-        {"frequency_parameter"},
-        [](const Scene& scene, double p, double) { return 3 * scene.gravity / (4 * p * p); }},
-    Derivation{"frequency_parameter",
-               Under::any_motion,
-               {"size"},
-               [](const Scene& scene, double size, double) {
-                   return frequency_parameter(size, scene.gravity);
-               }},
-    Derivation{"restitution",
-               Under::any_motion,
-               {"restitution_of_maximum", "slenderness"},
-               [](const Scene&, double share, double alpha) {
-                   return share * largest_restitution(alpha);
-               }},
-    Derivation{"amplitude",
-               Under::pulse,
-               {"pga", "slenderness"},
-               [](const Scene& scene, double pga, double alpha) {
-                   return pga / uplift_threshold(scene.theory, alpha);
-               }},
-    Derivation{"pga",
-               Under::pulse,
-               {"amplitude", "slenderness"},
-               [](const Scene& scene, double amplitude, double alpha) {
-                   return amplitude * uplift_threshold(scene.theory, alpha);
-               }},
-    Derivation{"scale",
-               Under::record,
-               {"pga", "record_pga"},
-               [](const Scene&, double pga, double peak) { return pga / peak; }},
-    Derivation{"pga",
-               Under::record,
-               {"scale", "record_pga"},
-               [](const Scene&, double scale, double peak) { return scale * peak; }},
-    Derivation{
-        "record_pga",
-        Under::record,
-        {"motion"},
-        [](const Scene& scene, double motion, double) { return record_of(scene, motion).peak(); }},
-    Derivation{"frequency",
-               Under::pulse,
-               {"pulse_period", "frequency_parameter"},
-               [](const Scene&, double period, double p) { return 2 * pi / (period * p); }},
-    Derivation{"frequency",
-               Under::pulse,
-               {"pulse_frequency", "frequency_parameter"},
-               [](const Scene&, double hertz, double p) { return 2 * pi * hertz / p; }},
-    Derivation{"pulse_period",
-               Under::pulse,
-               {"frequency", "frequency_parameter"},
-               [](const Scene&, double frequency, double p) { return 2 * pi / (frequency * p); }},
-    Derivation{"samples_per_unit",
-               Under::record,
-               {"motion", "frequency_parameter"},
-               [](const Scene& scene, double motion, double p) {
-                   return 1 / (p * record_of(scene, motion).time_step());
-               }},
+constexpr Derivation derivations[]{
+    {"half_width", {"width"}, [](const Scene&, double width, double) { return width / 2; }},
+    {"half_height", {"height"}, [](const Scene&, double height, double) { return height / 2; }},
+    {"slenderness",
+     {"half_width", "half_height"},
+     [](const Scene&, double b, double h) { return std::atan(b / h); }},
+    {"size",
+     {"half_width", "half_height"},
+     [](const Scene&, double b, double h) { return std::hypot(b, h); }},
+    {"size",
+     {"frequency_parameter"},
+     [](const Scene& scene, double p, double) { return 3 * scene.gravity / (4 * p * p); }},
+    {"frequency_parameter",
+     {"size"},
+     [](const Scene& scene, double size, double) {
+         return frequency_parameter(size, scene.gravity);
+     }},
+    {"restitution",
+     {"restitution_of_maximum", "slenderness"},
+     [](const Scene&, double share, double alpha) { return share * largest_restitution(alpha); }},
+    {"amplitude",
+     {"pga", "slenderness"},
+     [](const Scene& scene, double pga, double alpha) {
+         return pga / uplift_threshold(scene.theory, alpha);
+     },
+     Under::pulse},
+    {"pga",
+     {"amplitude", "slenderness"},
+     [](const Scene& scene, double amplitude, double alpha) {
+         return amplitude * uplift_threshold(scene.theory, alpha);
+     },
+     Under::pulse},
+    {"scale",
+     {"pga", "record_pga"},
+     [](const Scene&, double pga, double peak) { return pga / peak; },
+     Under::record},
+    {"pga",
+     {"scale", "record_pga"},
+     [](const Scene&, double scale, double peak) { return scale * peak; },
+     Under::record},
+    {"record_pga",
+     {"motion"},
+     [](const Scene& scene, double motion, double) { return record_of(scene, motion).peak(); },
+     Under::record},
+    {"frequency",
+     {"pulse_period", "frequency_parameter"},
+     [](const Scene&, double period, double p) { return 2 * pi / (period * p); },
+     Under::pulse},
+    {"frequency",
+     {"pulse_frequency", "frequency_parameter"},
+     [](const Scene&, double hertz, double p) { return 2 * pi * hertz / p; },
+     Under::pulse},
+    {"pulse_period",
+     {"frequency", "frequency_parameter"},
+     [](const Scene&, double frequency, double p) { return 2 * pi / (frequency * p); },
+     Under::pulse},
+    {"samples_per_unit",
+     {"motion", "frequency_parameter"},
+     [](const Scene& scene, double motion, double p) {
+         return 1 / (p * record_of(scene, motion).time_step());
+     },
+     Under::record},
 };
 
 /// The coordinates on the way from a coordinate to those that it may follow from.
@@ -151,8 +140,8 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
                 (each.motion == Under::record) == scene.is_recorded()) &&
                std::all_of(each.from.begin(), each.from.end(), is_known);
     };
-    const auto* found = std::find_if(derivations.begin(), derivations.end(), is_possible);
-    return found == derivations.end() ? nullptr : found;
+    const auto* found = std::ranges::find_if(derivations, is_possible);
+    return found == std::end(derivations) ? nullptr : found;
 }
 
 /// Calls visit(offset) for every point of a box, row by row. offset: into values that vary along
@@ -189,16 +178,6 @@ void for_each_offset(const Shape& count, const std::vector<std::size_t>& dimensi
 
 } // namespace
 
-std::span<const std::string_view> derived_coordinates(bool is_recorded)
-{
-    static constexpr std::array<std::string_view, 8> under_pulses{
-        "slenderness", "size", "frequency_parameter", "restitution",
-        "amplitude",   "pga",  "frequency",           "pulse_period"};
-    static constexpr std::array<std::string_view, 6> under_records{
-        "slenderness", "size", "frequency_parameter", "restitution", "scale", "pga"};
-    return is_recorded ? std::span<const std::string_view>(under_records) : under_pulses;
-}
-
 Coordinates::Coordinates(const Scene& scene, const Grid& grid)
     : scene_(scene), grid_(grid), begin_(grid.dimensions.size()), count_(grid.shape())
 {}
@@ -229,19 +208,33 @@ std::vector<std::size_t> Coordinates::dimensions_of(std::string_view name) const
     return all;
 }
 
-CoordinateValues Coordinates::given(const Column& column, std::string_view name) const
+const CoordinateValues& Coordinates::of(std::string_view name) const
 {
-    const auto dimension = grid_.dimension_of(name);
-    if (!dimension) {
-        return {{}, {column.values.first()}};
+    if (const auto found = known_.find(name); found != known_.end()) {
+        return found->second;
     }
-    const std::int64_t begin = begin_[*dimension];
-    return {{*dimension}, column.values.values(begin, begin + count_[*dimension])};
+    CoordinateValues result{dimensions_of(name), {}};
+    if (const Column* column = grid_.find(name)) {
+        const bool is_number = result.dimensions.empty();
+        const std::int64_t begin = is_number ? 0 : begin_[result.dimensions[0]];
+        const std::int64_t count = is_number ? 1 : count_[result.dimensions[0]];
+        result.values = column->values.values(begin, begin + count);
+    } else {
+        const Derivation& derivation = *derivation_of(name, scene_, grid_);
+        const auto& [one, other] = derivation.from;
+        result.values = along(result.dimensions, one);
+        const std::vector<double> others =
+            other.empty() ? result.values : along(result.dimensions, other);
+        std::ranges::transform(result.values, others, result.values.begin(),
+                               [&](double x, double y) { return derivation.value(scene_, x, y); });
+    }
+    return known_.emplace(name, std::move(result)).first->second;
 }
 
-std::vector<double> Coordinates::spread(const CoordinateValues& coordinate,
-                                        const std::vector<std::size_t>& dimensions) const
+std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimensions,
+                                       std::string_view name) const
 {
+    const CoordinateValues& coordinate = of(name);
     Shape count;
     for (const std::size_t dimension : dimensions) {
         count.push_back(count_[dimension]);
@@ -258,79 +251,26 @@ std::vector<double> Coordinates::spread(const CoordinateValues& coordinate,
     return values;
 }
 
-template <class Function>
-CoordinateValues Coordinates::combined(std::span<const CoordinateValues* const> from,
-                                       std::vector<std::size_t> dimensions,
-                                       const Function& of) const
-{
-    CoordinateValues result{std::move(dimensions), {}};
-    std::array<std::vector<double>, 2> arguments; // at every point of the result
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        arguments[i] = spread(*from[i], result.dimensions);
-    }
-    arguments[1].resize(arguments[0].size());
-    result.values.resize(arguments[0].size());
-    std::transform(arguments[0].begin(), arguments[0].end(), arguments[1].begin(),
-                   result.values.begin(), of);
-    return result;
-}
-
-const CoordinateValues& Coordinates::of(std::string_view name) const
-{
-    if (const auto found = known_.find(name); found != known_.end()) {
-        return found->second;
-    }
-    if (const Column* column = grid_.find(name)) {
-        return known_.emplace(name, given(*column, name)).first->second;
-    }
-    const Derivation* derivation = derivation_of(name, scene_, grid_);
-    assert(derivation != nullptr);
-    std::vector<const CoordinateValues*> from;
-    for (const std::string_view other : derivation->from) {
-        if (!other.empty()) {
-            from.push_back(&of(other));
-        }
-    }
-    CoordinateValues values = combined(from, dimensions_of(name), [&](double x, double y) {
-        return derivation->value(scene_, x, y);
-    });
-    return known_.emplace(name, std::move(values)).first->second;
-}
-
-std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimensions,
-                                       std::string_view name) const
-{
-    return spread(of(name), dimensions);
-}
-
 std::vector<Point> Coordinates::points() const
 {
     std::vector<Point> points(std::size_t(count_points(count_)));
-    const auto fill = [&](std::string_view name, double Point::*member) {
+    const auto fill = [&](std::string_view name, const auto& assign) {
         const CoordinateValues& coordinate = of(name);
         Point* point = points.data();
-        for_each_offset(count_, coordinate.dimensions, [&](std::size_t offset) {
-            (point++)->*member = coordinate.values[offset];
-        });
+        for_each_offset(count_, coordinate.dimensions,
+                        [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
     };
-    fill("slenderness", &Point::slenderness);
-    fill("restitution", &Point::restitution);
-    fill(scene_.is_recorded() ? "scale" : "amplitude", &Point::amplitude);
-    fill(scene_.is_recorded() ? "samples_per_unit" : "frequency", &Point::frequency);
-    return points;
-}
-
-std::vector<std::int64_t> Coordinates::motions() const
-{
-    std::vector<std::int64_t> motions;
-    if (scene_.records.size() > 1) {
-        std::vector<std::size_t> all(count_.size());
-        std::iota(all.begin(), all.end(), std::size_t(0));
-        for (const double number : along(all, "motion")) {
-            motions.push_back(std::int64_t(number) - 1);
-        }
+    const bool is_recorded = scene_.is_recorded();
+    fill("slenderness", [](Point& point, double value) { point.slenderness = value; });
+    fill("restitution", [](Point& point, double value) { point.restitution = value; });
+    fill(is_recorded ? "scale" : "amplitude",
+         [](Point& point, double value) { point.amplitude = value; });
+    fill(is_recorded ? "samples_per_unit" : "frequency",
+         [](Point& point, double value) { point.frequency = value; });
+    if (is_recorded) {
+        fill("motion", [](Point& point, double value) { point.motion = int(value) - 1; });
     }
-    return motions;
+    return points;
 }
 
 std::string Extent::text(std::string_view unit) const

@@ -24,9 +24,8 @@ std::vector<FieldFlag> regions(bool with_no_flip)
 const std::array<FieldTraits, count_of_fields> fields{{
     {"region", FieldType::uint8, "region at the end of the ground motion", "",
      "S: safe within the separatrix; S+, S-: safe due to the loss at the next impact; U0: "
-     "overturns "
-     "without another impact; U1: overturns after one more impact; F: falls during the ground "
-     "motion",
+     "overturns without another impact; U1: overturns after one more impact; F: falls during the "
+     "ground motion",
      regions(false)},
     {"angle", FieldType::float64, "angle at the end of the ground motion", "rad", "theta"},
     {"velocity", FieldType::float64, "velocity at the end of the ground motion", "rad",
@@ -69,49 +68,33 @@ const std::array<FieldTraits, count_of_fields> fields{{
      "the amplitude of a pulse or the scale of a record, in ascending order; NaN beyond the last "
      "flip. Each flip lies between two amplitudes with settled verdicts, at most `width` apart "
      "relative to their size. If region_below or region_above is undecided, the value is not a "
-     "flip "
-     "but the settled amplitude next to the undecided range. Under a pulse, the steps of the scan "
-     "were halved where the margin is not linear or the number of impacts changes, down to "
+     "flip but the settled amplitude next to the undecided range. Under a pulse, the steps of the "
+     "scan were halved where the margin is not linear or the number of impacts changes, down to "
      "`finest_step` of the amplitude; strips that are narrower, or that the neighbouring "
-     "amplitudes "
-     "do not indicate, may be missed. Under a record, the steps were divided evenly until each was "
-     "at most `finest_step` of the amplitude; narrower strips exist and are missed"},
+     "amplitudes do not indicate, may be missed. Under a record, the steps were divided evenly "
+     "until each was at most `finest_step` of the amplitude; narrower strips exist and are missed"},
     {"region_below", FieldType::uint8, "region just below the flip", "",
      "if there is no flip, the first entry along `crossing` has the region at the first amplitude "
-     "of "
-     "the scan. A first flip above a safe region is the minimum overturning amplitude. If the "
-     "first "
-     "entry has an unsafe region below, the block overturns at the first amplitude of the job",
+     "of the scan. A first flip above a safe region is the minimum overturning amplitude. If the "
+     "first entry has an unsafe region below, the block overturns at the first amplitude of the "
+     "job",
      regions(true)},
     {"region_above", FieldType::uint8, "region just above the flip", "",
      "undecided: verdicts could not be settled up to the next flip, or this is the last stored "
-     "flip "
-     "and there are more",
+     "flip and there are more",
      regions(true)},
     {"flip_pga", FieldType::float64, "PGA at which the verdict flips, over g", "1", ""},
-    {"unsafe_share",
-     FieldType::float64,
-     "share of amplitudes that overturn",
-     "1",
+    {"unsafe_share", FieldType::float64, "share of amplitudes that overturn", "1",
      "share of the scanned interval. Under a record, smaller steps find more flips; this share "
-     "hardly depends on the step. Flips beyond the last stored flip are included",
-     {},
-     false,
-     true},
-    {"undecided_share",
-     FieldType::float64,
-     "share of amplitudes without verdict",
-     "1",
-     "share of the scanned interval in which the verdict could not be settled",
-     {},
-     false,
-     true},
+     "hardly depends on the step. Flips beyond the last stored flip are included"},
+    {"undecided_share", FieldType::float64, "share of amplitudes without verdict", "1",
+     "share of the scanned interval in which the verdict could not be settled"},
     {"evaluated",
      FieldType::uint8,
      "whether the point was integrated",
      "",
-     "filled: all nodes of a cell around the point have its region, and none of the functions that "
-     "change it is near zero; by numerical evidence, not by proof",
+     "filled: all nodes of a cell around the point have its region, and none of the functions "
+     "that change it is near zero; by numerical evidence, not by proof",
      {{point_origin::filled, "filled"},
       {point_origin::integrated, "integrated"},
       {point_origin::not_computed, "not_computed"}}},

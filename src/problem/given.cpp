@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace overturn {
 
@@ -77,126 +79,101 @@ void expect_complete(const Scene& scene, const Grid& grid)
            "block.");
 }
 
-/// Checks the values of a derived coordinate at the corners of a grid.
-class ValueCheck {
-public:
-    ValueCheck(const Scene& scene, const Grid& corners, std::string_view derived)
-        : grid_(corners), coordinates_(scene, corners), values_(coordinates_.of(derived))
-    {}
-
-    /// The derived values, and those of another coordinate at the same points.
-    const std::vector<double>& derived() const { return values_.values; }
-    std::vector<double> at(std::string_view name) const
-    {
-        return coordinates_.along(values_.dimensions, name);
+/// Refuses the first corner for which message(values) is not empty. values: of these coordinates,
+/// the first of which varies along the dimensions of all. quantity: given, from which they follow.
+template <std::size_t count, class Message>
+void refuse_where(const Coordinates& coordinates, const Grid& corners, std::string_view quantity,
+                  const std::array<std::string_view, count>& names, const Message& message)
+{
+    const std::vector<std::size_t>& dimensions = coordinates.of(names[0]).dimensions;
+    std::array<std::vector<double>, count> values;
+    for (std::size_t n = 0; n < count; ++n) {
+        values[n] = coordinates.along(dimensions, names[n]);
     }
-
-    /// Refuses the first value i for which is_wrong(i) is true, with message(i). quantity: given,
-    /// from which it follows.
-    template <class IsWrong, class Message>
-    void refuse_if(std::string_view quantity, const IsWrong& is_wrong, const Message& message) const
-    {
-        for (std::size_t i = 0; i < values_.values.size(); ++i) {
-            if (is_wrong(i)) {
-                throw GivenError(row_of(quantity, std::int64_t(i)), quantity, message(i));
-            }
+    for (std::size_t i = 0; i < values[0].size(); ++i) {
+        std::array<double, count> at;
+        for (std::size_t n = 0; n < count; ++n) {
+            at[n] = values[n][i];
         }
+        const std::string text = std::apply(message, at);
+        if (text.empty()) {
+            continue;
+        }
+        auto row = std::int64_t(i);
+        if (!corners.has_column(quantity)) {
+            throw GivenError(GivenError::no_row, quantity, text);
+        }
+        const std::size_t table = *corners.dimension_of(quantity);
+        for (auto faster = dimensions.rbegin(); *faster != table; ++faster) {
+            row /= corners.dimensions[*faster].size();
+        }
+        throw GivenError(row % corners.dimensions[table].size(), quantity, text);
     }
+}
 
-private:
-    /// The row of value i if the quantity is a column of a table; no_row if not.
-    std::int64_t row_of(std::string_view quantity, std::int64_t i) const
-    {
-        const auto dimension = grid_.dimension_of(quantity);
-        if (!dimension || grid_.dimensions[*dimension].name != table_dimension) {
-            return GivenError::no_row;
-        }
-        for (auto each = values_.dimensions.rbegin(); *each != *dimension; ++each) {
-            i /= grid_.dimensions[*each].size();
-        }
-        return i % grid_.dimensions[*dimension].size();
-    }
-
-    const Grid& grid_;
-    Coordinates coordinates_;
-    const CoordinateValues& values_;
-};
-
-void expect_slenderness(const Scene& scene, const Grid& corners)
+void expect_slenderness(const Coordinates& coordinates, const Grid& corners)
 {
     if (corners.find("slenderness") != nullptr) {
         return;
     }
-    const ValueCheck check(scene, corners, "slenderness");
-    const std::vector<double>& alpha = check.derived();
-    const std::vector<double> b = check.at("half_width");
-    const std::vector<double> h = check.at("half_height");
     const Quantity& rule = quantity("slenderness");
-    check.refuse_if(
-        corners.find("width") != nullptr ? "width" : "half_width",
-        [&](std::size_t i) { return !rule.allows(alpha[i]); },
-        [&](std::size_t i) {
-            return fmt::format(" makes the block {} m wide and {} m high: its slenderness {} is "
-                               "outside {}. Choose a ratio closer to 1.",
-                               2 * b[i], 2 * h[i], alpha[i], rule.interval);
-        });
+    refuse_where(coordinates, corners, corners.find("width") != nullptr ? "width" : "half_width",
+                 std::array<std::string_view, 3>{"slenderness", "half_width", "half_height"},
+                 [&](double alpha, double b, double h) {
+                     return rule.allows(alpha)
+                                ? ""
+                                : fmt::format(" makes the block {} m wide and {} m high: its "
+                                              "slenderness {} is outside {}. Choose a ratio closer "
+                                              "to 1.",
+                                              2 * b, 2 * h, alpha, rule.interval);
+                 });
 }
 
 /// r_max (Eq. 17) must exist, and r must be in (0, 1]. A share above 1 is allowed: r_max is the
 /// maximum for a block on a flat base, not a physical limit.
-void expect_restitution(const Scene& scene, const Grid& corners)
+void expect_restitution(const Coordinates& coordinates, const Grid& corners)
 {
     constexpr std::string_view name = "restitution_of_maximum";
     if (corners.find(name) == nullptr) {
         return;
     }
-    const ValueCheck check(scene, corners, "restitution");
+    constexpr std::array<std::string_view, 3> names{"restitution", name, "slenderness"};
     const double limit = std::asin(std::sqrt(2.0 / 3.0));
-    const std::vector<double>& r = check.derived();
-    const std::vector<double> share = check.at(name);
-    const std::vector<double> alpha = check.at("slenderness");
-    check.refuse_if(
-        name, [&](std::size_t i) { return !(alpha[i] < limit); },
-        [&](std::size_t i) {
-            return fmt::format(
-                " = {}: r_max is defined only for a slenderness below arcsin sqrt(2/3) "
-                "= {} rad (Eq. 17), but that of the block is {} rad. Choose a more "
-                "slender block, or give restitution, r itself.",
-                share[i], limit, alpha[i]);
-        });
+    refuse_where(coordinates, corners, name, names, [&](double, double share, double alpha) {
+        return alpha < limit
+                   ? ""
+                   : fmt::format(" = {}: r_max is defined only for a slenderness below arcsin "
+                                 "sqrt(2/3) = {} rad (Eq. 17), but that of the block is {} rad. "
+                                 "Choose a more slender block, or give restitution, r itself.",
+                                 share, limit, alpha);
+    });
     const Quantity& rule = quantity("restitution");
-    check.refuse_if(
-        name, [&](std::size_t i) { return !rule.allows(r[i]); },
-        [&](std::size_t i) {
-            return fmt::format(
-                " = {} gives r = {}, which is outside {}, at the slenderness {} rad. {}", share[i],
-                r[i], rule.interval, alpha[i], rule.reason);
-        });
+    refuse_where(coordinates, corners, name, names, [&](double r, double share, double alpha) {
+        return rule.allows(r)
+                   ? ""
+                   : fmt::format(" = {} gives r = {}, which is outside {}, at the slenderness {} "
+                                 "rad. {}",
+                                 share, r, rule.interval, alpha, rule.reason);
+    });
 }
 
 /// The factor on a record, and the scaled vertical motion, must not overflow.
-void expect_finite_scales(const Scene& scene, const Grid& corners)
+void expect_finite_scales(const Scene& scene, const Coordinates& coordinates, const Grid& corners)
 {
-    const std::string_view name = corners.find("pga") != nullptr ? "pga" : "scale";
+    const bool is_pga = corners.find("pga") != nullptr;
+    const std::string_view name = is_pga ? "pga" : "scale";
     // Both vary along the dimensions of the strength and of the motion.
-    const ValueCheck scales(scene, corners, name == "pga" ? "scale" : "pga");
-    const std::vector<double> scale = name == "pga" ? scales.derived() : scales.at("scale");
-    const std::vector<double> strength = scales.at(name);
-    const std::vector<double> motion = scales.at("motion");
-    const auto record = [&](std::size_t i) -> const Accelerogram& {
-        return *scene.records[std::size_t(motion[i]) - 1];
-    };
-    scales.refuse_if(
-        name,
-        [&](std::size_t i) {
-            return !std::isfinite(scale[i]) || !std::isfinite(scale[i] * record(i).upwards_peak());
-        },
-        [&](std::size_t i) {
-            return fmt::format(" = {} exceeds the range of double precision as a factor on the "
-                               "record, whose peak is {} g. Correct the unit of the record, or "
-                               "lower {}.",
-                               strength[i], record(i).peak(), name);
-        });
+    const std::array<std::string_view, 4> names{is_pga ? "scale" : "pga", "scale", name, "motion"};
+    refuse_where(coordinates, corners, name, names,
+                 [&](double, double scale, double strength, double motion) {
+                     const Accelerogram& record = *scene.records[std::size_t(motion) - 1];
+                     return std::isfinite(scale) && std::isfinite(scale * record.upwards_peak())
+                                ? ""
+                                : fmt::format(" = {} exceeds the range of double precision as a "
+                                              "factor on the record, whose peak is {} g. Correct "
+                                              "the unit of the record, or lower {}.",
+                                              strength, record.peak(), name);
+                 });
 }
 
 /// Refuses strengths at all of which the vertical motion of every record cancels gravity.
@@ -206,7 +183,7 @@ void expect_gravity(const Scene& scene, const Grid& grid)
     const Accelerogram* weakest = nullptr; // of those with points
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const Accelerogram& record = *scene.records[i];
-        if (scales[i].smallest < record.largest_scale()) {
+        if (scales[i].smallest < record.free_fall_scale()) {
             return;
         }
         if (std::isfinite(scales[i].smallest) && weakest == nullptr) {
@@ -215,12 +192,26 @@ void expect_gravity(const Scene& scene, const Grid& grid)
     }
     const std::string_view name = grid.find("pga") != nullptr ? "pga" : "scale";
     const Coordinates coordinates(scene, grid);
-    refuse(name, fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
-                             "below the scale {:.6g}, which is a PGA of {:.6g} g.",
-                             extent_of(coordinates.of(name)).first,
-                             coordinates.of(name).values.size() > 1 ? " and more" : "",
-                             scene.records.size() > 1 ? " under every record" : "",
-                             weakest->largest_scale(), weakest->largest_scale() * weakest->peak()));
+    refuse(name,
+           fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
+                       "below the scale {:.6g}, which is a PGA of {:.6g} g.",
+                       extent_of(coordinates.of(name)).first,
+                       coordinates.of(name).values.size() > 1 ? " and more" : "",
+                       scene.records.size() > 1 ? " under every record" : "",
+                       weakest->free_fall_scale(), weakest->free_fall_scale() * weakest->peak()));
+}
+
+/// The place of an axis among the dimensions; smaller is slower. Under records, the size of the
+/// block is the fastest.
+int order_of(std::string_view dimension, bool is_recorded)
+{
+    const auto place = [](std::string_view name) {
+        return int(find_quantity(name) - all_quantities().data());
+    };
+    const bool is_size = dimension == "size" || dimension == "frequency_parameter";
+    return dimension == table_dimension ? place("width")
+           : is_recorded && is_size     ? int(all_quantities().size())
+                                        : place(dimension);
 }
 
 } // namespace
@@ -266,10 +257,11 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
                      });
     expect_complete(scene, grid);
     const Grid corners = corners_of(grid);
-    expect_slenderness(scene, corners);
-    expect_restitution(scene, corners);
+    const Coordinates coordinates(scene, corners);
+    expect_slenderness(coordinates, corners);
+    expect_restitution(coordinates, corners);
     if (is_recorded) {
-        expect_finite_scales(scene, corners);
+        expect_finite_scales(scene, coordinates, corners);
         expect_gravity(scene, corners);
     }
     return grid;

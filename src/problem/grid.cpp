@@ -4,22 +4,6 @@
 
 namespace overturn {
 
-namespace {
-
-template <class Holds>
-std::optional<std::size_t> first_dimension(const std::vector<Dimension>& dimensions,
-                                           const Holds& holds)
-{
-    const auto found =
-        std::find_if(dimensions.begin(), dimensions.end(), [&](const Dimension& dimension) {
-            return std::any_of(dimension.columns.begin(), dimension.columns.end(), holds);
-        });
-    return found == dimensions.end() ? std::nullopt
-                                     : std::optional(std::size_t(found - dimensions.begin()));
-}
-
-} // namespace
-
 Shape Grid::shape() const
 {
     Shape shape;
@@ -29,20 +13,20 @@ Shape Grid::shape() const
     return shape;
 }
 
-const Column* Grid::find(std::string_view name) const
+namespace {
+
+template <class Holds>
+std::optional<std::size_t> first_dimension(const std::vector<Dimension>& dimensions,
+                                           const Holds& holds)
 {
-    const auto in = [&](const std::vector<Column>& columns) {
-        const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
-            return column.quantity->name == name;
-        });
-        return found == columns.end() ? nullptr : &*found;
-    };
-    const Column* found = in(numbers);
-    for (const Dimension& dimension : dimensions) {
-        found = found != nullptr ? found : in(dimension.columns);
-    }
-    return found;
+    const auto found = std::ranges::find_if(dimensions, [&](const Dimension& dimension) {
+        return std::ranges::any_of(dimension.columns, holds);
+    });
+    return found == dimensions.end() ? std::nullopt
+                                     : std::optional(std::size_t(found - dimensions.begin()));
 }
+
+} // namespace
 
 std::optional<std::size_t> Grid::dimension_of(std::string_view name) const
 {
@@ -56,6 +40,21 @@ std::optional<std::size_t> Grid::dimension_of(Role role) const
                            [&](const Column& column) { return column.quantity->role == role; });
 }
 
+bool Grid::has_column(std::string_view name) const
+{
+    const auto dimension = dimension_of(name);
+    return dimension && dimensions[*dimension].name == table_dimension;
+}
+
+const Column* Grid::find(std::string_view name) const
+{
+    const auto dimension = dimension_of(name);
+    const std::vector<Column>& columns = dimension ? dimensions[*dimension].columns : numbers;
+    const auto found = std::ranges::find_if(
+        columns, [&](const Column& column) { return column.quantity->name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
 const Column* Grid::axis_or_number(Role role) const
 {
     for (const Column& column : numbers) {
@@ -63,31 +62,16 @@ const Column* Grid::axis_or_number(Role role) const
             return &column;
         }
     }
-    for (const Dimension& dimension : dimensions) {
-        if (dimension.name != table_dimension && dimension.columns.front().quantity->role == role) {
-            return &dimension.columns.front();
-        }
-    }
-    return nullptr;
+    const auto dimension = dimension_of(role);
+    return !dimension || dimensions[*dimension].name == table_dimension
+               ? nullptr
+               : &dimensions[*dimension].columns.front();
 }
 
 const Dimension* Grid::table() const
 {
-    const auto found =
-        std::find_if(dimensions.begin(), dimensions.end(),
-                     [](const Dimension& each) { return each.name == table_dimension; });
+    const auto found = std::ranges::find(dimensions, table_dimension, &Dimension::name);
     return found == dimensions.end() ? nullptr : &*found;
-}
-
-int order_of(std::string_view dimension, bool is_recorded)
-{
-    const auto place = [](std::string_view name) {
-        return int(find_quantity(name) - all_quantities().data());
-    };
-    const bool is_size = dimension == "size" || dimension == "frequency_parameter";
-    return dimension == table_dimension ? place("width")
-           : is_recorded && is_size     ? int(all_quantities().size())
-                                        : place(dimension);
 }
 
 } // namespace overturn

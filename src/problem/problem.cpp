@@ -15,8 +15,8 @@ std::vector<StoredDimension> stored_dimensions(const Problem& problem)
         dimensions.push_back({dimension.name, dimension.size()});
     }
     if (problem.product == Product::boundary) {
-        dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(crossing_dimension),
-                                                                  most_crossings(problem.scene)};
+        dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
+                                                                  most_flips(problem.scene)};
     }
     return dimensions;
 }
@@ -93,8 +93,8 @@ Tiling tiling_of(const Problem& problem)
         // for slow pulses, under which blocks bounce very often.
         const Shape shape = stored_shape(problem);
         Shape tile(shape.size(), 1);
-        const std::size_t crossing = *grid.dimension_of(Role::strength);
-        tile[crossing] = shape[crossing];
+        const std::size_t strength = *grid.dimension_of(Role::strength);
+        tile[strength] = shape[strength];
         return Tiling(shape, tile);
     }
     if (problem.numerics.fill) {
@@ -109,9 +109,8 @@ Tiling tiling_of(const Problem& problem)
 Items items_of(const Problem& problem)
 {
     const std::int64_t points = count_points(stored_shape(problem));
-    return problem.product == Product::boundary
-               ? Items{points / most_crossings(problem.scene), "lines"}
-               : Items{points, "points"};
+    return problem.product == Product::boundary ? Items{points / most_flips(problem.scene), "lines"}
+                                                : Items{points, "points"};
 }
 
 std::string reason_not_to_fill(const Problem& problem)

@@ -1,10 +1,10 @@
 // The module overturn._core: the functions of the program's libraries that the Python package
 // calls. Shapes and optional arguments are handled in tools/overturn/evaluation.py and records.py.
-#include "evaluate.hpp"
-
 #include "overturn/mechanics/region.hpp"
-#include "overturn/problem/quantity.hpp"
+#include "overturn/problem/given.hpp"
+#include "overturn/problem/plausibility.hpp"
 #include "overturn/record/read_record.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
@@ -12,11 +12,14 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -132,25 +135,63 @@ private:
         std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
 };
 
-/// The fields of every block by name, and what looks like a mistake in the units as "warning";
-/// columns: arrays of equal length, see evaluate(). Columns
-/// without rows are not checked.
-py::dict evaluate_columns(const Scene& scene, const Numerics& numerics,
-                          const std::map<std::string, Values>& columns)
+/// Named columns of equal length: quantities of the blocks and their motions.
+using Columns = std::map<std::string, Values>;
+
+/// The grid of the blocks. Throws GivenError.
+Grid grid_of_columns(const Scene& scene, const Columns& columns)
+{
+    std::vector<Given> given;
+    for (const auto& [name, values] : columns) {
+        const Quantity& quantity = overturn::quantity(name);
+        const std::vector<double> rows = vector_of(values);
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+            if (!quantity.allows(rows[row])) {
+                throw GivenError(std::int64_t(row), name,
+                                 fmt::format(" = {} is outside {}. {}", rows[row],
+                                             quantity.interval, quantity.reason));
+            }
+        }
+        given.push_back({&quantity, name, Axis(rows), GivenAs::column});
+    }
+    if (scene.is_recorded()) {
+        given.push_back({&quantity("motion"), "record", Axis(AxisList{1}), GivenAs::number});
+    }
+    return grid_of(scene, std::move(given));
+}
+
+/// The fields of every block by name, and what looks like a mistake in the units as "warning".
+/// Computed with the widest kernel and in the tiles of `overturn run`, so that the bits are those
+/// of a list job. Columns without rows are not checked.
+py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns)
 {
     const py::ssize_t size = columns.empty() ? 0 : columns.begin()->second.size();
     py::array_t<std::uint8_t> region(size), status(size);
     py::array_t<double> peak(size), margin(size);
-    const FieldArrays to{region.mutable_data(), status.mutable_data(), peak.mutable_data(),
-                         margin.mutable_data()};
     std::string warning;
     if (size > 0) {
+        const auto copy = [](const FieldValues& from, auto* to) {
+            std::ranges::copy(std::get<std::vector<std::remove_pointer_t<decltype(to)>>>(from), to);
+        };
         const py::gil_scoped_release released;
-        Columns given;
-        for (const auto& [name, values] : columns) {
-            given[name] = vector_of(values);
+        const Kernel kernel = widest_kernel();
+        const DropRequested signal_check = SignalCheck();
+        const Problem problem{scene,
+                              grid_of_columns(scene, columns),
+                              numerics,
+                              Product::spectrum,
+                              {Field::region, Field::status, Field::peak, Field::margin}};
+        const Tiling tiling = tiling_of(problem);
+        for (std::int64_t number = 0; number < tiling.size(); ++number) {
+            const Tile tile = tiling[number];
+            const TileFields computed = compute_tile(problem, tile, kernel, signal_check);
+            const std::int64_t first = tile.begin[0];
+            copy(computed.values[0], region.mutable_data() + first);
+            copy(computed.values[1], status.mutable_data() + first);
+            copy(computed.values[2], peak.mutable_data() + first);
+            copy(computed.values[3], margin.mutable_data() + first);
         }
-        warning = evaluate(scene, numerics, given, to, SignalCheck());
+        warning = implausible_values(scene, problem.grid);
     }
     using namespace py::literals;
     return py::dict("region"_a = region, "status"_a = status, "peak"_a = peak, "margin"_a = margin,
@@ -208,7 +249,7 @@ PYBIND11_MODULE(_core, module)
     module.def("scene_of_pulse", &scene_of_pulse);
     module.def("scene_of_record", &scene_of_record);
     module.def("numerics", &numerics_of);
-    module.def("evaluate", &evaluate_columns);
+    module.def("evaluate", &evaluate);
     module.def("components_of", &components_of);
     module.attr("safe_regions") = regions(&is_safe);
     module.attr("unsafe_regions") = regions(&is_unsafe);

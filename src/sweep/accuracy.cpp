@@ -35,16 +35,6 @@ ErrorDistribution distribution(std::vector<double> errors)
     return result;
 }
 
-double median(std::vector<double> values)
-{
-    if (values.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 template <class T>
 const std::vector<T>& values_of(const TileFields& fields, std::size_t i)
 {
@@ -78,48 +68,47 @@ AccuracyStudy::AccuracyStudy(const Scene& scene, const Grid& grid, std::int64_t 
     : scene_(scene), kernel_(kernel)
 {
     sample_.grid = sample_of(grid, points);
-    settle_verdicts();
-    compute_in_digits(in_digits);
-}
-
-Problem AccuracyStudy::problem(const Numerics& numerics, std::vector<Field> fields) const
-{
-    return {scene_, sample_.grid, numerics, Product::spectrum, std::move(fields)};
-}
-
-void AccuracyStudy::settle_verdicts()
-{
-    const Problem settled = problem(most_accurate, {Field::region, Field::margin});
-    const Tiling tiling = tiling_of(settled);
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        truth_.push_back(compute_tile(settled, tiling[i], kernel_));
-        const auto& regions = values_of<std::uint8_t>(truth_.back(), 0);
+    truth_ = computed(most_accurate, {Field::region, Field::margin});
+    for (const TileFields& tile : truth_) {
+        const auto& regions = values_of<std::uint8_t>(tile, 0);
         for (std::size_t point = 0; point < regions.size(); ++point) {
             if (regions[point] < decided_regions) {
                 ++sample_.settled;
                 ++sample_.by_region[regions[point]];
-                ++sample_.by_distance[distance_class(values_of<double>(truth_.back(), 1)[point])];
+                ++sample_.by_distance[distance_class(values_of<double>(tile, 1)[point])];
             }
         }
     }
+    compute_in_digits(in_digits);
+}
+
+std::vector<TileFields> AccuracyStudy::computed(const Numerics& numerics,
+                                                std::vector<Field> fields) const
+{
+    const Problem problem{scene_, sample_.grid, numerics, Product::spectrum, std::move(fields)};
+    const Tiling tiling = tiling_of(problem);
+    std::vector<TileFields> tiles;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        tiles.push_back(compute_tile(problem, tiling[i], kernel_));
+    }
+    return tiles;
 }
 
 void AccuracyStudy::compute_in_digits(std::int64_t wanted)
 {
-    const Tiling tiling = tiling_of(problem(most_accurate, {}));
+    const Tiling tiling = tiling_of({.scene = scene_, .grid = sample_.grid});
     const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const Coordinates coordinates(scene_, sample_.grid, tiling[i]);
-        const std::vector<std::int64_t> motions = coordinates.motions(); // of a tile, all are equal
-        const PointRun run(scene_, coordinates.points(), kernel_, nullptr,
-                           motions.empty() ? 0 : motions.front());
-        Ends ends(std::size_t(run.size()), {.margin = true});
+        const PointRun run(scene_, Coordinates(scene_, sample_.grid, tiling[i]).points(), kernel_);
+        Outcomes outcomes(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
-            run.run_exactly<Digits50>(point, ends);
-            if (!(ends.flags[point] & end_flag::undecided)) {
-                in_digits_.push_back({i, point, (ends.flags[point] & end_flag::fell) != 0,
-                                      ends.side[point] * ends.tilt[point],
-                                      ends.side[point] * ends.rate[point], ends.margin[point]});
+            run.run_in_more_digits<Digits50>(point, outcomes);
+            if (!(outcomes.flags[point] & outcome_flag::undecided)) {
+                in_digits_.push_back({std::size_t(i), std::size_t(point),
+                                      (outcomes.flags[point] & outcome_flag::fell) != 0,
+                                      outcomes.side[point] * outcomes.tilt[point],
+                                      outcomes.side[point] * outcomes.rate[point],
+                                      outcomes.margin[point]});
             }
         }
     }
@@ -128,37 +117,33 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
 
 void AccuracyStudy::compute_regions(const Numerics& numerics) const
 {
-    const Problem regions = problem(numerics, {Field::region});
-    const Tiling tiling = tiling_of(regions);
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        compute_tile(regions, tiling[i], kernel_);
-    }
+    computed(numerics, {Field::region});
 }
 
 AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
 {
+    std::vector<Field> fields{Field::region, Field::angle, Field::velocity, Field::margin,
+                              Field::steps};
+    if (knows_errors(numerics)) {
+        fields.push_back(Field::error);
+    }
+    const std::vector<TileFields> tiles = computed(numerics, fields);
     AccuracyRow row;
     row.numerics = numerics;
+    count_verdicts(tiles, row);
+    measure_errors(tiles, row);
+    return row;
+}
 
-    std::vector<Field> requested{Field::region, Field::angle, Field::velocity, Field::margin,
-                                 Field::steps};
-    const bool with_bounds = knows_errors(numerics);
-    if (with_bounds) {
-        requested.push_back(Field::error);
-    }
-    const Problem studied = problem(numerics, requested);
-    const Tiling tiling = tiling_of(studied);
-    std::vector<double> angle, velocity, margin, ratios;
-    std::int64_t exceeded = 0;
+void AccuracyStudy::count_verdicts(const std::vector<TileFields>& tiles, AccuracyRow& row) const
+{
     double steps = 0;
-    auto exact = in_digits_.begin();
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const TileFields fields = compute_tile(studied, tiling[i], kernel_);
-        const auto& true_region = values_of<std::uint8_t>(truth_[std::size_t(i)], 0);
-        const auto& true_margin = values_of<double>(truth_[std::size_t(i)], 1);
-        const auto& region = values_of<std::uint8_t>(fields, 0);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const auto& region = values_of<std::uint8_t>(tiles[i], 0);
+        const auto& true_region = values_of<std::uint8_t>(truth_[i], 0);
+        const auto& true_margin = values_of<double>(truth_[i], 1);
         for (std::size_t point = 0; point < region.size(); ++point) {
-            steps += values_of<std::uint32_t>(fields, 4)[point];
+            steps += values_of<std::uint32_t>(tiles[i], 4)[point];
             if (region[point] >= decided_regions) {
                 ++row.undecided;
             } else if (true_region[point] < decided_regions &&
@@ -168,38 +153,43 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
                 ++row.wrong_verdicts_by_distance[distance_class(true_margin[point])];
             }
         }
-        for (; exact != in_digits_.end() && exact->tile == i; ++exact) {
-            const auto point = std::size_t(exact->point);
-            // Only one of the two blocks fell, so their ends cannot be compared.
-            const bool differs = fell(region[point]) != exact->fell;
-            const auto error = [&](std::size_t field, double true_value) {
-                const double value = values_of<double>(fields, field)[point];
-                const double found = std::abs(value - true_value);
-                return differs || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
-                                                        : found;
-            };
-            angle.push_back(error(1, exact->angle));
-            velocity.push_back(error(2, exact->velocity));
-            margin.push_back(error(3, exact->margin));
-            if (with_bounds) {
-                const double bound = values_of<double>(fields, 5)[point];
-                exceeded += margin.back() > bound;
-                if (margin.back() > 0 && std::isfinite(bound)) {
-                    ratios.push_back(bound / margin.back());
-                }
+    }
+    row.steps = steps / double(sample_.grid.points());
+    row.evaluations = row.steps * (row.numerics.method == Method::rk45 ? 6 : 1);
+}
+
+void AccuracyStudy::measure_errors(const std::vector<TileFields>& tiles, AccuracyRow& row) const
+{
+    const bool with_bounds = knows_errors(row.numerics);
+    std::vector<double> angle, velocity, margin, ratios;
+    std::int64_t exceeded = 0;
+    for (const DigitsTruth& exact : in_digits_) {
+        const TileFields& tile = tiles[exact.tile];
+        // Only one of the two blocks fell, so their ends cannot be compared.
+        const bool differs = fell(values_of<std::uint8_t>(tile, 0)[exact.point]) != exact.fell;
+        const auto error = [&](std::size_t field, double true_value) {
+            const double found = std::abs(values_of<double>(tile, field)[exact.point] - true_value);
+            return differs || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
+                                                    : found;
+        };
+        angle.push_back(error(1, exact.angle));
+        velocity.push_back(error(2, exact.velocity));
+        margin.push_back(error(3, exact.margin));
+        if (with_bounds) {
+            const double bound = values_of<double>(tile, 5)[exact.point];
+            exceeded += margin.back() > bound;
+            if (margin.back() > 0 && std::isfinite(bound)) {
+                ratios.push_back(bound / margin.back());
             }
         }
     }
-    const double points = double(sample_.grid.points());
-    row.steps = steps / points;
-    row.evaluations = row.steps * (numerics.method == Method::rk45 ? 6 : 1);
     row.angle = distribution(angle);
     row.velocity = distribution(velocity);
     row.margin = distribution(margin);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
+    static_assert(error_quantiles[0] == 0.5); // the median
     row.bound_exceeded = with_bounds ? double(exceeded) / double(in_digits_.size()) : unknown;
-    row.bound_over_error = with_bounds ? median(ratios) : unknown;
-    return row;
+    row.bound_over_error = with_bounds ? distribution(ratios)[0] : unknown;
 }
 
 } // namespace overturn

@@ -1,7 +1,6 @@
 #include "overturn/sweep/boundary.hpp"
 
 #include "point_run.hpp"
-#include "probes.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -21,39 +20,114 @@ constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolv
 /// An undecided verdict may take a second. After this many, the scan is not refined further.
 constexpr std::size_t most_undecided = 16;
 
+/// The outcome of a block at one amplitude.
+struct Probe {
+    double amplitude;
+    Region region;
+    double margin;
+    double impacts;
+    int halving = 0; ///< the halving of the scan that added it
+
+    bool is_settled() const { return is_safe(region) || is_unsafe(region); }
+    bool falls_to_plus() const
+    {
+        return region == Region::U0_plus || region == Region::U1_plus || region == Region::F_plus;
+    }
+};
+
+double middle_of(const Probe& below, const Probe& above)
+{
+    return below.amplitude + (above.amplitude - below.amplitude) / 2;
+}
+
+/// Whether the verdict changes between neighbours.
+bool is_flip(const Probe& below, const Probe& above)
+{
+    return is_safe(below.region) != is_safe(above.region);
+}
+
+/// Whether the margin may turn back towards 0 between three neighbours: it is far from linear, or
+/// the numbers of impacts differ and it changes by more than 1/64. For a thousand flips at low
+/// frequencies, 1/16 instead of 1/64 loses two in a hundred. Without this limit, the same flips are
+/// found in three times the time, because all steps of a block that bounces to rest are halved.
+bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
+{
+    const auto [nearest, farthest] =
+        std::minmax({std::abs(left.margin), std::abs(middle.margin), std::abs(right.margin)});
+    const bool differ = left.impacts != middle.impacts || middle.impacts != right.impacts;
+    if (differ && farthest - nearest > nearest / 64) {
+        return true;
+    }
+    const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
+    const double straight = left.margin + share * (right.margin - left.margin);
+    return std::abs(middle.margin - straight) > nearest / 4;
+}
+
+/// Whether the margin is nearest to 0 in the middle, and so near that it may reach 0 between its
+/// neighbours. A parabola falls below the lowest of three values by at most an eighth of their
+/// differences. Next to a strip, the margin bends more sharply: a limit of 4 instead of 32 loses
+/// six of a thousand flips.
+bool may_reach_zero(const Probe& left, const Probe& middle, const Probe& right)
+{
+    const double nearest = std::abs(middle.margin);
+    const double before = std::abs(left.margin) - nearest;
+    const double after = std::abs(right.margin) - nearest;
+    return before >= 0 && after >= 0 && nearest < 32 * std::max(before, after);
+}
+
+/// Adds probes to others and sorts all by amplitude; of equal ones, the added are the last.
+void add(const std::vector<Probe>& added, std::vector<Probe>& probes)
+{
+    probes.insert(probes.end(), added.begin(), added.end());
+    std::ranges::stable_sort(probes, {}, &Probe::amplitude);
+}
+
+/// Removes probes that are not settled, and those above the first flip that exceeds most_flips.
+void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
+{
+    std::erase_if(probes, [](const Probe& probe) { return !probe.is_settled(); });
+    std::size_t flips = 0;
+    for (std::size_t i = 1; i < probes.size(); ++i) {
+        flips += is_flip(probes[i - 1], probes[i]);
+        if (flips > most_flips) {
+            probes.resize(i + 1);
+        }
+    }
+}
+
+/// The probes of a line and the effort spent on them.
 class Line {
 public:
-    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, DropRequested drop_requested,
-         const SearchResolution& search)
-        : resolution(search), scene_(scene), line_(line), kernel_(kernel),
-          drop_requested_(std::move(drop_requested))
+    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, const FlipSearch& wanted)
+        : search(wanted), scene_(scene), line_(line), kernel_(kernel)
     {}
 
-    const SearchResolution resolution;
+    const FlipSearch search;
 
-    bool is_narrow(const Probe& below, const Probe& above) const
+    /// Whether the two amplitudes are within the flip width, or adjacent doubles.
+    bool is_narrow(double below, double above) const
     {
-        return overturn::is_narrow(below.amplitude, above.amplitude, resolution.flip_width);
+        return above - below <= search.flip_width * above || std::nextafter(below, above) >= above;
     }
 
     std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
     {
         std::vector<Point> points;
         for (const double amplitude : amplitudes) {
-            points.push_back(
-                {line_.slenderness, line_.restitution, amplitude / line_.unit, line_.frequency});
+            points.push_back({line_.slenderness, line_.restitution, amplitude / line_.unit,
+                              line_.frequency, line_.motion});
         }
         computed_ += amplitudes.size();
-        const PointRun run(scene_, std::move(points), kernel_, drop_requested_, line_.motion);
-        const Ends ends = ends_of(run, numerics, {.impacts = true, .region = true, .margin = true},
-                                  left_in_50_digits_);
+        const PointRun run(scene_, std::move(points), kernel_, search.drop_requested);
+        const Outcomes outcomes = outcomes_of(
+            run, numerics, {.impacts = true, .region = true, .margin = true}, left_in_50_digits_);
         if (left_in_50_digits_) {
-            *left_in_50_digits_ -= ends.in_50_digits;
+            *left_in_50_digits_ -= outcomes.in_50_digits;
         }
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back(
-                {amplitudes[i], Region(ends.region[i]), ends.margin[i], ends.impacts[i]});
+            probes.push_back({amplitudes[i], Region(outcomes.region[i]), outcomes.margin[i],
+                              outcomes.impacts[i]});
             if (!probes.back().is_settled()) {
                 undecided_.push_back(probes.back());
             }
@@ -64,7 +138,7 @@ public:
     Probe at(double amplitude) { return at(std::vector{amplitude}, most_accurate)[0]; }
 
     /// Whether no further flips are searched for, by halving steps or between neighbours.
-    bool is_exhausted() const { return computed_ > resolution.most_amplitudes; }
+    bool is_exhausted() const { return computed_ > search.most_amplitudes; }
     void renew_effort() { computed_ = 0; }
 
     /// Records that the step between these two is not searched although it should be.
@@ -84,7 +158,7 @@ public:
     {
         const double free_fall =
             scene_.is_recorded()
-                ? scene_.records[std::size_t(line_.motion)]->largest_scale() * line_.unit
+                ? scene_.records[std::size_t(line_.motion)]->free_fall_scale() * line_.unit
                 : std::numeric_limits<double>::infinity();
         const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
         if (first != amplitudes.end()) {
@@ -106,10 +180,9 @@ private:
     Scene scene_;
     BoundaryLine line_;
     Kernel kernel_;
-    DropRequested drop_requested_;
     std::vector<Probe> undecided_;
     std::size_t computed_ = 0;
-    std::optional<int> left_in_50_digits_ = resolution.most_in_50_digits;
+    std::optional<int> left_in_50_digits_ = search.most_in_50_digits;
     std::optional<CoarseSearch> coarse_;
 };
 
@@ -130,12 +203,11 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
         return probe.margin;
     };
     std::uintmax_t most_evaluations = 100;
-    const auto is_narrow = [&](double one, double other) {
-        return overturn::is_narrow(one, other, line.resolution.flip_width);
-    };
+    const auto is_narrow = [&](double one, double other) { return line.is_narrow(one, other); };
     boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
                                       above.margin, is_narrow, most_evaluations);
-    while (settled && !line.is_narrow(low, high)) { // if a margin of 0 ended it early
+    while (settled &&
+           !line.is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
     }
     return {low, high};
@@ -146,7 +218,7 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
 /// than the flip width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
-    while (!line.is_narrow(below, above)) {
+    while (!line.is_narrow(below.amplitude, above.amplitude)) {
         const Probe middle = line.at(middle_of(below, above));
         if (is_safe(middle.region)) {
             return {middle};
@@ -200,7 +272,7 @@ std::vector<std::size_t> steps_to_halve(const Line& line, const std::vector<Prob
             const Probe& above = probes[end];
             const bool is_new = below.halving == time || above.halving == time;
             const bool is_wide =
-                above.amplitude - below.amplitude > line.resolution.finest_step * above.amplitude;
+                above.amplitude - below.amplitude > line.search.finest_step * above.amplitude;
             if ((steps.empty() || end > steps.back()) && is_new && is_wide) {
                 steps.push_back(end);
             }
@@ -210,9 +282,9 @@ std::vector<std::size_t> steps_to_halve(const Line& line, const std::vector<Prob
 }
 
 /// Halves the steps of the scan repeatedly where it is rough, down to the finest step.
-std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t most_flips)
+std::vector<Probe> refined(Line& line, std::vector<Probe> probes)
 {
-    forget_the_useless(probes, most_flips);
+    forget_the_useless(probes, line.search.most_flips);
     for (int time = 0;; ++time) {
         std::vector<double> middles;
         for (const std::size_t end : steps_to_halve(line, probes, time)) {
@@ -225,12 +297,12 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes, std::size_t mo
         if (middles.empty()) {
             return probes;
         }
-        for (Probe& probe : line.at(middles, scanning)) {
+        std::vector<Probe> added = line.at(middles, scanning);
+        for (Probe& probe : added) {
             probe.halving = time + 1;
-            probes.push_back(probe);
         }
-        sort_by_amplitude(probes);
-        forget_the_useless(probes, most_flips);
+        add(added, probes);
+        forget_the_useless(probes, line.search.most_flips);
     }
 }
 
@@ -243,7 +315,7 @@ std::vector<Probe> at_equal_steps(Line& line, const std::vector<double>& amplitu
         if (i > 0) {
             const double below = amplitudes[i - 1];
             const double step = amplitudes[i] - below;
-            const double parts = std::ceil(step / (line.resolution.finest_step * amplitudes[i]));
+            const double parts = std::ceil(step / (line.search.finest_step * amplitudes[i]));
             for (double part = 1; part < parts; ++part) {
                 all.push_back(below + step * (part / parts));
             }
@@ -281,8 +353,7 @@ void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
             }
         }
     }
-    probes.insert(probes.end(), found.begin(), found.end());
-    sort_by_amplitude(probes);
+    add(found, probes);
 }
 
 /// Adds the shares of the interval between the first and the last of these ascending amplitudes.
@@ -305,14 +376,16 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
 } // namespace
 
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
-                     const std::vector<double>& amplitudes, Kernel kernel, std::size_t most_flips,
-                     DropRequested drop_requested, std::optional<SearchResolution> resolution)
+                     const std::vector<double>& amplitudes, Kernel kernel,
+                     const std::optional<FlipSearch>& search)
 {
-    Line line(scene, where, kernel, drop_requested, resolution.value_or(search_resolution(scene)));
-    std::vector<Probe> probes = scene.is_recorded()
-                                    ? at_equal_steps(line, line.without_free_fall(amplitudes))
-                                    : refined(line, line.at(amplitudes, scanning), most_flips);
-    if (!scene.is_recorded()) {
+    Line line(scene, where, kernel, search.value_or(flip_search(scene)));
+    const std::size_t most_flips = line.search.most_flips;
+    std::vector<Probe> probes;
+    if (scene.is_recorded()) {
+        probes = at_equal_steps(line, line.without_free_fall(amplitudes));
+    } else {
+        probes = refined(line, line.at(amplitudes, scanning));
         add_hidden_verdicts(line, probes);
     }
     std::vector<Probe> closer;
@@ -322,8 +395,11 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
             closer.insert(closer.end(), {low, high});
         }
     }
-    probes.insert(probes.end(), closer.begin(), closer.end());
-    add_undecided(line.undecided(), probes);
+    add(closer, probes);
+    add(line.undecided(), probes);
+    // Of undecided amplitudes that were settled later, the settled ones remain.
+    const auto repeated = std::ranges::unique(probes, {}, &Probe::amplitude);
+    probes.erase(repeated.begin(), repeated.end());
 
     Boundary boundary;
     boundary.region_at_first = probes.front().region;

@@ -28,13 +28,19 @@ struct Cell {
     bool is_smallest() const { return length(0) <= 2 && length(1) <= 2; }
 };
 
-/// Calls visit(begin, end) for the parts of a range; neighbours share an end.
-template <class Visitor>
-void split(int begin, int end, int parts, const Visitor& visit)
+/// The parts of a cell, as many along each axis; neighbours share a side.
+std::vector<Cell> parts_of(const Cell& cell, const std::array<int, 2>& count)
 {
-    for (int i = 0; i < parts; ++i) {
-        visit(begin + (end - begin) * i / parts, begin + (end - begin) * (i + 1) / parts);
+    const auto place = [&](std::size_t axis, int part) {
+        return cell.begin[axis] + cell.length(axis) * part / count[axis];
+    };
+    std::vector<Cell> parts;
+    for (int i = 0; i < count[0]; ++i) {
+        for (int j = 0; j < count[1]; ++j) {
+            parts.push_back({{place(0, i), place(1, j)}, {place(0, i + 1), place(1, j + 1)}});
+        }
     }
+    return parts;
 }
 
 /// The longest side of a cell along the dimension of this role [points]: 1/32 of the axis, but at
@@ -156,23 +162,18 @@ private:
 
     std::vector<Cell> largest_cells() const
     {
-        std::vector<Cell> cells;
-        const auto parts = [&](int points, int longest) {
+        const auto parts = [](int points, int longest) {
             return std::max(1, (points - 2 + longest) / longest);
         };
-        split(0, rows() - 1, parts(rows(), longest_[0]), [&](int top, int bottom) {
-            split(0, columns() - 1, parts(columns(), longest_[1]), [&](int left, int right) {
-                cells.push_back({{top, left}, {bottom, right}});
-            });
-        });
-        return cells;
+        return parts_of({{0, 0}, {rows() - 1, columns() - 1}},
+                        {parts(rows(), longest_[0]), parts(columns(), longest_[1])});
     }
 
     /// Integrates the nodes of the cells, fills the uniform cells and returns the parts of the
     /// others.
     std::vector<Cell> pass(const std::vector<Cell>& cells)
     {
-        integrate(places_of_nodes(cells), node_records);
+        integrate(places_of_nodes(cells), node_outputs);
         std::vector<Cell> parts;
         for (const Cell& cell : cells) {
             if (cell.is_smallest()) { // all of its points are nodes
@@ -184,16 +185,13 @@ private:
                 continue;
             }
             const auto halves = [&](std::size_t axis) { return cell.length(axis) > 2 ? 2 : 1; };
-            split(cell.begin[0], cell.end[0], halves(0), [&](int top, int bottom) {
-                split(cell.begin[1], cell.end[1], halves(1), [&](int left, int right) {
-                    parts.push_back({{top, left}, {bottom, right}});
-                });
-            });
+            std::ranges::copy(parts_of(cell, {halves(0), halves(1)}), std::back_inserter(parts));
         }
         return parts;
     }
 
-    /// The nodes that have not been integrated yet, row by row: points of a row share their push.
+    /// The nodes that have not been integrated yet, row by row: points of a row share their scaled
+    /// pulse.
     std::vector<int> places_of_nodes(const std::vector<Cell>& cells)
     {
         std::vector<int> places;
@@ -212,38 +210,39 @@ private:
         return places;
     }
 
-    /// Integrates points and stores them, as nodes if all records of a node are requested. Returns
+    /// Integrates points and stores them, as nodes if all outputs for a node are requested. Returns
     /// the number of points whose stored value has changed.
-    std::int64_t integrate(const std::vector<int>& places, Records records)
+    std::int64_t integrate(const std::vector<int>& places, Outputs outputs)
     {
-        records.region = true;
+        outputs.region = true;
         std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
             points.push_back(points_[std::size_t(place)]);
         }
         const PointRun run = run_.with_points(std::move(points));
-        const Ends ends = ends_of(run, numerics_, records);
+        const Outcomes outcomes = outcomes_of(run, numerics_, outputs);
         std::int64_t changed = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
-            changed += store(std::size_t(places[i]), ends, i);
+            changed += store(std::size_t(places[i]), outcomes, i);
         }
-        if (records.grazes) {
+        if (outputs.grazes) {
             with_theory(theory_, [&]<Theory theory>() {
                 for (std::size_t i = 0; i < places.size(); ++i) {
                     node_at_[std::size_t(places[i])] = int(nodes_.size());
-                    nodes_.push_back(node_of<theory>(run, ends, int(i)));
+                    nodes_.push_back(node_of<theory>(run, outcomes, int(i)));
                 }
             });
         }
         return changed;
     }
 
-    bool store(std::size_t place, const Ends& ends, std::size_t i)
+    bool store(std::size_t place, const Outcomes& outcomes, std::size_t i)
     {
-        bool changed = ends.region[i] != std::exchange(filled_.region[place], ends.region[i]);
+        bool changed =
+            outcomes.region[i] != std::exchange(filled_.region[place], outcomes.region[i]);
         if (with_impacts()) {
-            const std::uint16_t impacts = ends.stored_impacts(i, false);
+            const std::uint16_t impacts = outcomes.stored_impacts(i, false);
             changed = impacts != std::exchange(filled_.impacts[place], impacts) || changed;
         }
         filled_.evaluated[place] = 1;

@@ -9,20 +9,20 @@
 namespace overturn {
 
 template <Theory theory>
-Node node_of(const PointRun& run, const Ends& ends, int point)
+Node node_of(const PointRun& run, const Outcomes& outcomes, int point)
 {
     const auto i = std::size_t(point);
     const Point& at = run.point(point);
     const Block<double> block{at.slenderness, at.restitution};
-    const SafeRates<double> safe = safe_rates<theory>(ends.tilt[i], block);
-    const double u = ends.rate[i];
-    Node node{ends.region[i],
-              ends.flags[i],
+    const SafeRates<double> safe = safe_rates<theory>(outcomes.tilt[i], block);
+    const double u = outcomes.rate[i];
+    Node node{outcomes.region[i],
+              outcomes.flags[i],
               0,
-              ends.impacts[i],
-              ends.peak[i] / at.slenderness * std::exp(pi<double>() / at.frequency),
+              outcomes.impacts[i],
+              outcomes.peak[i] / at.slenderness * std::exp(pi<double>() / at.frequency),
               {}};
-    const PerLobe<double>& uplifts = run.push_of(point).uplifts;
+    const PerLobe<double>& uplifts = run.pulse_of(point).uplifts;
     for (int lobe = 0; lobe < uplifts.count; ++lobe) {
         node.lobes |= std::uint32_t(std::isfinite(uplifts.values[std::size_t(lobe)])) << lobe;
     }
@@ -30,19 +30,19 @@ Node node_of(const PointRun& run, const Ends& ends, int point)
     put(Switch::outward, safe.outward - u);
     put(Switch::inward, u + safe.inward);
     put(Switch::impact, u + safe.outward);
-    put(Switch::end_tilt, ends.tilt[i]);
-    put(Switch::room, pi<double>() / 2 - ends.tilt[i]);
-    put(Switch::time_left, run.end_of_pulse() - ends.phase[i]);
+    put(Switch::end_tilt, outcomes.tilt[i]);
+    put(Switch::room, pi<double>() / 2 - outcomes.tilt[i]);
+    put(Switch::time_left, run.end_of_pulse() - outcomes.phase[i]);
     put(Switch::fall_speed, u);
-    put(Switch::turn, std::min(ends.lowest_turn[i], at.slenderness));
-    put(Switch::softest, ends.softest_impact[i]);
-    put(Switch::last, ends.last_impact[i]);
+    put(Switch::turn, std::min(outcomes.lowest_turn[i], at.slenderness));
+    put(Switch::softest, outcomes.softest_impact[i]);
+    put(Switch::last, outcomes.last_impact[i]);
     put(Switch::rebound, std::sqrt(at.restitution) * safe.outward - u);
     return node;
 }
 
-template Node node_of<Theory::nonlinear>(const PointRun&, const Ends&, int);
-template Node node_of<Theory::linear>(const PointRun&, const Ends&, int);
+template Node node_of<Theory::nonlinear>(const PointRun&, const Outcomes&, int);
+template Node node_of<Theory::linear>(const PointRun&, const Outcomes&, int);
 
 namespace {
 

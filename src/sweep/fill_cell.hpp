@@ -29,20 +29,20 @@ inline constexpr std::size_t switches = 11;
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {
     std::uint8_t region;
-    std::uint8_t flags;  ///< see end_flag
+    std::uint8_t flags;  ///< see outcome_flag
     std::uint32_t lobes; ///< bit set of those that lift a block at rest
     double impacts;      ///< counted
     double peak;         ///< largest tilt times exp(pi / Omega), see docs/filling.md [alpha]
     std::array<double, switches> values;
 };
 
-/// The records of the ends from which nodes are made.
-inline constexpr Records node_records{
+/// The outputs from which nodes are made.
+inline constexpr Outputs node_outputs{
     .impacts = true, .peak = true, .region = true, .phase = true, .grazes = true};
 
-/// The node at a point of a run with these ends.
+/// The node at a point of a run with these outcomes.
 template <Theory theory>
-Node node_of(const PointRun& run, const Ends& ends, int point);
+Node node_of(const PointRun& run, const Outcomes& outcomes, int point);
 
 /// The nodes of a cell, row by row, with their places on both axes.
 struct CellNodes {

@@ -58,10 +58,10 @@ private:
     History history_{};
 };
 
-template <Theory theory, class GroundOf>
+template <Theory theory, class Excitation>
 class HistoryBuilder {
 public:
-    HistoryBuilder(const Point& point, const GroundOf& excitation)
+    HistoryBuilder(const Point& point, const Excitation& excitation)
         : block_{point.slenderness, point.restitution}, excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
@@ -232,7 +232,7 @@ private:
     }
 
     Block<double> block_;
-    GroundOf excitation_;
+    Excitation excitation_;
     ForcedPath path_;
     double end_of_path_; // time [1/p]
     double time_of_rest_;
@@ -253,8 +253,8 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
             return build(record_excitation<theory>(*scene.records.front(), point.slenderness,
                                                    point.amplitude, point.frequency));
         }
-        return build(excitation_of<theory>(ground_motion<double>(scene.pulse, scene.shape),
-                                           point.slenderness, point.amplitude, point.frequency));
+        return build(pulse_excitation<theory>(ground_motion<double>(scene.pulse, scene.shape),
+                                              point.slenderness, point.amplitude, point.frequency));
     });
 }
 

@@ -7,10 +7,10 @@
 namespace overturn {
 
 #define OVERTURN_DECLARE(isa)                                                                      \
-    SweepKernel kernel_##isa##_runge_kutta(Theory, const Records&, bool);                          \
-    SweepKernel kernel_##isa##_taylor_14(Theory, const Records&, bool);                            \
-    SweepKernel kernel_##isa##_taylor_20(Theory, const Records&, bool);                            \
-    SweepKernel kernel_##isa##_recorded(Theory, const Records&, bool);
+    SweepKernel kernel_##isa##_runge_kutta(Theory, const Outputs&, Directions);                    \
+    SweepKernel kernel_##isa##_taylor_14(Theory, const Outputs&, Directions);                      \
+    SweepKernel kernel_##isa##_taylor_20(Theory, const Outputs&, Directions);                      \
+    SweepKernel kernel_##isa##_recorded(Theory, const Outputs&, Directions);
 #define OVERTURN_LIST(isa)                                                                         \
     {                                                                                              \
         kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,            \
@@ -43,9 +43,9 @@ constexpr std::array<SweepKernelChoice, 4> compiled(Kernel kernel)
 } // namespace
 
 SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
-                         const Records& records, bool upwards)
+                         const Outputs& outputs, Directions directions)
 {
-    return compiled(kernel)[std::size_t(integrator)](theory, records, upwards);
+    return compiled(kernel)[std::size_t(integrator)](theory, outputs, directions);
 }
 
 bool is_compiled(Kernel kernel)

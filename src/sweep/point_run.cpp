@@ -6,6 +6,8 @@
 #include "overturn/problem/fields.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace overturn {
 
@@ -16,16 +18,16 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
-Ends::Ends(std::size_t points, const Records& recorded)
-    : records(recorded), tilt(points), rate(points), side(points), flags(points),
-      region(records.region ? points : 0), margin(records.margin ? points : 0),
-      impacts(records.impacts ? points : 0), error(records.error ? points : 0),
-      steps(records.steps ? points : 0), phase(records.phase ? points : 0),
-      peak(records.peak ? points : 0), lowest_turn(records.grazes ? points : 0),
-      softest_impact(records.grazes ? points : 0), last_impact(records.grazes ? points : 0)
+Outcomes::Outcomes(std::size_t points, const Outputs& wanted)
+    : outputs(wanted), tilt(points), rate(points), side(points), flags(points),
+      region(outputs.region ? points : 0), margin(outputs.margin ? points : 0),
+      impacts(outputs.impacts ? points : 0), error(outputs.error ? points : 0),
+      steps(outputs.steps ? points : 0), phase(outputs.phase ? points : 0),
+      peak(outputs.peak ? points : 0), lowest_turn(outputs.grazes ? points : 0),
+      softest_impact(outputs.grazes ? points : 0), last_impact(outputs.grazes ? points : 0)
 {}
 
-PointEnds Ends::pointers()
+OutcomePointers Outcomes::pointers()
 {
     return {tilt.data(),           rate.data(),       side.data(),    flags.data(),
             region.data(),         margin.data(),     impacts.data(), error.data(),
@@ -33,42 +35,36 @@ PointEnds Ends::pointers()
             softest_impact.data(), last_impact.data()};
 }
 
-void Ends::set_free_fall(int point)
+void Outcomes::set_free_fall(int point)
 {
-    const auto i = std::size_t(point);
-    flags[i] = end_flag::free_fall;
-    if (records.region) {
-        region[i] = std::uint8_t(Region::undecided);
-    }
-    if (records.margin) {
-        margin[i] = unknown;
-    }
-    if (records.error) {
-        error[i] = infinity;
-    }
+    put(flags, point, outcome_flag::free_fall);
+    put(region, point, std::uint8_t(Region::undecided));
+    put(margin, point, unknown);
+    put(error, point, infinity);
 }
 
-std::uint16_t Ends::stored_impacts(std::size_t point, bool recorded) const
+std::uint16_t Outcomes::stored_impacts(std::size_t point, bool recorded) const
 {
-    return !recorded && (flags[point] & end_flag::rested)
+    return !recorded && (flags[point] & outcome_flag::rested)
                ? impact_count::bounce_series
                : std::uint16_t(std::min(impacts[point], double(impact_count::largest)));
 }
 
-Pushes::Pushes(const GroundMotion<double>& motion, Theory theory, const std::vector<Point>& points)
+ScaledPulses::ScaledPulses(const GroundMotion<double>& motion, Theory theory,
+                           const std::vector<Point>& points)
     : of_point(points.size())
 {
-    const auto have_one_push = [](const Point& one, const Point& other) {
+    const auto are_equal = [](const Point& one, const Point& other) {
         return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
     };
     const PerLobe<FlankInPulse<double>> flanks = flanks_of(motion);
     for (std::size_t first = 0; first < points.size();) {
         const double threshold = uplift_threshold(theory, points[first].slenderness);
-        const auto number = int(pushes.size());
+        const auto number = int(pulses.size());
         const double amplitude = points[first].amplitude;
-        pushes.push_back({amplitude * threshold, uplift_phases(motion, flanks, amplitude)});
+        pulses.push_back({amplitude * threshold, uplift_phases(motion, flanks, amplitude)});
         std::size_t next = first;
-        for (; next < points.size() && have_one_push(points[first], points[next]); ++next) {
+        for (; next < points.size() && are_equal(points[first], points[next]); ++next) {
             of_point[next] = number;
         }
         first = next;
@@ -76,43 +72,49 @@ Pushes::Pushes(const GroundMotion<double>& motion, Theory theory, const std::vec
 }
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-                   DropRequested drop_requested, std::int64_t motion)
-    : scene_(scene), record_(scene.is_recorded() ? scene.records[std::size_t(motion)] : nullptr),
-      motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
+                   DropRequested drop_requested)
+    : scene_(scene), motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
-      pushes_(record_ ? Pushes() : Pushes(motion_, scene.theory, points_))
+      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(motion_, scene.theory, points_))
 {}
 
 PointRun PointRun::with_points(std::vector<Point> points) const
 {
     PointRun run = *this;
     run.points_ = std::move(points);
-    run.pushes_ = Pushes(motion_, scene_.theory, run.points_);
+    run.pulses_ = ScaledPulses(motion_, scene_.theory, run.points_);
     return run;
+}
+
+std::vector<int> PointRun::all() const
+{
+    std::vector<int> all(points_.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
 }
 
 bool PointRun::falls_freely(int point) const
 {
-    return record_ && !(points_[std::size_t(point)].amplitude < record_->largest_scale());
+    const Accelerogram* record = record_of(point);
+    return record != nullptr && !(this->point(point).amplitude < record->free_fall_scale());
 }
 
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const Point& at = points_[std::size_t(point)];
-    if (record_) {
-        return visit(record_excitation<theory>(*record_, T(at.slenderness), T(at.amplitude),
-                                               T(at.frequency)));
+    const auto& [slenderness, restitution, amplitude, frequency, motion] = this->point(point);
+    if (const Accelerogram* record = record_of(point)) {
+        return visit(
+            record_excitation<theory>(*record, T(slenderness), T(amplitude), T(frequency)));
     }
-    const auto motion = [&] {
-        if constexpr (std::same_as<T, double>) {
-            return motion_;
-        } else {
-            return ground_motion<T>(scene_.pulse, scene_.shape);
-        }
-    }();
-    return visit(
-        excitation_of<theory>(motion, T(at.slenderness), T(at.amplitude), T(at.frequency)));
+    if constexpr (std::same_as<T, double>) {
+        const ScaledPulse& pulse = pulse_of(point);
+        return visit(
+            PulseExcitation<double>{motion_, pulse.acceleration, frequency, pulse.uplifts});
+    } else {
+        return visit(pulse_excitation<theory>(ground_motion<T>(scene_.pulse, scene_.shape),
+                                              T(slenderness), T(amplitude), T(frequency)));
+    }
 }
 
 void PointRun::throw_if_dropped() const
@@ -122,90 +124,91 @@ void PointRun::throw_if_dropped() const
     }
 }
 
-void PointRun::run(const Numerics& numerics, Ends& ends, OnUnknownError on_unknown_error,
-                   const std::vector<int>* chosen) const
+void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
+                   UncertainImpact uncertain_impact) const
 {
-    std::vector<int> not_falling;
-    if (record_ && std::isfinite(record_->largest_scale())) {
-        for (int i = 0; i < (chosen != nullptr ? int(chosen->size()) : size()); ++i) {
-            const int point = chosen != nullptr ? (*chosen)[std::size_t(i)] : i;
-            if (falls_freely(point)) {
-                ends.set_free_fall(point);
-            } else {
-                not_falling.push_back(point);
-            }
-        }
-        chosen = &not_falling;
+    const auto is_dropped = [](const void* requested) {
+        const auto& drop_requested = *static_cast<const DropRequested*>(requested);
+        return drop_requested && drop_requested();
+    };
+    const auto run_under = [&](const Accelerogram* record, const std::vector<int>& points) {
+        const KernelTask task{.pulse = motion_,
+                              .record = record,
+                              .points = points_.data(),
+                              .pulse_of_point = pulses_.of_point.data(),
+                              .pulses = pulses_.pulses.data(),
+                              .tolerance = numerics.tolerance,
+                              .outputs = outcomes.outputs,
+                              .uncertain_impact = uncertain_impact,
+                              .chosen = points.data(),
+                              .chosen_count = int(points.size()),
+                              .drop_requested = is_dropped,
+                              .context = &drop_requested_};
+        const Directions directions = record != nullptr && !record->upwards().empty()
+                                          ? Directions::both
+                                          : Directions::horizontal;
+        sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, outcomes.outputs,
+                     directions)(task, outcomes.pointers());
+        throw_if_dropped(); // if dropped, some outcomes may be missing
+    };
+    if (!scene_.is_recorded()) {
+        run_under(nullptr, chosen);
+        return;
     }
-    const KernelTask task{.pulse = motion_,
-                          .record = record_.get(),
-                          .points = points_.data(),
-                          .push_of_point = pushes_.of_point.data(),
-                          .pushes = pushes_.pushes.data(),
-                          .tolerance = numerics.tolerance,
-                          .records = ends.records,
-                          .on_unknown_error = on_unknown_error,
-                          .chosen = chosen != nullptr ? chosen->data() : nullptr,
-                          .chosen_count = chosen != nullptr ? int(chosen->size()) : size(),
-                          .drop_requested =
-                              [](const void* context) {
-                                  const auto& requested =
-                                      *static_cast<const DropRequested*>(context);
-                                  return requested && requested();
-                              },
-                          .context = &drop_requested_};
-    const bool upwards = record_ && !record_->upwards().empty();
-    sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, ends.records,
-                 upwards)(task, ends.pointers());
-    throw_if_dropped(); // if dropped, some ends may be missing
+    std::map<const Accelerogram*, std::vector<int>> points_of;
+    for (const int point : chosen) {
+        if (falls_freely(point)) {
+            outcomes.set_free_fall(point);
+        } else {
+            points_of[record_of(point)].push_back(point);
+        }
+    }
+    for (const auto& [record, points] : points_of) {
+        run_under(record, points);
+    }
 }
 
 template <class T>
-void PointRun::run_exactly(int point, Ends& ends) const
+void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
 {
     throw_if_dropped();
     if (falls_freely(point)) {
-        ends.set_free_fall(point);
+        outcomes.set_free_fall(point);
         return;
     }
     with_theory(scene_.theory, [&]<Theory theory>() {
-        const auto i = std::size_t(point);
-        const Block<T> block{T(points_[i].slenderness), T(points_[i].restitution)};
+        const Point& at = this->point(point);
+        const Block<T> block{T(at.slenderness), T(at.restitution)};
         const ForcedEnd<T> end = with_excitation<T, theory>(point, [&](const auto& excitation) {
-            return run_in_more_digits<T, theory>(block, excitation, drop_requested_);
+            return overturn::run_in_more_digits<T, theory>(block, excitation, drop_requested_);
         });
         throw_if_dropped();
         const double margin = double(margin_of<theory>(end, block));
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
         const bool in_doubt = !(error < std::abs(margin));
-        ends.flags[i] = std::uint8_t(
-            (end.fell ? end_flag::fell : 0) | (end.rested ? end_flag::rested : 0) |
-            (end.capped ? end_flag::capped : 0) | (end.not_finite ? end_flag::not_finite : 0) |
-            (in_doubt ? end_flag::in_doubt : 0));
-        const auto put = [&](std::vector<double>& values, double value) {
-            if (!values.empty()) {
-                values[i] = value;
-            }
-        };
-        put(ends.tilt, double(end.state.tilt));
-        put(ends.rate, double(end.state.rate));
-        put(ends.side, double(end.state.side));
-        put(ends.margin, margin);
-        put(ends.error, error);
-        put(ends.impacts, double(end.impacts));
-        put(ends.steps, double(end.steps));
-        put(ends.phase, double(end.phase));
-        if (ends.records.region) {
-            ends.region[i] = std::uint8_t(region_of<theory>(end, block));
-        }
+        put(outcomes.flags, point,
+            std::uint8_t((end.fell ? outcome_flag::fell : 0) |
+                         (end.rested ? outcome_flag::rested : 0) |
+                         (end.capped ? outcome_flag::capped : 0) |
+                         (end.not_finite ? outcome_flag::not_finite : 0) |
+                         (in_doubt ? outcome_flag::in_doubt : 0)));
+        put(outcomes.tilt, point, double(end.state.tilt));
+        put(outcomes.rate, point, double(end.state.rate));
+        put(outcomes.side, point, double(end.state.side));
+        put(outcomes.margin, point, margin);
+        put(outcomes.error, point, error);
+        put(outcomes.impacts, point, double(end.impacts));
+        put(outcomes.steps, point, double(end.steps));
+        put(outcomes.phase, point, double(end.phase));
+        put(outcomes.region, point, std::uint8_t(region_of<theory>(end, block)));
     });
 }
 
-template void PointRun::run_exactly<long double>(int, Ends&) const;
-template void PointRun::run_exactly<Digits50>(int, Ends&) const;
+template void PointRun::run_in_more_digits<long double>(int, Outcomes&) const;
+template void PointRun::run_in_more_digits<Digits50>(int, Outcomes&) const;
 
-bool PointRun::settle_low_bounces(int point, Ends& ends) const
+bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
 {
     const auto i = std::size_t(point);
     const Point& block = points_[i];
@@ -222,60 +225,62 @@ bool PointRun::settle_low_bounces(int point, Ends& ends) const
     if (!(error < 1)) {
         return false;
     }
-    if (ends.flags[i] & end_flag::capped) {
-        ends.flags[i] = 0;
-        ends.tilt[i] = 0;
-        ends.rate[i] = 0;
+    if (outcomes.flags[i] & outcome_flag::capped) {
+        outcomes.flags[i] = 0;
+        outcomes.tilt[i] = 0;
+        outcomes.rate[i] = 0;
     }
-    ends.error[i] = error;
-    if (ends.records.region) {
-        ends.region[i] = std::uint8_t(Region::S);
-    }
-    if (ends.records.margin && !(ends.flags[i] & end_flag::undecided)) {
-        ends.margin[i] = 1;
+    outcomes.error[i] = error;
+    put(outcomes.region, point, std::uint8_t(Region::S));
+    if (!(outcomes.flags[i] & outcome_flag::undecided)) {
+        put(outcomes.margin, point, 1);
     }
     return true;
 }
 
-std::vector<double> PointRun::peaks(const Ends& ends) const
+template <class OfPoint>
+std::vector<double> PointRun::after_the_pulse(const Outcomes& outcomes,
+                                              const OfPoint& of_point) const
 {
-    std::vector<double> values(ends.tilt.size());
+    std::vector<double> values(outcomes.tilt.size(), unknown);
     with_theory(scene_.theory, [&]<Theory theory>() {
         for (std::size_t i = 0; i < values.size(); ++i) {
-            const auto region = Region(ends.region[i]);
-            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
-            const Block<double> block{points_[i].slenderness, points_[i].restitution};
-            values[i] = is_safe(region)
-                            ? std::max(ends.peak[i], largest_free_tilt<theory>(end, block)) /
-                                  block.slenderness
-                        : is_unsafe(region) ? infinity
-                                            : unknown;
+            if (Region(outcomes.region[i]) != Region::undecided) {
+                const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
+                const Block<double> block{points_[i].slenderness, points_[i].restitution};
+                values[i] = of_point.template operator()<theory>(i, end, block);
+            }
         }
     });
     return values;
 }
 
-std::vector<double> PointRun::fall_times(const Ends& ends) const
+std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
 {
-    std::vector<double> values(ends.tilt.size());
-    with_theory(scene_.theory, [&]<Theory theory>() {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const auto region = Region(ends.region[i]);
-            const State<double> end{ends.tilt[i], ends.rate[i], ends.side[i]};
-            const Block<double> block{points_[i].slenderness, points_[i].restitution};
-            const double first_uplift =
-                with_excitation<double, theory>(int(i), [](const auto& excitation) {
-                    return excitation.next_uplift(true, excitation.motion.begin, -infinity);
-                });
-            const double forced = (ends.phase[i] - first_uplift) / points_[i].frequency;
-            const bool fell = region == Region::F_plus || region == Region::F_minus;
-            values[i] = fell                ? forced
-                        : is_unsafe(region) ? forced + free_fall_time<theory>(end, block)
-                        : is_safe(region)   ? infinity
-                                            : unknown;
+    const auto peak = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
+        return is_unsafe(Region(outcomes.region[i]))
+                   ? infinity
+                   : std::max(outcomes.peak[i], largest_free_tilt<theory>(end, block)) /
+                         block.slenderness;
+    };
+    return after_the_pulse(outcomes, peak);
+}
+
+std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
+{
+    const auto fall_time = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
+        if (is_safe(Region(outcomes.region[i]))) {
+            return infinity;
         }
-    });
-    return values;
+        const double first_uplift =
+            with_excitation<double, theory>(int(i), [](const auto& excitation) {
+                return excitation.next_uplift(true, excitation.motion.begin, -infinity);
+            });
+        const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
+        return outcomes.flags[i] & outcome_flag::fell ? forced
+                                                      : forced + free_fall_time<theory>(end, block);
+    };
+    return after_the_pulse(outcomes, fall_time);
 }
 
 } // namespace overturn

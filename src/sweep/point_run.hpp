@@ -8,25 +8,26 @@
 #include "overturn/problem/tile.hpp"
 
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace overturn {
 
-/// The arrays that PointEnds points to; those that are not recorded are empty.
-struct Ends {
-    Ends(std::size_t points, const Records& recorded);
+/// The arrays that OutcomePointers points to; those that are no outputs are empty.
+struct Outcomes {
+    Outcomes(std::size_t points, const Outputs& wanted);
 
-    PointEnds pointers();
+    OutcomePointers pointers();
     int size() const { return int(tilt.size()); }
 
     /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
     /// which a block may be lifted again after a bounce series.
     std::uint16_t stored_impacts(std::size_t point, bool recorded) const;
 
-    /// The end of a point that cannot be integrated because gravity vanishes.
+    /// The outcome of a point that cannot be integrated because gravity vanishes.
     void set_free_fall(int point);
 
-    Records records;
+    Outputs outputs;
     int in_50_digits = 0; ///< the number of points that were computed in 50 digits
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
@@ -34,62 +35,78 @@ struct Ends {
         last_impact;
 };
 
-/// The pushes of a pulse in the order of the points; successive points with the same push share it.
-struct Pushes {
-    Pushes() = default;
-    Pushes(const GroundMotion<double>& motion, Theory theory, const std::vector<Point>& points);
+/// Sets the value of a point in an array of outcomes, unless it is no output.
+template <class Value>
+void put(std::vector<Value>& values, int point, std::type_identity_t<Value> value)
+{
+    if (!values.empty()) {
+        values[std::size_t(point)] = value;
+    }
+}
 
-    const Push& operator[](int point) const
+/// The scaled pulses of points, in their order; successive points with the same one share it.
+struct ScaledPulses {
+    ScaledPulses() = default;
+    ScaledPulses(const GroundMotion<double>& motion, Theory theory,
+                 const std::vector<Point>& points);
+
+    const ScaledPulse& operator[](int point) const
     {
-        return pushes[std::size_t(of_point[std::size_t(point)])];
+        return pulses[std::size_t(of_point[std::size_t(point)])];
     }
 
-    std::vector<Push> pushes;
+    std::vector<ScaledPulse> pulses;
     std::vector<int> of_point;
 };
 
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
 class PointRun {
 public:
-    /// motion: the number of the record, if there are any.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-             DropRequested drop_requested = nullptr, std::int64_t motion = 0);
+             DropRequested drop_requested = nullptr);
 
-    /// The same scene and kernel with other points.
+    /// The same pulse and kernel with other points.
     PointRun with_points(std::vector<Point> points) const;
 
+    const Scene& scene() const { return scene_; }
     int size() const { return int(points_.size()); }
     const Point& point(int i) const { return points_[std::size_t(i)]; }
+
+    /// The indices of all points.
+    std::vector<int> all() const;
 
     /// The phase at the end of the pulse [rad].
     double end_of_pulse() const { return motion_.end; }
 
-    /// The number of intervals of the record; 0 under a pulse.
-    std::int64_t intervals() const { return record_ ? record_->samples() - 1 : 0; }
+    /// The record of a point; nullptr under a pulse.
+    const Accelerogram* record_of(int point) const
+    {
+        return scene_.is_recorded() ? scene_.records[std::size_t(this->point(point).motion)].get()
+                                    : nullptr;
+    }
 
     /// The pulse that lifts a point.
-    const Push& push_of(int point) const { return pushes_[point]; }
+    const ScaledPulse& pulse_of(int point) const { return pulses_[point]; }
 
-    /// Integrates every point, or the chosen ones, which must be in ascending order. Points where
-    /// the ground falls as fast as the block are not integrated and get end_flag::free_fall.
-    void run(const Numerics& numerics, Ends& ends,
-             OnUnknownError on_unknown_error = OnUnknownError::go_on,
-             const std::vector<int>* chosen = nullptr) const;
+    /// Integrates the chosen points, which must be in ascending order. Points where the ground
+    /// falls as fast as the block are not integrated and get outcome_flag::free_fall.
+    void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
+             UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
     /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
     /// are computed before the end is rounded to double.
     template <class T>
-    void run_exactly(int point, Ends& ends) const;
+    void run_in_more_digits(int point, Outcomes& outcomes) const;
 
     /// Settles a point whose bounces are provably low, by bound_of_low_bounces(): it is safe, and
     /// the bound is the error of its margin. If the point is capped, its end is set to rest.
-    bool settle_low_bounces(int point, Ends& ends) const;
+    bool settle_low_bounces(int point, Outcomes& outcomes) const;
 
     /// The largest |theta| / alpha (infinite if the block overturns), and the time from the first
     /// uplift to |theta| = pi/2 [1/p] (infinite if it does not), both during the pulse and after
-    /// it. Require ends with regions, and with peaks or phases.
-    std::vector<double> peaks(const Ends& ends) const;
-    std::vector<double> fall_times(const Ends& ends) const;
+    /// it. Require outcomes with regions, and with peaks or phases.
+    std::vector<double> peaks(const Outcomes& outcomes) const;
+    std::vector<double> fall_times(const Outcomes& outcomes) const;
 
 private:
     void throw_if_dropped() const;
@@ -101,19 +118,24 @@ private:
     template <class T, Theory theory, class Visitor>
     auto with_excitation(int point, const Visitor& visit) const;
 
+    /// The values of of_point.operator()<theory>(point, end, block), end: its state at the end of
+    /// the forced stage, for the points with a verdict; NaN for the others.
+    template <class OfPoint>
+    std::vector<double> after_the_pulse(const Outcomes& outcomes, const OfPoint& of_point) const;
+
     Scene scene_;
-    std::shared_ptr<const Accelerogram> record_; // null: a pulse
     GroundMotion<double> motion_;
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;
-    Pushes pushes_;
+    ScaledPulses pulses_; // only under a pulse
 };
 
-/// The ends of all points. If verdicts are to be resolved, points in doubt are integrated again
-/// with more and more digits; those that remain in doubt get end_flag::unresolved. See resolve.cpp.
-/// most_in_50_digits: of these points; default: all of them, under a record those of Numerics.
-Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records,
-             std::optional<int> most_in_50_digits = std::nullopt);
+/// The outcomes of all points. If verdicts are to be resolved, points in doubt are integrated again
+/// with more and more digits; those that remain in doubt get outcome_flag::unresolved. See
+/// resolve.cpp. most_in_50_digits: of the points under one motion; default: all of them, under a
+/// record those of Numerics.
+Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
+                     std::optional<int> most_in_50_digits = std::nullopt);
 
 } // namespace overturn

@@ -2,34 +2,32 @@
 
 #include "overturn/integrate/more_digits.hpp"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
+#include <limits>
+#include <map>
 
 namespace overturn {
 
 namespace {
 
-void give_up(int point, Ends& ends)
+void give_up(int point, Outcomes& outcomes)
 {
-    ends.flags[std::size_t(point)] |= end_flag::unresolved;
-    if (ends.records.region) {
-        ends.region[std::size_t(point)] = std::uint8_t(Region::undecided);
-    }
+    outcomes.flags[std::size_t(point)] |= outcome_flag::unresolved;
+    put(outcomes.region, point, std::uint8_t(Region::undecided));
 }
 
 /// Settles the points that took too many steps, for which more digits do not help, and returns
 /// those whose verdict is in doubt.
-std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points, Ends& ends)
+std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points,
+                               Outcomes& outcomes)
 {
     std::vector<int> in_doubt;
     for (const int point : points) {
-        const std::uint8_t flags = ends.flags[std::size_t(point)];
-        if (flags & end_flag::capped) {
-            if (!run.settle_low_bounces(point, ends)) {
-                give_up(point, ends);
+        const std::uint8_t flags = outcomes.flags[std::size_t(point)];
+        if (flags & outcome_flag::capped) {
+            if (!run.settle_low_bounces(point, outcomes)) {
+                give_up(point, outcomes);
             }
-        } else if (flags & end_flag::in_doubt) {
+        } else if (flags & outcome_flag::in_doubt) {
             in_doubt.push_back(point);
         }
     }
@@ -39,67 +37,73 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
 /// Whether a computation in T may settle a point. With more digits, a series of bounces takes as
 /// many steps as in double.
 template <class T>
-bool may_settle_in(const PointRun& run, int point, const Ends& ends)
+bool may_settle_in(const PointRun& run, int point, const Outcomes& outcomes)
 {
+    const Accelerogram* record = run.record_of(point);
+    const double intervals = record != nullptr ? double(record->samples() - 1) : 0;
     return std::numeric_limits<T>::digits > std::numeric_limits<double>::digits &&
-           ends.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + double(run.intervals());
+           outcomes.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + intervals;
 }
 
 template <class T>
-bool settle_in(const PointRun& run, int point, Ends& ends)
+bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 {
-    if (!may_settle_in<T>(run, point, ends)) {
-        return false;
-    }
-    run.run_exactly<T>(point, ends);
-    return !(ends.flags[std::size_t(point)] & (end_flag::in_doubt | end_flag::undecided));
+    run.run_in_more_digits<T>(point, outcomes);
+    return !(outcomes.flags[std::size_t(point)] &
+             (outcome_flag::in_doubt | outcome_flag::undecided));
 }
 
-void resolve(const PointRun& run, int most_in_50_digits, Ends& ends)
+/// most_in_50_digits: of the points under one motion.
+void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
 {
-    std::vector<int> all(ends.tilt.size());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<int> in_doubt = settle_capped(run, all, ends);
+    std::vector<int> in_doubt = settle_capped(run, run.all(), outcomes);
     if (!in_doubt.empty()) {
-        // Settles almost every point, still in double.
-        run.run(most_accurate, ends, OnUnknownError::go_on, &in_doubt);
+        run.run(most_accurate, outcomes, in_doubt); // settles almost every point, still in double
     }
-    in_doubt = settle_capped(run, in_doubt, ends);
-    for (const int point : in_doubt) {
-        const bool settled =
-            run.settle_low_bounces(point, ends) || settle_in<long double>(run, point, ends) ||
-            (may_settle_in<Digits50>(run, point, ends) && ends.in_50_digits < most_in_50_digits &&
-             ++ends.in_50_digits && settle_in<Digits50>(run, point, ends));
+    std::map<int, int> in_50_digits; // of each motion
+    for (const int point : settle_capped(run, in_doubt, outcomes)) {
+        bool settled = run.settle_low_bounces(point, outcomes) ||
+                       (may_settle_in<long double>(run, point, outcomes) &&
+                        settle_in<long double>(run, point, outcomes));
+        int& count = in_50_digits[run.point(point).motion];
+        if (!settled && may_settle_in<Digits50>(run, point, outcomes) &&
+            count < most_in_50_digits) {
+            ++count;
+            ++outcomes.in_50_digits;
+            settled = settle_in<Digits50>(run, point, outcomes);
+        }
         if (!settled) {
-            give_up(point, ends);
+            give_up(point, outcomes);
         }
     }
 }
 
 } // namespace
 
-Ends ends_of(const PointRun& points, const Numerics& numerics, const Records& records,
-             std::optional<int> most_in_50_digits)
+Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
+                     std::optional<int> most_in_50_digits)
 {
-    Records recorded = records;
-    recorded.error = records.error || numerics.resolve;
-    recorded.steps = records.steps || numerics.resolve; // see settle_in()
-    recorded.peak = records.peak && !recorded.error;
-    Ends ends(std::size_t(points.size()), recorded);
-    points.run(numerics, ends, numerics.resolve ? OnUnknownError::stop : OnUnknownError::go_on);
+    Outputs computed = outputs;
+    computed.error = outputs.error || numerics.resolve;
+    computed.steps = outputs.steps || numerics.resolve; // see settle_in()
+    computed.peak = outputs.peak && !computed.error;
+    Outcomes outcomes(std::size_t(points.size()), computed);
+    points.run(numerics, outcomes, points.all(),
+               numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
-        const int by_default = points.intervals() > 0 ? numerics.most_in_50_digits : points.size();
-        resolve(points, most_in_50_digits.value_or(by_default), ends);
+        const int by_default =
+            points.scene().is_recorded() ? numerics.most_in_50_digits : points.size();
+        resolve(points, most_in_50_digits.value_or(by_default), outcomes);
     }
-    if (records.peak && !recorded.peak) {
-        Ends with_peaks(ends.tilt.size(), {.peak = true, .grazes = records.grazes});
-        points.run(numerics, with_peaks);
-        ends.peak = std::move(with_peaks.peak);
-        ends.lowest_turn = std::move(with_peaks.lowest_turn);
-        ends.softest_impact = std::move(with_peaks.softest_impact);
-        ends.last_impact = std::move(with_peaks.last_impact);
+    if (outputs.peak && !computed.peak) {
+        Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
+        points.run(numerics, with_peaks, points.all());
+        outcomes.peak = std::move(with_peaks.peak);
+        outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
+        outcomes.softest_impact = std::move(with_peaks.softest_impact);
+        outcomes.last_impact = std::move(with_peaks.last_impact);
     }
-    return ends;
+    return outcomes;
 }
 
 } // namespace overturn

@@ -25,54 +25,50 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-int point_at(const KernelTask& task, int i)
-{
-    return task.chosen == nullptr ? i : task.chosen[i];
-}
-
 /// Stores the lanes of one pack, except those without a point.
-template <Theory theory, Records records>
+template <Theory theory, Outputs outputs>
 [[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
-                             int first, const PointEnds& to)
+                             int first, const OutcomePointers& to)
 {
     const int count = task.chosen_count - first < lanes ? task.chosen_count - first : lanes;
     const auto put = [&](const T& number, auto* array) {
         const auto values = lanes_of(number);
         for (int i = 0; i < count; ++i) {
-            array[point_at(task, first + i)] = std::remove_pointer_t<decltype(array)>(values[i]);
+            array[task.chosen[first + i]] = std::remove_pointer_t<decltype(array)>(values[i]);
         }
     };
     put(end.state.tilt, to.tilt);
     put(end.state.rate, to.rate);
     put(end.state.side, to.side);
-    T flags = flagged(end.fell, end_flag::fell) + flagged(end.rested, end_flag::rested) +
-              flagged(end.capped, end_flag::capped) + flagged(end.not_finite, end_flag::not_finite);
-    if constexpr (records.error) {
-        flags = flags + flagged(end.in_doubt, end_flag::in_doubt);
+    T flags = flagged(end.fell, outcome_flag::fell) + flagged(end.rested, outcome_flag::rested) +
+              flagged(end.capped, outcome_flag::capped) +
+              flagged(end.not_finite, outcome_flag::not_finite);
+    if constexpr (outputs.error) {
+        flags = flags + flagged(end.in_doubt, outcome_flag::in_doubt);
         put(end.error, to.error);
     }
     put(flags, to.flags);
-    if constexpr (records.peak) {
+    if constexpr (outputs.peak) {
         put(end.peak, to.peak);
-        if (task.records.grazes) {
+        if (task.outputs.grazes) {
             put(end.lowest_turn, to.lowest_turn);
             put(end.softest_impact, to.softest_impact);
             put(end.last_impact, to.last_impact);
         }
     }
-    if (task.records.impacts) {
+    if (task.outputs.impacts) {
         put(end.impacts, to.impacts);
     }
-    if (task.records.region) {
+    if (task.outputs.region) {
         put(region_code_of<theory>(end, block), to.region);
     }
-    if (task.records.margin) {
+    if (task.outputs.margin) {
         put(margin_of<theory>(end, block), to.margin);
     }
-    if (task.records.steps) {
+    if (task.outputs.steps) {
         put(end.steps, to.steps);
     }
-    if (task.records.phase) {
+    if (task.outputs.phase) {
         put(end.phase, to.phase);
     }
 }
@@ -88,7 +84,7 @@ struct PackPoints {
     {
         for (int i = 0; i < lanes; ++i) {
             const int last = task.chosen_count - 1;
-            point[i] = point_at(task, first + i < last ? first + i : last);
+            point[i] = task.chosen[first + i < last ? first + i : last];
             spare[i] = first + i > last ? std::numeric_limits<double>::infinity() : 0;
         }
     }
@@ -110,8 +106,8 @@ struct PackPoints {
     }
 
     /// The ground never lifts the blocks in spare lanes, so a pack without points ends immediately.
-    template <Theory theory, bool upwards>
-    RecordExcitation<T, upwards> record_excitation(const Block<T>& blocks) const
+    template <Theory theory, Directions directions>
+    RecordExcitation<T, directions> record_excitation(const Block<T>& blocks) const
     {
         const T in_use = load<T>(spare);
         return {.motion = record_motion<double>(*task.record),
@@ -122,25 +118,26 @@ struct PackPoints {
                 .threshold = uplift_acceleration<theory>(blocks.slenderness)};
     }
 
-    Excitation<T> pulse_excitation() const
+    PulseExcitation<T> pulse_excitation() const
     {
-        const auto push_of = [&](int i) -> const Push& {
-            return task.pushes[task.push_of_point[i]];
+        const auto pulse_of = [&](int i) -> const ScaledPulse& {
+            return task.pulses[task.pulse_of_point[i]];
         };
-        const Push& first = push_of(point[0]);
-        const bool share_push = &first == &push_of(point[lanes - 1]); // then all lanes do
-        const auto of_push = [&](const auto& value) -> T {
-            return share_push ? T(value(first))
-                              : gathered([&](int i) { return value(push_of(i)); });
+        const ScaledPulse& first = pulse_of(point[0]);
+        const bool share_pulse = &first == &pulse_of(point[lanes - 1]); // then all lanes do
+        const auto of_pulse = [&](const auto& value) -> T {
+            return share_pulse ? T(value(first))
+                               : gathered([&](int i) { return value(pulse_of(i)); });
         };
-        Excitation<T> excitation{
+        PulseExcitation<T> excitation{
             .motion = task.pulse,
-            .acceleration = of_push([](const Push& push) { return push.acceleration; }),
+            .acceleration = of_pulse([](const ScaledPulse& pulse) { return pulse.acceleration; }),
             .frequency = gathered([&](int i) { return task.points[i].frequency; }),
             .uplifts = {}};
         const T never_in_spare = load<T>(spare);
         for (int lobe = 0; lobe < first.uplifts.count; ++lobe) {
-            const T uplift = of_push([&](const Push& push) { return push.uplifts.values[lobe]; });
+            const T uplift =
+                of_pulse([&](const ScaledPulse& pulse) { return pulse.uplifts.values[lobe]; });
             excitation.uplifts.push_back(uplift + never_in_spare);
         }
         return excitation;
@@ -155,22 +152,22 @@ struct PackPoints {
 /// million steps.
 constexpr int turns_between_checks = 4096;
 
-template <Theory theory, Records records, bool upwards = false>
-void sweep(const KernelTask& task, const PointEnds& ends)
+template <Theory theory, Outputs outputs, Directions directions = Directions::horizontal>
+void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 {
     const auto stage_from = [&](int first) {
         const PackPoints points(task, first);
         const Block<T> blocks = points.blocks();
         const auto excitation = [&] {
             if constexpr (OVERTURN_RECORDED) {
-                return points.record_excitation<theory, upwards>(blocks);
+                return points.record_excitation<theory, directions>(blocks);
             } else {
                 return points.pulse_excitation();
             }
         }();
-        return ForcedStage<OVERTURN_METHOD, theory, records, T,
+        return ForcedStage<OVERTURN_METHOD, theory, outputs, T,
                            std::remove_const_t<decltype(excitation)>>(
-            blocks, excitation, task.tolerance, task.on_unknown_error);
+            blocks, excitation, task.tolerance, task.uncertain_impact);
     };
     int turns = turns_between_checks;
     for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {
@@ -183,43 +180,42 @@ void sweep(const KernelTask& task, const PointEnds& ends)
             turns = turns_between_checks;
         }
         for (int i = 0; i < packs_in_turns; ++i) {
-            store<theory, records>(stages[i].end(), stages[i].block(), task, first + i * lanes,
-                                   ends);
+            store<theory, outputs>(stages[i].end(), stages[i].block(), task, first + i * lanes,
+                                   outcomes);
         }
     }
 }
 
-template <Theory theory, bool upwards>
-SweepKernel kernel_for(const Records& records)
+template <Theory theory, Directions directions>
+SweepKernel kernel_for(const Outputs& outputs)
 {
-    if (records.error) {
-        return sweep<theory, Records{.impacts = true, .error = true}, upwards>;
+    if (outputs.error) {
+        return sweep<theory, Outputs{.impacts = true, .error = true}, directions>;
     }
-    if (records.peak) {
-        return sweep<theory, Records{.impacts = true, .peak = true}, upwards>;
+    if (outputs.peak) {
+        return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;
     }
-    if (OVERTURN_RECORDED || records.impacts) { // a step under a record is long compared with it
-        return sweep<theory, Records{.impacts = true}, upwards>;
+    if (OVERTURN_RECORDED || outputs.impacts) { // a step under a record is long compared with it
+        return sweep<theory, Outputs{.impacts = true}, directions>;
     }
-    return sweep<theory, Records{.impacts = bool(OVERTURN_RECORDED)}, upwards>;
+    return sweep<theory, Outputs{.impacts = bool(OVERTURN_RECORDED)}, directions>;
 }
 
 template <Theory theory>
-SweepKernel kernel_for(const Records& records, bool upwards)
+SweepKernel kernel_for(const Outputs& outputs, Directions directions)
 {
-    if constexpr (OVERTURN_RECORDED) {
-        return upwards ? kernel_for<theory, true>(records) : kernel_for<theory, false>(records);
-    } else {
-        return kernel_for<theory, false>(records);
-    }
+    constexpr Directions most = OVERTURN_RECORDED ? Directions::both : Directions::horizontal;
+    return directions == Directions::horizontal
+               ? kernel_for<theory, Directions::horizontal>(outputs)
+               : kernel_for<theory, most>(outputs);
 }
 
 } // namespace
 
-SweepKernel OVERTURN_KERNEL(Theory theory, const Records& records, bool upwards)
+SweepKernel OVERTURN_KERNEL(Theory theory, const Outputs& outputs, Directions directions)
 {
-    return theory == Theory::linear ? kernel_for<Theory::linear>(records, upwards)
-                                    : kernel_for<Theory::nonlinear>(records, upwards);
+    return theory == Theory::linear ? kernel_for<Theory::linear>(outputs, directions)
+                                    : kernel_for<Theory::nonlinear>(outputs, directions);
 }
 
 } // namespace overturn

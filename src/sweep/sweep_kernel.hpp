@@ -2,7 +2,7 @@
 // compiled for one method, either pulses or records, and one instruction set, see sweep_kernel.cpp.
 #pragma once
 
-#include "overturn/integrate/records.hpp"
+#include "overturn/integrate/outputs.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/ground_motion.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
@@ -14,8 +14,8 @@
 
 namespace overturn {
 
-/// The excitation by a pulse common to all blocks of one slenderness at one amplitude.
-struct Push {
+/// A pulse at one amplitude, as it excites blocks of one slenderness.
+struct ScaledPulse {
     double acceleration;     ///< a_p / g [1]
     PerLobe<double> uplifts; ///< [rad]
 };
@@ -25,38 +25,38 @@ struct KernelTask {
     const GroundMotion<double>& pulse; ///< unless there is a record
     const Accelerogram* record;
     const Point* points;
-    const int* push_of_point; ///< index into `pushes`, ascending; only under a pulse
-    const Push* pushes;
+    const int* pulse_of_point; ///< index into `pulses`, ascending; only under a pulse
+    const ScaledPulse* pulses;
     double tolerance; ///< see Numerics
-    Records records;
-    OnUnknownError on_unknown_error;
+    Outputs outputs;
+    UncertainImpact uncertain_impact;
 
-    const int* chosen; ///< points to compute, ascending; nullptr: the first chosen_count
+    const int* chosen; ///< points to compute, ascending
     int chosen_count;
 
     bool (*drop_requested)(const void* context); ///< called regularly; true ends the computation
     const void* context;
 };
 
-/// The bits of PointEnds::flags.
-namespace end_flag {
+/// The bits of OutcomePointers::flags.
+namespace outcome_flag {
 inline constexpr std::uint8_t fell = 1;
 inline constexpr std::uint8_t rested = 2;
 inline constexpr std::uint8_t capped = 4;
 inline constexpr std::uint8_t not_finite = 8;
-inline constexpr std::uint8_t unresolved = 16; ///< set only by ends_of(), see resolve.cpp
-inline constexpr std::uint8_t in_doubt = 32;   ///< only if the error is recorded, see ForcedEnd
+inline constexpr std::uint8_t unresolved = 16; ///< set only by outcomes_of(), see resolve.cpp
+inline constexpr std::uint8_t in_doubt = 32;   ///< only if the error is an output, see ForcedEnd
 inline constexpr std::uint8_t free_fall = 64;  ///< not integrated, see PointRun
 inline constexpr std::uint8_t undecided = capped | not_finite | free_fall;
-} // namespace end_flag
+} // namespace outcome_flag
 
-/// The ends of the forced stage, one value per point. A kernel writes the points that it computes;
-/// it writes the arrays of the second group only if they are recorded.
-struct PointEnds {
+/// The outcomes of the forced stage, one value per point. A kernel writes the points that it
+/// computes; it writes the arrays of the second group only if they are outputs.
+struct OutcomePointers {
     double* tilt;        ///< |theta| [rad]
     double* rate;        ///< d|theta| / d tau [rad]
     double* side;        ///< +1 or -1: the sign of theta
-    std::uint8_t* flags; ///< see end_flag
+    std::uint8_t* flags; ///< see outcome_flag
 
     std::uint8_t* region;   ///< region code
     double* margin;         ///< [1]
@@ -70,14 +70,14 @@ struct PointEnds {
     double* last_impact;    ///< see ForcedEnd [rad]
 };
 
-using SweepKernel = void (*)(const KernelTask& task, const PointEnds& ends);
+using SweepKernel = void (*)(const KernelTask& task, const OutcomePointers& outcomes);
 
-/// The function that each kernel object defines: returns the kernel for a scene and its records.
-using SweepKernelChoice = SweepKernel (*)(Theory theory, const Records& records, bool upwards);
+/// The function that each kernel object defines: returns the kernel for a theory and these outputs.
+using SweepKernelChoice = SweepKernel (*)(Theory theory, const Outputs& outputs,
+                                          Directions directions);
 
-/// Selects a kernel; runs_here(kernel) must be true. upwards: whether the record has a vertical
-/// motion.
+/// Selects a kernel; runs_here(kernel) must be true. directions: those of the record.
 SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
-                         const Records& records, bool upwards);
+                         const Outputs& outputs, Directions directions);
 
 } // namespace overturn

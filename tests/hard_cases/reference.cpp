@@ -17,7 +17,7 @@ PulsePoint<T> in_digits(const HardCase& point)
 }
 
 template <Theory theory>
-Truth end_of(const HardCase& point, const Excitation<T>& excitation, int step_limit)
+Truth end_of(const HardCase& point, const PulseExcitation<T>& excitation, int step_limit)
 {
     const Block<T> block{T(point.slenderness), T(point.restitution)};
     const ForcedEnd<T> end =
@@ -54,7 +54,7 @@ Truth truth_of(const HardCase& point, int step_limit)
 
 double angle_at_second_uplift_value(const HardCase& point)
 {
-    Excitation<T> excitation =
+    PulseExcitation<T> excitation =
         excitation_of<Theory::nonlinear>(PulseKind::one_sine, in_digits(point));
     excitation.motion = cut_at<T>(pi<T>() + asin(1 / T(point.amplitude)), excitation.motion);
     return end_of<Theory::nonlinear>(point, excitation, steps_of_a_second).angle;

@@ -52,16 +52,16 @@ TEST(BounceSeries, WithoutLossNeverComesToRest)
 }
 
 /// A block that has just left the ground again, at a phase of the ground motion.
-template <class GroundOf>
+template <class Excitation>
 struct AfterImpact {
     Block<double> block;
-    GroundOf excitation;
+    Excitation excitation;
     double phase;
     double rate;
     double side;
 };
 
-AfterImpact<Excitation<double>> random_impact(PulseKind pulse, std::mt19937_64& generator)
+AfterImpact<PulseExcitation<double>> random_impact(PulseKind pulse, std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
     const double slenderness = 0.08 + 0.4 * uniform(generator);
@@ -82,8 +82,8 @@ AfterImpact<Excitation<double>> random_impact(PulseKind pulse, std::mt19937_64& 
 /// Integrates the bounces impact by impact, and returns whether the speed falls to a thousandth
 /// before the phase `end`, before the ground can lift the block and before the block has
 /// overturned.
-template <Theory theory, class GroundOf>
-bool bounces_on_to_rest(const AfterImpact<GroundOf>& start, double end)
+template <Theory theory, class Excitation>
+bool bounces_on_to_rest(const AfterImpact<Excitation>& start, double end)
 {
     const double alpha = start.block.slenderness;
     double phase = start.phase;
@@ -149,8 +149,8 @@ TEST(BounceSeries, IsClosedOnlyIfItWouldDieOut)
 
 /// Under two samples of accelerations that may change by more than gravity, up to slightly more
 /// than what lifts the block. motion: of these samples.
-template <Theory theory, bool upwards>
-AfterImpact<RecordExcitation<double, upwards>>
+template <Theory theory, Directions directions>
+AfterImpact<RecordExcitation<double, directions>>
 random_impact(const Accelerogram& record, double slenderness, std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -164,7 +164,7 @@ random_impact(const Accelerogram& record, double slenderness, std::mt19937_64& g
             uniform(generator) < 0.5 ? -1.0 : 1.0};
 }
 
-template <Theory theory, bool upwards>
+template <Theory theory, Directions directions>
 void expect_that_what_is_closed_dies_out_within_an_interval()
 {
     std::mt19937_64 generator(10);
@@ -177,14 +177,14 @@ void expect_that_what_is_closed_dies_out_within_an_interval()
         std::vector<double> vertical;
         std::vector<double> horizontal;
         for (int sample = 0; sample < 2; ++sample) {
-            const double v = upwards ? -0.95 + 3 * uniform(generator) : 0;
+            const double v = directions == Directions::both ? -0.95 + 3 * uniform(generator) : 0;
             vertical.push_back(v);
             horizontal.push_back((1 + v) * uplift_acceleration<theory>(slenderness) *
                                  (-1.1 + 2.2 * uniform(generator)));
         }
-        const Accelerogram record =
-            accelerogram(horizontal, upwards ? vertical : std::vector<double>());
-        const auto start = random_impact<theory, upwards>(record, slenderness, generator);
+        const Accelerogram record = accelerogram(
+            horizontal, directions == Directions::both ? vertical : std::vector<double>());
+        const auto start = random_impact<theory, directions>(record, slenderness, generator);
         const bool dies_out = bounces_on_to_rest<theory>(start, 1);
         die_out += dies_out;
         if (bounces_die_out<theory>(start.block, start.excitation, start.phase, start.rate)) {
@@ -201,14 +201,16 @@ void expect_that_what_is_closed_dies_out_within_an_interval()
 
 TEST(BounceSeries, UnderARecordIsClosedOnlyIfItWouldDieOutBeforeTheNextSample)
 {
-    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear, false>();
-    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear, false>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear,
+                                                           Directions::horizontal>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear,
+                                                           Directions::horizontal>();
 }
 
 TEST(BounceSeries, UnderVerticalMotionIsClosedOnlyIfItWouldDieOutBeforeTheNextSample)
 {
-    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear, true>();
-    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear, true>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::nonlinear, Directions::both>();
+    expect_that_what_is_closed_dies_out_within_an_interval<Theory::linear, Directions::both>();
 }
 
 } // namespace

@@ -112,7 +112,7 @@ TEST(ErrorGrowth, OfTheTimeIsAlongTheMotion)
     const double time = 1e-14;
     const double speed = 0.5;
     const double acceleration = -2;
-    growth.add_round_off(0, 0, time, speed, acceleration, true);
+    growth.add_round_off({0, 0, time}, speed, acceleration, true);
     EXPECT_NEAR(growth.bound(1, 0), time * speed, time * speed * 0x1p-12);
     EXPECT_NEAR(growth.bound(0, 1), time * 2, time * 2 * 0x1p-12);
     // The energy is constant, except for 2^-12 of the squares, the uncertainty of variations.
@@ -142,7 +142,7 @@ bool is_doubtful_after(const Rocking<double>& start, double end_tilt, double end
 {
     const Block<double> block{0.2, 0.9};
     const auto excitation =
-        excitation_of<Theory::linear>(ground_motion<double>(PulseKind::one_sine), 0.2, 2.0, 3.0);
+        pulse_excitation<Theory::linear>(ground_motion<double>(PulseKind::one_sine), 0.2, 2.0, 3.0);
     StepEndWithErrors<double> step{};
     step.phase = start.phase + 1;
     step.tilt = end_tilt;

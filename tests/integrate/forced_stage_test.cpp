@@ -43,7 +43,7 @@ TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
         for (int i = 0; i < 50; ++i) {
             const PulsePoint<double> point = random_point(generator);
-            Excitation<double> excitation = excitation_of<theory>(pulse, point);
+            PulseExcitation<double> excitation = excitation_of<theory>(pulse, point);
             const auto plain = run_in_doubles<TypeParam, theory>(point.block(), excitation, 1e-9);
             excitation.acceleration = -excitation.acceleration;
             const auto mirrored =

@@ -68,7 +68,7 @@ double critical_double_impulse(const Block<double>& block, int intervals)
         samples[1] = velocity * std::tan(alpha) / interval;
         samples[intervals + 6] = -samples[1];
         const RecordPoint point{accelerogram(samples), block, 1, 1 / interval};
-        const auto end = run_record<Theory::nonlinear, false>(point, 1e-12);
+        const auto end = run_record<Theory::nonlinear, Directions::horizontal>(point, 1e-12);
         EXPECT_EQ(end.impacts, 1) << velocity;
         return margin_of<Theory::nonlinear>(end, block) < 0;
     };

@@ -18,15 +18,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// One block per lane, under the same record.
 using Points = std::vector<RecordPoint>;
 
-template <bool upwards>
+template <Directions directions>
 Points random_points(std::mt19937_64& generator)
 {
-    const RecordPoint first = random_record_point(generator, 40, upwards);
+    const RecordPoint first = random_record_point(generator, 40, directions);
     Points points(lanes, first);
     for (RecordPoint& point : points) {
-        point = random_record_point(generator, 40, upwards);
+        point = random_record_point(generator, 40, directions);
         const double sign = generator() % 2 == 0 ? 1 : -1;
-        point.scale = sign * std::min(point.scale, 0.9 * first.record.largest_scale());
+        point.scale = sign * std::min(point.scale, 0.9 * first.record.free_fall_scale());
         point.record = first.record;
     }
     return points;
@@ -43,8 +43,8 @@ Lanes packed(const Points& points, const Member& member)
     return load<Lanes>(numbers.data());
 }
 
-template <bool upwards>
-RecordExcitation<Lanes, upwards> excitation_of(const Points& points)
+template <Directions directions>
+RecordExcitation<Lanes, directions> excitation_of(const Points& points)
 {
     return {.motion = record_motion<double>(points[0].record),
             .acceleration = packed(points, [](const RecordPoint& p) { return p.scale; }),
@@ -54,10 +54,10 @@ RecordExcitation<Lanes, upwards> excitation_of(const Points& points)
             })};
 }
 
-template <bool upwards>
-RecordExcitation<double, upwards> excitation_of(const RecordPoint& point)
+template <Directions directions>
+RecordExcitation<double, directions> excitation_of(const RecordPoint& point)
 {
-    return excitation_of<Theory::nonlinear, upwards>(point);
+    return excitation_of<Theory::nonlinear, directions>(point);
 }
 
 void expect_bits(const Lanes& together, std::size_t lane, double alone)
@@ -67,14 +67,14 @@ void expect_bits(const Lanes& together, std::size_t lane, double alone)
         << lanes_of(together)[lane] << " in lane " << lane << ", " << alone << " alone";
 }
 
-template <bool upwards>
+template <Directions directions>
 void expect_equal_uplifts()
 {
     std::mt19937_64 generator(41);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int i = 0; i < 500; ++i) {
-        const Points points = random_points<upwards>(generator);
-        const auto excitation = excitation_of<upwards>(points);
+        const Points points = random_points<directions>(generator);
+        const auto excitation = excitation_of<directions>(points);
         std::array<double, lanes> phases;
         std::array<double, lanes> latest;
         std::array<double, lanes> resting;
@@ -88,11 +88,11 @@ void expect_equal_uplifts()
         const Lanes next = excitation.next_uplift(rests, phase, load<Lanes>(latest.data()));
         const auto ground = excitation.ground(phase);
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const auto alone = excitation_of<upwards>(points[lane]);
+            const auto alone = excitation_of<directions>(points[lane]);
             expect_bits(next, lane,
                         alone.next_uplift(resting[lane] == 1, phases[lane], latest[lane]));
             expect_bits(horizontal_of(ground), lane, horizontal_of(alone.ground(phases[lane])));
-            if constexpr (upwards) {
+            if constexpr (directions == Directions::both) {
                 expect_bits(ground.gravity, lane, alone.ground(phases[lane]).gravity);
             }
         }
@@ -101,25 +101,25 @@ void expect_equal_uplifts()
 
 TEST(RecordInLanes, LiftsAsInADouble)
 {
-    expect_equal_uplifts<false>();
-    expect_equal_uplifts<true>();
+    expect_equal_uplifts<Directions::horizontal>();
+    expect_equal_uplifts<Directions::both>();
 }
 
-template <bool upwards, Records records>
+template <Directions directions, Outputs outputs>
 void expect_equal_ends()
 {
     std::mt19937_64 generator(42);
     const auto run = []<class T>(const Block<T>& block, const auto& excitation) {
-        return run_forced_stage<Taylor<14>, Theory::nonlinear, records>(block, excitation, 1e-9);
+        return run_forced_stage<Taylor<14>, Theory::nonlinear, outputs>(block, excitation, 1e-9);
     };
     for (int i = 0; i < 20; ++i) {
-        const Points points = random_points<upwards>(generator);
+        const Points points = random_points<directions>(generator);
         const Block<Lanes> block{
             packed(points, [](const RecordPoint& p) { return p.block.slenderness; }),
             packed(points, [](const RecordPoint& p) { return p.block.restitution; })};
-        const auto together = run(block, excitation_of<upwards>(points));
+        const auto together = run(block, excitation_of<directions>(points));
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const auto alone = run(points[lane].block, excitation_of<upwards>(points[lane]));
+            const auto alone = run(points[lane].block, excitation_of<directions>(points[lane]));
             expect_bits(together.state.tilt, lane, alone.state.tilt);
             expect_bits(together.state.rate, lane, alone.state.rate);
             expect_bits(together.state.side, lane, alone.state.side);
@@ -164,9 +164,9 @@ TEST(RecordInLanes, EndsABounceSeriesAsInADouble)
 
 TEST(RecordInLanes, EndsAsInADouble)
 {
-    expect_equal_ends<false, Records{.impacts = true, .error = true}>();
-    expect_equal_ends<true, Records{.impacts = true, .error = true}>();
-    expect_equal_ends<true, Records{.peak = true}>();
+    expect_equal_ends<Directions::horizontal, Outputs{.impacts = true, .error = true}>();
+    expect_equal_ends<Directions::both, Outputs{.impacts = true, .error = true}>();
+    expect_equal_ends<Directions::both, Outputs{.peak = true}>();
 }
 
 } // namespace

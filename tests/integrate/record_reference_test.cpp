@@ -30,9 +30,9 @@ TEST(RecordInLinearTheory, EndsInTheStateOfItsClosedForm)
     int rested = 0;
     int stood_after_impacts = 0;
     for (int i = 0; i < runs; ++i) {
-        const RecordPoint point = random_record_point(generator, 40, false);
+        const RecordPoint point = random_record_point(generator, 40, Directions::horizontal);
         const double alpha = point.block.slenderness;
-        const auto end = run_record<Theory::linear, false>(point, 1e-12);
+        const auto end = run_record<Theory::linear, Directions::horizontal>(point, 1e-12);
         if (!(end.error < infinity)) {
             continue;
         }
@@ -67,8 +67,9 @@ TEST(RecordInLinearTheory, ErrorOfThousandsOfStepsStaysWithinItsBound)
 {
     std::mt19937_64 generator(25);
     for (int i = 0; i < 100; ++i) {
-        const RecordPoint point = refined(random_record_point(generator, 40, false), 64);
-        const auto end = run_record<Theory::linear, false>(point, 1e-12);
+        const RecordPoint point =
+            refined(random_record_point(generator, 40, Directions::horizontal), 64);
+        const auto end = run_record<Theory::linear, Directions::horizontal>(point, 1e-12);
         const LinearEnd exact = LinearReference(point).run();
         if (end.error < infinity) {
             // Each step rounds; if it always rounded in the same direction, errors would be up to
@@ -84,9 +85,9 @@ TEST(RecordInLinearTheory, PeakIsThatOfItsClosedForm)
 {
     std::mt19937_64 generator(22);
     for (int i = 0; i < 400; ++i) {
-        const RecordPoint point = random_record_point(generator, 40, false);
-        const auto end = run_record<Theory::linear, false>(point, 1e-12);
-        const double peak = peak_under_record<Theory::linear, false>(point, 1e-12);
+        const RecordPoint point = random_record_point(generator, 40, Directions::horizontal);
+        const auto end = run_record<Theory::linear, Directions::horizontal>(point, 1e-12);
+        const double peak = peak_under_record<Theory::linear, Directions::horizontal>(point, 1e-12);
         const LinearEnd exact = LinearReference(point).run();
         // Errors grow: until the peak they are at most as large as at the end. A peak at a sample
         // of the motion instead of between samples would be off by 1e-3.
@@ -177,7 +178,7 @@ void expect_uplift_by_turned_gravity()
         const RecordPoint point{
             accelerogram(std::vector<double>(samples, a), std::vector<double>(samples, v)), block,
             1, double(samples - 1) / (0.2 + 1.5 * uniform(generator))};
-        const auto end = run_record<theory, true, 20>(point, 1e-14);
+        const auto end = run_record<theory, Directions::both, 20>(point, 1e-14);
         const auto exact = TurnedGravity<theory>(block, a, v)
                                .after(Digits50(samples - 1) / point.frequency, {0, 0, side});
         if (exact.state.tilt < 1.5) {
@@ -202,7 +203,7 @@ void expect_impact_by_turned_gravity()
     int with_impact = 0;
     for (int i = 0; i < 1500; ++i) {
         // A block is lifted and then left to a constant acceleration.
-        RecordPoint point = random_record_point(generator, 12, true);
+        RecordPoint point = random_record_point(generator, 12, Directions::both);
         std::vector<double> horizontal = point.record.horizontal();
         std::vector<double> upwards = point.record.upwards();
         const double a = horizontal[6] / 4;
@@ -215,8 +216,8 @@ void expect_impact_by_turned_gravity()
         point.record = accelerogram(horizontal, upwards);
         point.frequency = before.frequency = 3 + 7 * uniform(generator);
 
-        const auto start = run_record<theory, true, 20>(before, 1e-14);
-        const auto end = run_record<theory, true, 20>(point, 1e-14);
+        const auto start = run_record<theory, Directions::both, 20>(before, 1e-14);
+        const auto end = run_record<theory, Directions::both, 20>(point, 1e-14);
         if (!(start.state.tilt > 0) || start.fell || end.fell) {
             continue;
         }

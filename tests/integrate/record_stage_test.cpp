@@ -12,14 +12,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls visit.template operator()<theory, upwards>().
+/// Calls visit.template operator()<theory, directions>().
 template <class Visitor>
 void for_every_kind(const Visitor& visit)
 {
-    visit.template operator()<Theory::nonlinear, false>();
-    visit.template operator()<Theory::nonlinear, true>();
-    visit.template operator()<Theory::linear, false>();
-    visit.template operator()<Theory::linear, true>();
+    visit.template operator()<Theory::nonlinear, Directions::horizontal>();
+    visit.template operator()<Theory::nonlinear, Directions::both>();
+    visit.template operator()<Theory::linear, Directions::horizontal>();
+    visit.template operator()<Theory::linear, Directions::both>();
 }
 
 template <class T>
@@ -38,9 +38,9 @@ void expect_same_bits(const ForcedEnd<T>& ours, const ForcedEnd<T>& theirs)
 TEST(RecordStage, MirroredRecordGivesTheMirroredEndToTheBit)
 {
     std::mt19937_64 generator(31);
-    for_every_kind([&]<Theory theory, bool upwards>() {
+    for_every_kind([&]<Theory theory, Directions directions>() {
         for (int i = 0; i < 50; ++i) {
-            const RecordPoint point = random_record_point(generator, 40, upwards);
+            const RecordPoint point = random_record_point(generator, 40, directions);
             RecordPoint by_scale = point;
             by_scale.scale = -point.scale;
             RecordPoint by_samples = point;
@@ -49,9 +49,9 @@ TEST(RecordStage, MirroredRecordGivesTheMirroredEndToTheBit)
                 a = -a;
             }
             by_samples.record = accelerogram(mirrored, point.record.upwards());
-            const auto plain = run_record<theory, upwards>(point, 1e-9);
+            const auto plain = run_record<theory, directions>(point, 1e-9);
             for (const RecordPoint& other : {by_scale, by_samples}) {
-                const auto end = run_record<theory, upwards>(other, 1e-9);
+                const auto end = run_record<theory, directions>(other, 1e-9);
                 expect_same_bits(plain, end);
                 if (plain.state.tilt != 0 || plain.state.rate != 0) {
                     EXPECT_EQ(plain.state.side, -end.state.side);
@@ -65,13 +65,13 @@ TEST(RecordStage, DependsOnTheTimeStepOnlyByItsProductWithTheFrequencyParameter)
 {
     std::mt19937_64 generator(32);
     for (int i = 0; i < 50; ++i) {
-        RecordPoint point = random_record_point(generator, 40, true);
+        RecordPoint point = random_record_point(generator, 40, Directions::both);
         const double p = 2.25;
         const auto end_at = [&](double time_step, double parameter) {
             point.record =
                 Accelerogram(point.record.horizontal(), point.record.upwards(), time_step);
             point.frequency = 1 / (parameter * time_step);
-            return run_record<Theory::nonlinear, true>(point, 1e-9);
+            return run_record<Theory::nonlinear, Directions::both>(point, 1e-9);
         };
         expect_same_bits(end_at(0.01, p), end_at(0.02, p / 2));
     }
@@ -81,7 +81,7 @@ TEST(RecordStage, ScaledSamplesAreAScaledRecord)
 {
     std::mt19937_64 generator(33);
     for (int i = 0; i < 50; ++i) {
-        const RecordPoint point = random_record_point(generator, 40, true);
+        const RecordPoint point = random_record_point(generator, 40, Directions::both);
         RecordPoint other = point;
         const auto halved = [](std::vector<double> samples) {
             for (double& a : samples) {
@@ -93,8 +93,8 @@ TEST(RecordStage, ScaledSamplesAreAScaledRecord)
             accelerogram(halved(point.record.horizontal()), halved(point.record.upwards()));
         other.scale = 2 * point.scale;
         // A power of two: no bit may change.
-        expect_same_bits(run_record<Theory::nonlinear, true>(point, 1e-9),
-                         run_record<Theory::nonlinear, true>(other, 1e-9));
+        expect_same_bits(run_record<Theory::nonlinear, Directions::both>(point, 1e-9),
+                         run_record<Theory::nonlinear, Directions::both>(other, 1e-9));
     }
 }
 
@@ -102,11 +102,11 @@ TEST(RecordStage, AVerticalMotionOfZeroChangesNothingButRoundOff)
 {
     std::mt19937_64 generator(34);
     for (int i = 0; i < 200; ++i) {
-        const RecordPoint point = random_record_point(generator, 40, false);
+        const RecordPoint point = random_record_point(generator, 40, Directions::horizontal);
         RecordPoint still = point;
         still.record = accelerogram(point.record.horizontal(), std::vector<double>(40, 0.0));
-        const auto without = run_record<Theory::nonlinear, false>(point, 1e-12);
-        const auto with = run_record<Theory::nonlinear, true>(still, 1e-12);
+        const auto without = run_record<Theory::nonlinear, Directions::horizontal>(point, 1e-12);
+        const auto with = run_record<Theory::nonlinear, Directions::both>(still, 1e-12);
         if (without.error < infinity && with.error < infinity) {
             EXPECT_NEAR(margin_of<Theory::nonlinear>(without, point.block),
                         margin_of<Theory::nonlinear>(with, point.block),
@@ -136,11 +136,11 @@ TEST(RecordStage, MoreSamplesOfTheSameMotionChangeTheMarginByLessThanTheErrors)
 {
     std::mt19937_64 generator(35);
     Agreement agreement;
-    for_every_kind([&]<Theory theory, bool upwards>() {
+    for_every_kind([&]<Theory theory, Directions directions>() {
         for (int i = 0; i < 150; ++i) {
-            const RecordPoint point = random_record_point(generator, 40, upwards);
-            const auto ours = run_record<theory, upwards>(point, 1e-11);
-            const auto finer = run_record<theory, upwards>(refined(point, 2), 1e-11);
+            const RecordPoint point = random_record_point(generator, 40, directions);
+            const auto ours = run_record<theory, directions>(point, 1e-11);
+            const auto finer = run_record<theory, directions>(refined(point, 2), 1e-11);
             agreement.expect(margin_of<theory>(ours, point.block), ours.error,
                              margin_of<theory>(finer, point.block), finer.error);
         }
@@ -152,18 +152,18 @@ TEST(RecordStage, OrdersAgreeWithinTheirErrors)
 {
     std::mt19937_64 generator(36);
     Agreement agreement;
-    for_every_kind([&]<Theory theory, bool upwards>() {
+    for_every_kind([&]<Theory theory, Directions directions>() {
         for (int i = 0; i < 150; ++i) {
-            const RecordPoint point = random_record_point(generator, 40, upwards);
-            const auto best = run_record<theory, upwards, 20>(point, 1e-14);
+            const RecordPoint point = random_record_point(generator, 40, directions);
+            const auto best = run_record<theory, directions, 20>(point, 1e-14);
             const auto compare = [&](const ForcedEnd<double>& end) {
                 agreement.expect(margin_of<theory>(end, point.block), end.error,
                                  margin_of<theory>(best, point.block), best.error);
             };
             for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-                compare(run_record<theory, upwards, 8>(point, tolerance));
-                compare(run_record<theory, upwards, 14>(point, tolerance));
-                compare(run_record<theory, upwards, 20>(point, tolerance));
+                compare(run_record<theory, directions, 8>(point, tolerance));
+                compare(run_record<theory, directions, 14>(point, tolerance));
+                compare(run_record<theory, directions, 20>(point, tolerance));
             }
         }
     });
@@ -174,22 +174,22 @@ TEST(RecordStage, InDoublesAgreesWithFiftyDigitsWithinTheError)
 {
     std::mt19937_64 generator(37);
     Agreement agreement;
-    const auto expect_agreement = [&]<bool upwards>() {
+    const auto expect_agreement = [&]<Directions directions>() {
         for (int i = 0; i < 12; ++i) {
-            RecordPoint point = random_record_point(generator, 12, upwards);
+            RecordPoint point = random_record_point(generator, 12, directions);
             point.block.restitution = std::min(point.block.restitution, 0.6); // few bounces
-            const auto exact = run_record_in_digits<upwards>(point, 1e-25);
+            const auto exact = run_record_in_digits<directions>(point, 1e-25);
             const Block<Digits50> block{point.block.slenderness, point.block.restitution};
             const double margin(margin_of<Theory::nonlinear>(exact, block));
             for (const double tolerance : {1e-8, 1e-13}) {
-                const auto ours = run_record<Theory::nonlinear, upwards>(point, tolerance);
+                const auto ours = run_record<Theory::nonlinear, directions>(point, tolerance);
                 agreement.expect(margin_of<Theory::nonlinear>(ours, point.block), ours.error,
                                  margin, 0);
             }
         }
     };
-    expect_agreement.operator()<false>();
-    expect_agreement.operator()<true>();
+    expect_agreement.operator()<Directions::horizontal>();
+    expect_agreement.operator()<Directions::both>();
     agreement.expect_mostly_known();
 }
 
@@ -209,7 +209,7 @@ TEST(RecordStage, SamplesOfAPulseConvergeToThePulseWithOrderTwo)
                                       point.amplitude *
                                           uplift_acceleration<theory>(point.slenderness),
                                       point.frequency * intervals / (2 * pi<double>())};
-            const auto end = run_record<theory, false, 20>(sampled, 1e-14);
+            const auto end = run_record<theory, Directions::horizontal, 20>(sampled, 1e-14);
             EXPECT_EQ(end.impacts, pulse.impacts);
             EXPECT_EQ(end.state.side, pulse.state.side);
             return std::abs(end.state.tilt - pulse.state.tilt) +
@@ -227,15 +227,15 @@ TEST(RecordStage, SamplesOfAPulseConvergeToThePulseWithOrderTwo)
 TEST(RecordStage, PeakIsTheLargestTiltOfAFineHistory)
 {
     std::mt19937_64 generator(38);
-    for_every_kind([&]<Theory theory, bool upwards>() {
+    for_every_kind([&]<Theory theory, Directions directions>() {
         for (int i = 0; i < 30; ++i) {
-            const RecordPoint point = random_record_point(generator, 20, upwards);
+            const RecordPoint point = random_record_point(generator, 20, directions);
             const int parts = 64;
             const std::vector<double> tilts =
-                tilts_at_samples<theory, upwards>(refined(point, parts), 1e-12);
+                tilts_at_samples<theory, directions>(refined(point, parts), 1e-12);
             const double highest = *std::max_element(tilts.begin(), tilts.end());
-            const double peak = peak_under_record<theory, upwards>(point, 1e-12);
-            const double error = run_record<theory, upwards>(point, 1e-12).error;
+            const double peak = peak_under_record<theory, directions>(point, 1e-12);
+            const double error = run_record<theory, directions>(point, 1e-12).error;
             // Errors grow: until the peak they are at most as large as at the end.
             const double tolerance = (8 * error + 1e-11) * point.block.slenderness;
             EXPECT_GE(peak, highest - tolerance);

@@ -65,7 +65,7 @@ private:
 TEST_F(KaikouraRecord, OverturnsTheBlockInAWindowOfScales)
 {
     const auto end_at = [&](double scale) {
-        return run_record<Theory::nonlinear, false>(at_scale(scale), 1e-12);
+        return run_record<Theory::nonlinear, Directions::horizontal>(at_scale(scale), 1e-12);
     };
     for (const double scale : {0.370, 0.380, 0.550, 0.600, 0.750}) {
         const auto end = end_at(scale);
@@ -86,7 +86,8 @@ TEST_F(KaikouraRecord, TiltsTheBlockToTheReferencePeaks)
                                                          {0.600, 0.847474735},
                                                          {0.750, 0.781651387}}};
     for (const auto& [scale, peak] : expected) {
-        const double ours = peak_under_record<Theory::nonlinear, false>(at_scale(scale), 1e-12);
+        const double ours =
+            peak_under_record<Theory::nonlinear, Directions::horizontal>(at_scale(scale), 1e-12);
         EXPECT_NEAR(ours / at_scale(1).block.slenderness, peak, 1e-9)
             << scale; // the printed digits
     }

@@ -1,4 +1,4 @@
-#include "overturn/integrate/crossing.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/observed_order.hpp"

@@ -24,8 +24,9 @@ TEST(Accelerogram, FindsTheFirstSampleThatLifts)
     int found = 0;
     int missed = 0;
     for (int i = 0; i < 2000; ++i) {
-        const Accelerogram record = random_record(generator, 2 + i % 30, i % 2 == 0);
-        const double scale = uniform(generator) * std::min(record.largest_scale(), 10.0);
+        const Accelerogram record = random_record(
+            generator, 2 + i % 30, i % 2 == 0 ? Directions::both : Directions::horizontal);
+        const double scale = uniform(generator) * std::min(record.free_fall_scale(), 10.0);
         const double threshold = random_threshold(generator, record, scale);
         for (std::int64_t first = 0; first <= record.samples(); ++first) {
             std::int64_t expected = first;
@@ -53,12 +54,12 @@ TEST(Accelerogram, ASampleAtTheThresholdDoesNotLift)
 
 TEST(Accelerogram, LargestScaleLeavesGravityPositive)
 {
-    EXPECT_EQ(accelerogram({1, 2, -3}).largest_scale(), infinity);
-    EXPECT_EQ(accelerogram({1, 2}, {0, 5}).largest_scale(), infinity);
-    EXPECT_EQ(accelerogram({1, 2}, {4, -0.5}).largest_scale(), 2);
+    EXPECT_EQ(accelerogram({1, 2, -3}).free_fall_scale(), infinity);
+    EXPECT_EQ(accelerogram({1, 2}, {0, 5}).free_fall_scale(), infinity);
+    EXPECT_EQ(accelerogram({1, 2}, {4, -0.5}).free_fall_scale(), 2);
     std::mt19937_64 generator(4);
     for (int i = 0; i < 100; ++i) {
-        const Accelerogram record = random_record(generator, 20, true);
+        const Accelerogram record = random_record(generator, 20, Directions::both);
         const auto gravity = [&](double scale) {
             double least = infinity;
             for (const double v : record.upwards()) {
@@ -66,9 +67,9 @@ TEST(Accelerogram, LargestScaleLeavesGravityPositive)
             }
             return least;
         };
-        if (record.largest_scale() < infinity) {
-            EXPECT_GT(gravity(0.999 * record.largest_scale()), 0);
-            EXPECT_LT(gravity(1.001 * record.largest_scale()), 0);
+        if (record.free_fall_scale() < infinity) {
+            EXPECT_GT(gravity(0.999 * record.free_fall_scale()), 0);
+            EXPECT_LT(gravity(1.001 * record.free_fall_scale()), 0);
         }
     }
 }
@@ -86,7 +87,8 @@ TEST(Accelerogram, LiftingScaleSeparatesScalesThatLiftFromOthers)
     std::mt19937_64 generator(5);
     std::uniform_real_distribution<double> uniform(0.01, 1);
     for (int i = 0; i < 1000; ++i) {
-        const Accelerogram record = random_record(generator, 2 + i % 30, i % 2 == 0);
+        const Accelerogram record = random_record(
+            generator, 2 + i % 30, i % 2 == 0 ? Directions::both : Directions::horizontal);
         const double threshold = uniform(generator);
         const double scale = record.lifting_scale(threshold);
         if (std::isinf(scale)) { // the ground always rises too fast

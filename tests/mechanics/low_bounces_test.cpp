@@ -27,7 +27,7 @@ TEST(LowBounces, BoundTheMotionAtAnyMoment)
             const PulsePoint<double> point{slenderness, restitution,
                                            std::pow(10, -1 + 2 * uniform(generator)),
                                            1 + std::pow(10, -0.5 - 2.5 * uniform(generator))};
-            Excitation<double> excitation = excitation_of<theory>(pulse, point);
+            PulseExcitation<double> excitation = excitation_of<theory>(pulse, point);
             const GroundMotion<double>& motion = excitation.motion;
             excitation.motion =
                 cut_at(motion.begin + uniform(generator) * (motion.end - motion.begin), motion);

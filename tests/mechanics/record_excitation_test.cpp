@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 TEST(RecordExcitation, IsLinearBetweenItsSamples)
 {
     const RecordPoint point{accelerogram({0.5, -1, 2}, {0, 0.25, -0.5}), {0.2, 0.9}, 0.5, 4};
-    const auto excitation = excitation_of<Theory::linear, true>(point);
+    const auto excitation = excitation_of<Theory::linear, Directions::both>(point);
     // All of these are exact in binary.
     const std::array<std::array<double, 3>, 5> expected{{{0, 0.25, 1},
                                                          {0.5, -0.125, 1.0625},
@@ -50,11 +50,11 @@ TEST(RecordExcitation, HasAPiecePerInterval)
 }
 
 /// The excess of the ground over what lifts the block, with the larger of both signs.
-template <bool upwards>
-double excess(const RecordExcitation<double, upwards>& excitation, double phase)
+template <Directions directions>
+double excess(const RecordExcitation<double, directions>& excitation, double phase)
 {
     const auto ground = excitation.ground(phase);
-    if constexpr (upwards) {
+    if constexpr (directions == Directions::both) {
         return std::abs(ground.horizontal) - excitation.threshold * ground.gravity;
     } else {
         return std::abs(ground) - excitation.threshold;
@@ -63,8 +63,8 @@ double excess(const RecordExcitation<double, upwards>& excitation, double phase)
 
 /// By halving, in the first interval whose end lifts the block; the excess is convex between
 /// samples.
-template <bool upwards>
-double first_uplift(const RecordExcitation<double, upwards>& excitation, double phase)
+template <Directions directions>
+double first_uplift(const RecordExcitation<double, directions>& excitation, double phase)
 {
     double low = phase;
     double high = phase;
@@ -82,16 +82,16 @@ double first_uplift(const RecordExcitation<double, upwards>& excitation, double 
     return high;
 }
 
-template <bool upwards>
-RecordExcitation<double, upwards> random_excitation(const RecordPoint& point,
-                                                    std::mt19937_64& generator)
+template <Directions directions>
+RecordExcitation<double, directions> random_excitation(const RecordPoint& point,
+                                                       std::mt19937_64& generator)
 {
-    auto excitation = excitation_of<Theory::nonlinear, upwards>(point);
+    auto excitation = excitation_of<Theory::nonlinear, directions>(point);
     excitation.threshold = random_threshold(generator, point.record, point.scale);
     return excitation;
 }
 
-template <bool upwards>
+template <Directions directions>
 void expect_uplifts_by_halving()
 {
     std::mt19937_64 generator(5);
@@ -100,8 +100,8 @@ void expect_uplifts_by_halving()
     int between = 0;
     int never = 0;
     for (int i = 0; i < 20000; ++i) {
-        const RecordPoint point = random_record_point(generator, 2 + i % 20, upwards);
-        const auto excitation = random_excitation<upwards>(point, generator);
+        const RecordPoint point = random_record_point(generator, 2 + i % 20, directions);
+        const auto excitation = random_excitation<directions>(point, generator);
         const double end = excitation.motion.end;
         const double phase =
             i % 3 == 0 ? std::floor(end * uniform(generator)) : end * uniform(generator);
@@ -132,18 +132,18 @@ void expect_uplifts_by_halving()
 
 TEST(RecordExcitation, LiftsWhereTheAccelerationFirstExceedsTheThreshold)
 {
-    expect_uplifts_by_halving<false>();
+    expect_uplifts_by_halving<Directions::horizontal>();
 }
 TEST(RecordExcitation, LiftsWhereTheAccelerationFirstExceedsTheThresholdOfItsGravity)
 {
-    expect_uplifts_by_halving<true>();
+    expect_uplifts_by_halving<Directions::both>();
 }
 
 TEST(RecordExcitation, LiftsAtTheFirstSampleIfThatIsAboveTheThreshold)
 {
     for (const double first : {0.3, -0.3}) {
         const RecordPoint point{accelerogram({first, 0, 0.5}), {0.2, 0.9}, 1, 4};
-        const auto excitation = excitation_of<Theory::linear, false>(point);
+        const auto excitation = excitation_of<Theory::linear, Directions::horizontal>(point);
         EXPECT_EQ(excitation.next_uplift(true, 0, -infinity), 0);
         // The next one crosses the threshold 0.2 between 0 and 0.5.
         EXPECT_NEAR(excitation.next_uplift(true, 0.75, 0), 1.4, 4 * epsilon);
@@ -154,14 +154,14 @@ TEST(RecordExcitation, CrossingFromOneSideToTheOtherLiftsOnTheOther)
 {
     // At rest at 0.5; the sample before it lifts, too, to the other side.
     const RecordPoint point{accelerogram({1, -1}), {0.2, 0.9}, 1, 4};
-    const auto excitation = excitation_of<Theory::linear, false>(point);
+    const auto excitation = excitation_of<Theory::linear, Directions::horizontal>(point);
     EXPECT_NEAR(excitation.next_uplift(true, 0.5, 0), 0.6, 4 * epsilon);
 }
 
 TEST(RecordExcitation, DoesNotLiftAtTheThresholdOrBelow)
 {
     const RecordPoint point{accelerogram({0, 0.25, -0.25}), {0.25, 0.9}, 1, 4};
-    auto excitation = excitation_of<Theory::linear, false>(point);
+    auto excitation = excitation_of<Theory::linear, Directions::horizontal>(point);
     EXPECT_EQ(excitation.next_uplift(true, 0, -infinity), infinity);
     excitation.acceleration = std::nextafter(1.0, 2.0);
     EXPECT_NEAR(excitation.next_uplift(true, 0, -infinity), 1, 4 * epsilon);
@@ -173,7 +173,7 @@ TEST(RecordExcitation, VerticalMotionChangesTheThreshold)
     std::mt19937_64 generator(6);
     const auto expect_threshold = [&]<Theory theory>() {
         for (int i = 0; i < 200; ++i) {
-            RecordPoint point = random_record_point(generator, 2, true);
+            RecordPoint point = random_record_point(generator, 2, Directions::both);
             const double lifting = uplift_acceleration<theory>(point.block.slenderness);
             const double v = point.record.upwards()[1];
             const double a = std::abs(point.record.horizontal()[1]);
@@ -182,15 +182,18 @@ TEST(RecordExcitation, VerticalMotionChangesTheThreshold)
             }
             const double scale = lifting / (a - v * lifting); // scale a = (1 + scale v) lifting
             point.record = accelerogram({0, a}, {v, v});
-            if (!(scale < 0.999 * point.record.largest_scale())) {
+            if (!(scale < 0.999 * point.record.free_fall_scale())) {
                 continue;
             }
             // A few roundings, hundreds of times smaller than 1e-11 unless terms cancel.
             point.scale = scale * (1 - 1e-11);
-            EXPECT_EQ((excitation_of<theory, true>(point).next_uplift(true, 0, -infinity)),
-                      infinity);
+            EXPECT_EQ(
+                (excitation_of<theory, Directions::both>(point).next_uplift(true, 0, -infinity)),
+                infinity);
             point.scale = scale * (1 + 1e-11);
-            EXPECT_LT((excitation_of<theory, true>(point).next_uplift(true, 0, -infinity)), 1);
+            EXPECT_LT(
+                (excitation_of<theory, Directions::both>(point).next_uplift(true, 0, -infinity)),
+                1);
         }
     };
     expect_threshold.template operator()<Theory::linear>();
@@ -201,8 +204,8 @@ TEST(RecordExcitation, ALaterUpliftIsLater)
 {
     std::mt19937_64 generator(7);
     for (int i = 0; i < 5000; ++i) {
-        const RecordPoint point = random_record_point(generator, 20, true);
-        const auto excitation = excitation_of<Theory::linear, true>(point);
+        const RecordPoint point = random_record_point(generator, 20, Directions::both);
+        const auto excitation = excitation_of<Theory::linear, Directions::both>(point);
         double latest = -infinity;
         double phase = 0;
         for (int n = 0; n < 20; ++n) {
@@ -226,8 +229,8 @@ TEST(RecordExcitation, MirroredRecordMirrorsThePush)
 {
     std::mt19937_64 generator(8);
     for (int i = 0; i < 1000; ++i) {
-        const RecordPoint point = random_record_point(generator, 20, true);
-        const auto plain = excitation_of<Theory::linear, true>(point);
+        const RecordPoint point = random_record_point(generator, 20, Directions::both);
+        const auto plain = excitation_of<Theory::linear, Directions::both>(point);
         auto mirrored = plain;
         mirrored.acceleration = -plain.acceleration;
         EXPECT_EQ(plain.next_uplift(true, 0, -infinity), mirrored.next_uplift(true, 0, -infinity));

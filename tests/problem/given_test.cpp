@@ -14,14 +14,6 @@ namespace {
 
 using testing::HasSubstr;
 
-using Quantities = std::vector<Given>;
-
-Quantities operator+(Quantities one, const Quantities& other)
-{
-    one.insert(one.end(), other.begin(), other.end());
-    return one;
-}
-
 /// A complete block and pulse in three parts.
 const Quantities block{number("width", 0.6), number("height", 1.8)};
 const Quantities loss{number("restitution_of_maximum", 0.9)};

@@ -9,20 +9,14 @@
 namespace overturn {
 namespace {
 
-const std::vector<Given> block{number("width", 0.6), axis("height", {1.8, 2.5}),
-                               number("restitution_of_maximum", 0.9)};
-
-std::vector<Given> with_block(std::vector<Given> given)
-{
-    given.insert(given.end(), block.begin(), block.end());
-    return given;
-}
+const Quantities block{number("width", 0.6), axis("height", {1.8, 2.5}),
+                       number("restitution_of_maximum", 0.9)};
 
 /// A problem of every kind.
 std::vector<Problem> every_problem()
 {
-    const std::vector<Given> pulse = with_block(
-        {axis("pga", AxisRange{0.1, 2, 30, Spacing::log}), axis("pulse_period", {0.5, 1})});
+    const Quantities pulse = block + Quantities{axis("pga", AxisRange{0.1, 2, 30, Spacing::log}),
+                                                axis("pulse_period", {0.5, 1})};
     const Scene pulse_scene{.pulse = PulseKind::mavroeidis_papageorgiou,
                             .theory = Theory::linear,
                             .shape = {.window = 0.5, .cycles = 2, .gamma = 1.5, .nu = -0.25},
@@ -49,16 +43,16 @@ std::vector<Problem> every_problem()
          .fields = {Field::region}},
         {.scene = {},
          .grid = grid_of(
-             {}, with_block({column("pga", {0.5, 0.2}), column("pulse_frequency", {3, 2})})),
+             {}, block + Quantities{column("pga", {0.5, 0.2}), column("pulse_frequency", {3, 2})}),
          .fields = {Field::region}},
         {.scene = records,
-         .grid =
-             grid_of(records, with_block({axis("motion", {1, 2, 3}), axis("scale", {1, 2, 3, 4})})),
+         .grid = grid_of(
+             records, block + Quantities{axis("motion", {1, 2, 3}), axis("scale", {1, 2, 3, 4})}),
          .numerics = {.method = Method::taylor, .most_in_50_digits = 3},
          .fields = {Field::region, Field::status}},
         {.scene = vertical,
-         .grid = grid_of(vertical,
-                         with_block({column("motion", {2, 1, 2}), column("scale", {1, 0.5, 1.5})})),
+         .grid = grid_of(vertical, block + Quantities{column("motion", {2, 1, 2}),
+                                                      column("scale", {1, 0.5, 1.5})}),
          .numerics = {.method = Method::taylor},
          .fields = {Field::peak}}};
     return problems;

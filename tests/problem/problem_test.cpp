@@ -62,10 +62,10 @@ TEST(TilingOf, AnyGridHasAtMost64TimesSixtyFourPointsInATile)
 TEST(TilingOf, ATableHasTheOtherDimensionsFirst)
 {
     const std::vector<double> widths(5000, 0.5);
-    const auto tile = [&](std::vector<Given> given) {
-        given.insert(given.end(),
-                     {column("width", widths), number("height", 2), number("restitution", 0.9)});
-        return tiling_of(problem_of_grid({}, given)).tile_shape();
+    const Quantities blocks{column("width", widths), number("height", 2),
+                            number("restitution", 0.9)};
+    const auto tile = [&](const Quantities& given) {
+        return tiling_of(problem_of_grid({}, blocks + given)).tile_shape();
     };
     EXPECT_EQ(tile({number("pga", 1), number("frequency", 3)}), (Shape{4096}));
     EXPECT_EQ(tile({pga_axis(8), number("frequency", 3)}), (Shape{512, 8}));

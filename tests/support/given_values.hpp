@@ -10,6 +10,14 @@
 
 namespace overturn {
 
+using Quantities = std::vector<Given>;
+
+inline Quantities operator+(Quantities one, const Quantities& other)
+{
+    one.insert(one.end(), other.begin(), other.end());
+    return one;
+}
+
 inline Given number(const std::string& name, double value)
 {
     return {&quantity(name), name, Axis(AxisList{value}), GivenAs::number};

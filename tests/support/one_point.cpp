@@ -3,16 +3,16 @@
 namespace overturn {
 
 template <class Method, Theory theory, bool with_error>
-ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<double>& excitation,
-                                 double tolerance)
+ForcedEnd<double> run_in_doubles(const Block<double>& block,
+                                 const PulseExcitation<double>& excitation, double tolerance)
 {
-    return run_forced_stage<Method, theory, Records{.impacts = true, .error = with_error}>(
+    return run_forced_stage<Method, theory, Outputs{.impacts = true, .error = with_error}>(
         block, excitation, tolerance);
 }
 
 #define OVERTURN_INSTANTIATE(method, theory, with_error)                                           \
     template ForcedEnd<double> run_in_doubles<method, theory, with_error>(                         \
-        const Block<double>&, const Excitation<double>&, double);
+        const Block<double>&, const PulseExcitation<double>&, double);
 #define OVERTURN_INSTANTIATE_METHOD(method)                                                        \
     OVERTURN_INSTANTIATE(method, Theory::nonlinear, false)                                         \
     OVERTURN_INSTANTIATE(method, Theory::nonlinear, true)                                          \

@@ -17,11 +17,11 @@ struct PulsePoint {
 };
 
 template <Theory theory, class S>
-Excitation<S> excitation_of(PulseKind pulse, const PulsePoint<S>& point,
-                            const PulseShape& shape = {})
+PulseExcitation<S> excitation_of(PulseKind pulse, const PulsePoint<S>& point,
+                                 const PulseShape& shape = {})
 {
-    return excitation_of<theory>(ground_motion<S>(pulse, shape), point.slenderness, point.amplitude,
-                                 point.frequency);
+    return pulse_excitation<theory>(ground_motion<S>(pulse, shape), point.slenderness,
+                                    point.amplitude, point.frequency);
 }
 
 /// The motion as if it ended at an earlier phase [rad].
@@ -41,8 +41,8 @@ inline PulsePoint<Digits50> in_digits(const PulsePoint<double>& point)
 /// run_forced_stage(), for each of EveryMethod; with_error: with a bound on the error. Compiled
 /// once, in one_point.cpp.
 template <class Method, Theory theory, bool with_error = false>
-ForcedEnd<double> run_in_doubles(const Block<double>& block, const Excitation<double>& excitation,
-                                 double tolerance);
+ForcedEnd<double> run_in_doubles(const Block<double>& block,
+                                 const PulseExcitation<double>& excitation, double tolerance);
 
 template <Theory theory, class Method = RungeKutta, bool with_error = false>
 ForcedEnd<double> forced_end(PulseKind pulse, const PulsePoint<double>& point, double tolerance,

@@ -22,8 +22,8 @@ inline Accelerogram accelerogram(std::vector<double> horizontal, std::vector<dou
     return {std::move(horizontal), std::move(upwards), 0.01};
 }
 
-template <Theory theory, bool upwards, class S = double>
-RecordExcitation<S, upwards> excitation_of(const RecordPoint& point)
+template <Theory theory, Directions directions, class S = double>
+RecordExcitation<S, directions> excitation_of(const RecordPoint& point)
 {
     return {.motion = record_motion<S>(point.record),
             .acceleration = S(point.scale),
@@ -51,26 +51,28 @@ inline std::vector<double> random_samples(std::mt19937_64& generator, int sample
     return noise;
 }
 
-inline Accelerogram random_record(std::mt19937_64& generator, int samples, bool upwards)
+inline Accelerogram random_record(std::mt19937_64& generator, int samples, Directions directions)
 {
     std::vector<double> horizontal = random_samples(generator, samples);
-    return accelerogram(std::move(horizontal),
-                        upwards ? random_samples(generator, samples) : std::vector<double>());
+    return accelerogram(std::move(horizontal), directions == Directions::both
+                                                   ? random_samples(generator, samples)
+                                                   : std::vector<double>());
 }
 
 /// Slenderness 0.08 to 0.45, restitution 0.3 to 0.9, a record of 2 to 15 units of time 1/p with up
 /// to six times the acceleration that lifts the block. Gravity stays above a tenth.
-inline RecordPoint random_record_point(std::mt19937_64& generator, int samples, bool upwards)
+inline RecordPoint random_record_point(std::mt19937_64& generator, int samples,
+                                       Directions directions)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
-    const Accelerogram record = random_record(generator, samples, upwards);
+    const Accelerogram record = random_record(generator, samples, directions);
     const double slenderness = 0.08 + 0.37 * uniform(generator);
     const double restitution = 0.3 + 0.6 * uniform(generator);
     const double strength = uniform(generator);
     const double most = (1.05 + 5 * strength * strength) * slenderness / record.peak();
     return {.record = record,
             .block = {slenderness, restitution},
-            .scale = std::min(most, 0.9 * record.largest_scale()),
+            .scale = std::min(most, 0.9 * record.free_fall_scale()),
             .frequency = samples / (2 + 13 * uniform(generator))};
 }
 

@@ -4,15 +4,16 @@
 
 namespace overturn {
 
-template <bool upwards>
+template <Directions directions>
 ForcedEnd<Digits50> run_record_in_digits(const RecordPoint& point, double tolerance)
 {
     const Block<Digits50> block{point.block.slenderness, point.block.restitution};
     return run_forced_stage<Taylor<20>, Theory::nonlinear>(
-        block, excitation_of<Theory::nonlinear, upwards, Digits50>(point), Digits50(tolerance));
+        block, excitation_of<Theory::nonlinear, directions, Digits50>(point), Digits50(tolerance));
 }
 
-template ForcedEnd<Digits50> run_record_in_digits<false>(const RecordPoint&, double);
-template ForcedEnd<Digits50> run_record_in_digits<true>(const RecordPoint&, double);
+template ForcedEnd<Digits50> run_record_in_digits<Directions::horizontal>(const RecordPoint&,
+                                                                          double);
+template ForcedEnd<Digits50> run_record_in_digits<Directions::both>(const RecordPoint&, double);
 
 } // namespace overturn

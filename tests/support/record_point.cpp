@@ -4,27 +4,27 @@
 
 namespace overturn {
 
-template <Theory theory, bool upwards, int order>
+template <Theory theory, Directions directions, int order>
 ForcedEnd<double> run_record(const RecordPoint& point, double tolerance)
 {
-    return run_forced_stage<Taylor<order>, theory, Records{.impacts = true, .error = true}>(
-        point.block, excitation_of<theory, upwards>(point), tolerance);
+    return run_forced_stage<Taylor<order>, theory, Outputs{.impacts = true, .error = true}>(
+        point.block, excitation_of<theory, directions>(point), tolerance);
 }
 
-template <Theory theory, bool upwards>
+template <Theory theory, Directions directions>
 double peak_under_record(const RecordPoint& point, double tolerance)
 {
-    return run_forced_stage<Taylor<14>, theory, Records{.peak = true}>(
-               point.block, excitation_of<theory, upwards>(point), tolerance)
+    return run_forced_stage<Taylor<14>, theory, Outputs{.peak = true}>(
+               point.block, excitation_of<theory, directions>(point), tolerance)
         .peak;
 }
 
-template <Theory theory, bool upwards>
+template <Theory theory, Directions directions>
 std::vector<double> tilts_at_samples(const RecordPoint& point, double tolerance)
 {
-    const auto excitation = excitation_of<theory, upwards>(point);
-    ForcedStage<Taylor<14>, theory, Records{.events = true}, double,
-                RecordExcitation<double, upwards>>
+    const auto excitation = excitation_of<theory, directions>(point);
+    ForcedStage<Taylor<14>, theory, Outputs{.events = true}, double,
+                RecordExcitation<double, directions>>
         stage(point.block, excitation, tolerance);
     while (stage.is_active()) {
         stage.advance();
@@ -36,15 +36,15 @@ std::vector<double> tilts_at_samples(const RecordPoint& point, double tolerance)
     return tilts;
 }
 
-#define OVERTURN_INSTANTIATE(theory, upwards)                                                      \
-    template ForcedEnd<double> run_record<theory, upwards, 8>(const RecordPoint&, double);         \
-    template ForcedEnd<double> run_record<theory, upwards, 14>(const RecordPoint&, double);        \
-    template ForcedEnd<double> run_record<theory, upwards, 20>(const RecordPoint&, double);        \
-    template double peak_under_record<theory, upwards>(const RecordPoint&, double);                \
-    template std::vector<double> tilts_at_samples<theory, upwards>(const RecordPoint&, double);
-OVERTURN_INSTANTIATE(Theory::nonlinear, false)
-OVERTURN_INSTANTIATE(Theory::nonlinear, true)
-OVERTURN_INSTANTIATE(Theory::linear, false)
-OVERTURN_INSTANTIATE(Theory::linear, true)
+#define OVERTURN_INSTANTIATE(theory, directions)                                                   \
+    template ForcedEnd<double> run_record<theory, directions, 8>(const RecordPoint&, double);      \
+    template ForcedEnd<double> run_record<theory, directions, 14>(const RecordPoint&, double);     \
+    template ForcedEnd<double> run_record<theory, directions, 20>(const RecordPoint&, double);     \
+    template double peak_under_record<theory, directions>(const RecordPoint&, double);             \
+    template std::vector<double> tilts_at_samples<theory, directions>(const RecordPoint&, double);
+OVERTURN_INSTANTIATE(Theory::nonlinear, Directions::horizontal)
+OVERTURN_INSTANTIATE(Theory::nonlinear, Directions::both)
+OVERTURN_INSTANTIATE(Theory::linear, Directions::horizontal)
+OVERTURN_INSTANTIATE(Theory::linear, Directions::both)
 
 } // namespace overturn

@@ -7,21 +7,21 @@
 
 namespace overturn {
 
-/// run_forced_stage() with Taylor<order>, impacts and error recorded. Compiled once, in
+/// run_forced_stage() with Taylor<order>, outputs impacts and error. Compiled once, in
 /// record_point.cpp, for the orders 8, 14 and 20.
-template <Theory theory, bool upwards, int order = 14>
+template <Theory theory, Directions directions, int order = 14>
 ForcedEnd<double> run_record(const RecordPoint& point, double tolerance);
 
 /// The same in 50 digits, with order 20, nonlinear, without error. In record_digits.cpp.
-template <bool upwards>
+template <Directions directions>
 ForcedEnd<Digits50> run_record_in_digits(const RecordPoint& point, double tolerance);
 
 /// The largest tilt [rad].
-template <Theory theory, bool upwards>
+template <Theory theory, Directions directions>
 double peak_under_record(const RecordPoint& point, double tolerance);
 
 /// The tilts at all steps and events: at all samples while the block rocks [rad].
-template <Theory theory, bool upwards>
+template <Theory theory, Directions directions>
 std::vector<double> tilts_at_samples(const RecordPoint& point, double tolerance);
 
 } // namespace overturn

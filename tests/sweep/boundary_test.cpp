@@ -1,6 +1,8 @@
 #include "overturn/problem/axis.hpp"
 #include "overturn/sweep/boundary.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "support/every_scene.hpp"
+#include "support/given_values.hpp"
 #include "support/one_point.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +19,7 @@ std::vector<double> evenly(double first, double last, int count)
     return Axis(AxisRange{first, last, count}).values();
 }
 
-const SearchResolution resolution = search_resolution({});
+const FlipSearch default_search = flip_search({});
 const double paper_alpha = std::atan(1 / 5.67);
 const double paper_r_max = largest_restitution(paper_alpha);
 
@@ -29,7 +31,7 @@ void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplit
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const Flip& flip = boundary.flips[i];
         EXPECT_NEAR(flip.amplitude(), amplitudes[i], tolerance);
-        EXPECT_LE(flip.above - flip.below, resolution.flip_width * flip.above);
+        EXPECT_LE(flip.above - flip.below, default_search.flip_width * flip.above);
         EXPECT_NE(is_safe(flip.region_below), is_safe(flip.region_above));
     }
 }
@@ -133,7 +135,7 @@ void compare(const Boundary& coarse, const Boundary& fine, Comparison& compariso
     const auto is_missed = [&](const Flip& flip) {
         return std::none_of(coarse.flips.begin(), coarse.flips.end(), [&](const Flip& other) {
             return std::abs(flip.amplitude() - other.amplitude()) <
-                   2 * resolution.flip_width * flip.above;
+                   2 * default_search.flip_width * flip.above;
         });
     };
     std::size_t missed = 0;
@@ -194,7 +196,7 @@ TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreNarrow)
     const Comparison comparison = compare_scans(scenes, 0.4, 0.7);
     EXPECT_GT(comparison.flips, 500u);
     EXPECT_LE(comparison.missed, comparison.flips / 50);
-    EXPECT_LT(comparison.widest_missed, 20 * resolution.finest_step);
+    EXPECT_LT(comparison.widest_missed, 20 * default_search.finest_step);
     EXPECT_LE(comparison.missed_by_the_finer,
               comparison.flips / 50); // by chance, depending on its steps
 }
@@ -207,15 +209,18 @@ TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
     const Boundary all = boundary_on(scene, line, scan, widest_kernel());
     ASSERT_GT(all.flips.size(), 5u);
     EXPECT_FALSE(all.has_more);
-    const Boundary five = boundary_on(scene, line, scan, widest_kernel(), 5);
+    FlipSearch limited = default_search;
+    limited.most_flips = 5;
+    const Boundary five = boundary_on(scene, line, scan, widest_kernel(), limited);
     EXPECT_TRUE(five.has_more);
     ASSERT_EQ(five.flips.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         // Brackets may differ, but not the flips between them.
         EXPECT_NEAR(five.flips[i].amplitude(), all.flips[i].amplitude(),
-                    2 * resolution.flip_width * all.flips[i].above);
+                    2 * default_search.flip_width * all.flips[i].above);
     }
-    EXPECT_FALSE(boundary_on(scene, line, scan, widest_kernel(), all.flips.size()).has_more);
+    limited.most_flips = all.flips.size();
+    EXPECT_FALSE(boundary_on(scene, line, scan, widest_kernel(), limited).has_more);
 }
 
 /// The region at one amplitude of the line.
@@ -234,7 +239,7 @@ void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
         EXPECT_EQ(verdict(flip.region_below), verdict(before));
         EXPECT_NE(verdict(flip.region_above), verdict(flip.region_below));
         EXPECT_LE(reached, flip.below);
-        EXPECT_LE(flip.above - flip.below, resolution.flip_width * flip.above);
+        EXPECT_LE(flip.above - flip.below, default_search.flip_width * flip.above);
         if (flip.region_below != Region::undecided) {
             EXPECT_EQ(region_at(line, flip.below), flip.region_below);
         }
@@ -315,12 +320,10 @@ TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
     int lines_with_missed_flips = 0;
     for (int i = 0; i < 4; ++i) {
         const BoundaryLine line{0.25, 0.9, uniform(generator)};
-        SearchResolution limited = search_resolution({});
+        FlipSearch limited = default_search;
         limited.most_amplitudes = 60;
         const Boundary all = boundary_on({}, line, scan, widest_kernel());
-        const Boundary some =
-            boundary_on({}, line, scan, widest_kernel(), std::numeric_limits<std::size_t>::max(),
-                        nullptr, limited);
+        const Boundary some = boundary_on({}, line, scan, widest_kernel(), limited);
         EXPECT_FALSE(all.coarse);
         if (some.flips.size() == all.flips.size()) {
             continue;
@@ -346,14 +349,66 @@ TEST(Boundary, WithoutFiftyDigitsIsUndecidedWhereTheyAreNeeded)
     // A block without loss that bounces under many cycles, just above the uplift threshold.
     const Scene scene{.pulse = PulseKind::sine, .shape = {.cycles = 3}};
     const BoundaryLine line{0.165, 1.0, 7.37};
-    SearchResolution limited = search_resolution({});
+    FlipSearch limited = default_search;
     limited.most_amplitudes = 100;
     limited.most_in_50_digits = 0;
     const Boundary boundary =
-        boundary_on(scene, line, evenly(1.0001, 1.0008, 3), widest_kernel(),
-                    std::numeric_limits<std::size_t>::max(), nullptr, limited);
+        boundary_on(scene, line, evenly(1.0001, 1.0008, 3), widest_kernel(), limited);
     EXPECT_FALSE(boundary.complete);
     EXPECT_EQ(boundary.region_at_first, Region::undecided);
+}
+
+const AxisRange scan_of_tile{0.5, 16, 156};
+
+Problem boundary_of_blocks(std::vector<Given> blocks_and_frequencies)
+{
+    blocks_and_frequencies.push_back(axis("amplitude", scan_of_tile));
+    return {.grid = grid_of({}, std::move(blocks_and_frequencies)),
+            .product = Product::boundary,
+            .fields = {Field::flip_amplitude, Field::region_below, Field::region_above}};
+}
+
+TEST(BoundaryTile, HasTheFlipsOfALine)
+{
+    const Problem problem = boundary_of_blocks({axis("slenderness", {paper_alpha, 0.2}),
+                                                axis("restitution_of_maximum", {0.7, 1}),
+                                                axis("frequency", {1, 2, 3, 20})});
+    const Boundary boundary = boundary_on({}, {paper_alpha, paper_r_max, 3},
+                                          Axis(scan_of_tile).values(), widest_kernel());
+    ASSERT_EQ(boundary.flips.size(), 3u);
+    for (const std::int64_t column : {2, 3}) { // the second one has no flip
+        const Tile tile{.begin = {0, 1, 0, column}, .count = {1, 1, 8, 1}};
+        const TileFields fields = compute_tile(problem, tile, widest_kernel());
+        const auto& amplitude = std::get<std::vector<double>>(fields.values[0]);
+        const auto& below = std::get<std::vector<std::uint8_t>>(fields.values[1]);
+        const auto& above = std::get<std::vector<std::uint8_t>>(fields.values[2]);
+        for (std::size_t row = 0; row < 8; ++row) {
+            if (column == 2 && row < 3) {
+                EXPECT_EQ(amplitude[row], boundary.flips[row].amplitude());
+                EXPECT_EQ(Region(below[row]), boundary.flips[row].region_below);
+                EXPECT_EQ(Region(above[row]), boundary.flips[row].region_above);
+            } else {
+                EXPECT_TRUE(std::isnan(amplitude[row]));
+                // For a line without a flip, the first row contains the region.
+                EXPECT_EQ(below[row], column == 3 && row == 0 ? std::uint8_t(Region::S) : no_flip);
+                EXPECT_EQ(above[row], no_flip);
+            }
+        }
+    }
+}
+
+TEST(BoundaryTile, ReportsWhereThereAreMoreFlipsThanRows)
+{
+    const Problem problem =
+        boundary_of_blocks({number("slenderness", paper_alpha), number("restitution", paper_r_max),
+                            number("frequency", 3)});
+    const Tile tile{.begin = {0}, .count = {2}};
+    const TileFields fields = compute_tile(problem, tile, widest_kernel());
+    EXPECT_NEAR(std::get<std::vector<double>>(fields.values[0])[1], 3.590936, 6e-7);
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[0],
+              std::uint8_t(Region::U0_plus));
+    EXPECT_EQ(std::get<std::vector<std::uint8_t>>(fields.values[2])[1],
+              std::uint8_t(Region::undecided));
 }
 
 } // namespace

@@ -95,22 +95,25 @@ TEST(ResolvedVerdicts, AreUndecidedIfMoreDigitsDoNotHelp)
 TEST(ResolvedVerdicts, AreThoseOfAtMost32PointsUnderARecordIn50Digits)
 {
     std::mt19937_64 generator(7);
-    RecordPoint point = random_record_point(generator, 150, false);
+    RecordPoint point = random_record_point(generator, 150, Directions::horizontal);
     for (int i = 0; i < 245; ++i) { // the first one that needs 50 digits and takes few steps
-        point = random_record_point(generator, 150, false);
+        point = random_record_point(generator, 150, Directions::horizontal);
     }
     Scene scene;
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
     const auto resolved = [&](std::size_t count) {
         const Point block{point.block.slenderness, 1, point.scale, point.frequency};
         const std::vector<Point> points(count, block);
-        return ends_of(PointRun(scene, points, widest_kernel()), resolved_taylor, {.region = true});
+        return outcomes_of(PointRun(scene, points, widest_kernel()), resolved_taylor,
+                           {.region = true});
     };
     EXPECT_EQ(resolved(1).flags[0], 0);
-    const Ends ends = resolved(34);
+    const Outcomes outcomes = resolved(34);
     for (std::size_t i = 0; i < 34; ++i) {
-        EXPECT_EQ(ends.flags[i] & end_flag::unresolved, i < 32 ? 0 : end_flag::unresolved) << i;
-        EXPECT_EQ(Region(ends.region[i]) == Region::undecided, i >= 32) << i;
+        EXPECT_EQ(outcomes.flags[i] & outcome_flag::unresolved,
+                  i < 32 ? 0 : outcome_flag::unresolved)
+            << i;
+        EXPECT_EQ(Region(outcomes.region[i]) == Region::undecided, i >= 32) << i;
     }
 }
 
@@ -130,10 +133,10 @@ TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
     const std::vector<Point> points = points_of_block(1, {1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
         const PointRun run({}, points, widest_kernel());
-        Ends whole(std::size_t(run.size()), {.error = true, .steps = true});
-        Ends ended = whole;
-        run.run(numerics, whole, OnUnknownError::go_on);
-        run.run(numerics, ended, OnUnknownError::stop);
+        Outcomes whole(std::size_t(run.size()), {.error = true, .steps = true});
+        Outcomes ended = whole;
+        run.run(numerics, whole, run.all());
+        run.run(numerics, ended, run.all(), UncertainImpact::stop);
         double steps_of_doubtful = 0;
         double steps_until_doubt = 0;
         for (std::size_t i = 0; i < whole.tilt.size(); ++i) {
@@ -164,12 +167,14 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
             const PointRun run({.theory = theory}, points, widest_kernel());
-            Ends ends(std::size_t(run.size()), {.error = true, .margin = true});
-            run.run(numerics, ends);
-            for (std::size_t i = 0; i < ends.margin.size(); ++i) {
-                const bool in_doubt = ends.flags[i] & end_flag::in_doubt;
-                EXPECT_EQ(in_doubt, !(ends.error[i] < std::abs(ends.margin[i])));
-                ++(!in_doubt ? sure : ends.flags[i] & end_flag::fell ? doubted_of_fallen : doubted);
+            Outcomes outcomes(std::size_t(run.size()), {.error = true, .margin = true});
+            run.run(numerics, outcomes, run.all());
+            for (std::size_t i = 0; i < outcomes.margin.size(); ++i) {
+                const bool in_doubt = outcomes.flags[i] & outcome_flag::in_doubt;
+                EXPECT_EQ(in_doubt, !(outcomes.error[i] < std::abs(outcomes.margin[i])));
+                ++(!in_doubt                                ? sure
+                   : outcomes.flags[i] & outcome_flag::fell ? doubted_of_fallen
+                                                            : doubted);
             }
         }
     }

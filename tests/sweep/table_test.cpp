@@ -18,14 +18,6 @@ const std::vector<double> widths{0.4, 0.6, 1.0};
 const std::vector<double> heights{2.0, 1.8, 5.0};
 const std::vector<double> shares{0.8, 0.9, 1.0};
 
-using Quantities = std::vector<Given>;
-
-Quantities operator+(Quantities one, const Quantities& other)
-{
-    one.insert(one.end(), other.begin(), other.end());
-    return one;
-}
-
 const Quantities table_of_blocks{column("width", widths), column("height", heights),
                                  column("restitution_of_maximum", shares)};
 

@@ -72,18 +72,18 @@ TileFields computed(const Scene& scene, const Grid& grid, const Numerics& numeri
 Truth truth_of(const Scene& scene, const Grid& grid, Kernel kernel)
 {
     const PointRun run = run_of(scene, grid, kernel);
-    Ends ends = ends_of(run, tightest, {.error = true, .margin = true});
-    for (int point = 0; point < ends.size(); ++point) {
+    Outcomes outcomes = outcomes_of(run, tightest, {.error = true, .margin = true});
+    for (int point = 0; point < outcomes.size(); ++point) {
         // Half a million impacts in 50 digits would take hours.
-        const bool hopeless = ends.flags[point] & end_flag::capped;
-        const double margin = std::abs(ends.margin[point]);
-        if (!hopeless && !(margin >= margin_that_wants_digits && ends.error[point] < margin)) {
-            run.run_exactly<Digits50>(point, ends);
+        const bool hopeless = outcomes.flags[point] & outcome_flag::capped;
+        const double margin = std::abs(outcomes.margin[point]);
+        if (!hopeless && !(margin >= margin_that_wants_digits && outcomes.error[point] < margin)) {
+            run.run_in_more_digits<Digits50>(point, outcomes);
         }
     }
-    Truth truth{ends.margin, ends.error, {}};
-    for (const std::uint8_t flags : ends.flags) {
-        truth.fell.push_back(flags & end_flag::fell);
+    Truth truth{outcomes.margin, outcomes.error, {}};
+    for (const std::uint8_t flags : outcomes.flags) {
+        truth.fell.push_back(flags & outcome_flag::fell);
     }
     return truth;
 }
@@ -110,27 +110,27 @@ void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const
                   Kernel kernel)
 {
     const PointRun run = run_of(scene, grid, kernel);
-    const Ends ends = ends_of(run, check.numerics, {.error = true, .margin = true});
-    const std::vector<double>& margins = ends.margin;
-    for (int point = 0; point < ends.size(); ++point) {
+    const Outcomes outcomes = outcomes_of(run, check.numerics, {.error = true, .margin = true});
+    const std::vector<double>& margins = outcomes.margin;
+    for (int point = 0; point < outcomes.size(); ++point) {
         const bool known = std::isfinite(truth.margin[point]) &&
                            std::isfinite(truth.error[point]) && std::isfinite(margins[point]);
         if (!known) {
             continue;
         }
         ++check.points;
-        const bool fell = ends.flags[point] & end_flag::fell;
+        const bool fell = outcomes.flags[point] & outcome_flag::fell;
         const double error = fell == truth.fell[point]
                                  ? std::abs(margins[point] - truth.margin[point])
                                  : std::numeric_limits<double>::infinity();
-        if (!std::isfinite(ends.error[point])) {
+        if (!std::isfinite(outcomes.error[point])) {
             ++check.unbounded;
-        } else if (error > ends.error[point] + truth.error[point]) {
+        } else if (error > outcomes.error[point] + truth.error[point]) {
             ++check.exceeded;
             name_point("bound exceeded", scene, check.numerics, grid, point, margins[point],
-                       ends.error[point], truth);
+                       outcomes.error[point], truth);
         } else if (error > 2 * truth.error[point]) {
-            check.ratios.push_back(ends.error[point] / error);
+            check.ratios.push_back(outcomes.error[point] / error);
         }
     }
 }

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -68,19 +69,21 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
     const auto& [scene, grid, numerics, product, fields] = work.problem;
     const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
     const std::vector<Point> points = Coordinates(scene, grid, work.tile).points();
-    const Pushes pushes(motion, scene.theory, points);
+    const ScaledPulses pulses(motion, scene.theory, points);
     const std::size_t count = points.size();
-    const Records records{.impacts = requested == ByHand::impacts,
+    std::vector<int> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    const Outputs outputs{.impacts = requested == ByHand::impacts,
                           .region = requested == ByHand::region};
     const KernelTask task{.pulse = motion,
                           .record = nullptr,
                           .points = points.data(),
-                          .push_of_point = pushes.of_point.data(),
-                          .pushes = pushes.pushes.data(),
+                          .pulse_of_point = pulses.of_point.data(),
+                          .pulses = pulses.pulses.data(),
                           .tolerance = numerics.tolerance,
-                          .records = records,
-                          .on_unknown_error = OnUnknownError::go_on,
-                          .chosen = nullptr,
+                          .outputs = outputs,
+                          .uncertain_impact = UncertainImpact::go_on,
+                          .chosen = all.data(),
                           .chosen_count = int(count),
                           .drop_requested = [](const void*) { return false; },
                           .context = nullptr};
@@ -88,25 +91,26 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
     std::vector<double> rate(count);
     std::vector<double> side(count);
     std::vector<std::uint8_t> flags(count);
-    std::vector<std::uint8_t> regions(records.region ? count : 0);
-    std::vector<double> impacts(records.impacts ? count : 0);
-    const PointEnds ends{.tilt = tilt.data(),
-                         .rate = rate.data(),
-                         .side = side.data(),
-                         .flags = flags.data(),
-                         .region = regions.data(),
-                         .margin = nullptr,
-                         .impacts = impacts.data(),
-                         .error = nullptr,
-                         .steps = nullptr,
-                         .phase = nullptr,
-                         .peak = nullptr,
-                         .lowest_turn = nullptr,
-                         .softest_impact = nullptr,
-                         .last_impact = nullptr};
+    std::vector<std::uint8_t> regions(outputs.region ? count : 0);
+    std::vector<double> impacts(outputs.impacts ? count : 0);
+    const OutcomePointers outcomes{.tilt = tilt.data(),
+                                   .rate = rate.data(),
+                                   .side = side.data(),
+                                   .flags = flags.data(),
+                                   .region = regions.data(),
+                                   .margin = nullptr,
+                                   .impacts = impacts.data(),
+                                   .error = nullptr,
+                                   .steps = nullptr,
+                                   .phase = nullptr,
+                                   .peak = nullptr,
+                                   .lowest_turn = nullptr,
+                                   .softest_impact = nullptr,
+                                   .last_impact = nullptr};
     const Integrator integrator =
         numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
-    sweep_kernel(work.kernel, integrator, Theory::nonlinear, records, false)(task, ends);
+    sweep_kernel(work.kernel, integrator, Theory::nonlinear, outputs,
+                 Directions::horizontal)(task, outcomes);
     return regions;
 }
 

@@ -8,7 +8,7 @@
 
 #include "overturn/mechanics/bounce_series.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 
 #include <array>
@@ -44,13 +44,13 @@ enum class Start { uplift, impact, sample };
 /// The acceleration of the ground over g towards the side of the tilt, over time, on the piece that
 /// contains or begins at the phase. towards: the peak of the acceleration, or the factor on the
 /// record, with the sign of the side [1].
-template <class GroundOf, Sines sines>
+template <class Excitation, Sines sines>
 class Push;
 
 template <class S, Sines sines>
-class Push<Excitation<S>, sines> {
+class Push<PulseExcitation<S>, sines> {
 public:
-    Push(const Excitation<S>& excitation, const S& towards, const S&)
+    Push(const PulseExcitation<S>& excitation, const S& towards, const S&)
         : towards_(towards), frequency_(excitation.frequency)
     {}
     S at(const S& time) const
@@ -64,9 +64,10 @@ private:
 };
 
 template <class S, Sines sines>
-class Push<RecordExcitation<S, false>, sines> {
+class Push<RecordExcitation<S, Directions::horizontal>, sines> {
 public:
-    Push(const RecordExcitation<S, false>& excitation, const S& towards, const S& phase)
+    Push(const RecordExcitation<S, Directions::horizontal>& excitation, const S& towards,
+         const S& phase)
         : begin_(phase / excitation.frequency),
           line_(excitation.template series<1>(towards, phase, excitation.frequency))
     {}
@@ -77,12 +78,12 @@ private:
     LinearPush<S> line_;
 };
 
-/// The equation of motion on the side on which the block rocks. GroundOf: Excitation, or
+/// The equation of motion on the side on which the block rocks. Excitation: PulseExcitation, or
 /// RecordExcitation without vertical motion.
-template <class S, class GroundOf, Sines sines>
+template <class S, class Excitation, Sines sines>
 class Rocking {
 public:
-    Rocking(const S& slenderness, const GroundOf& excitation)
+    Rocking(const S& slenderness, const Excitation& excitation)
         : slenderness_(slenderness), excitation_(excitation), end_(0),
           push_(excitation, S(0), excitation.motion.begin)
     {}
@@ -107,7 +108,7 @@ public:
     void begin(const S& side, const S& phase)
     {
         end_ = excitation_.motion.end_of_piece(phase) / excitation_.frequency;
-        push_ = Push<GroundOf, sines>(excitation_, side * excitation_.acceleration, phase);
+        push_ = Push<Excitation, sines>(excitation_, side * excitation_.acceleration, phase);
     }
 
     S end() const { return end_; } ///< time at which the piece ends [1/p]
@@ -115,26 +116,26 @@ public:
     /// The faster of the motion of the block and a pulse [p]. A record limits steps by its samples.
     S fastest() const
     {
-        return std::is_same_v<GroundOf, Excitation<S>> && excitation_.frequency > 1
+        return std::is_same_v<Excitation, PulseExcitation<S>> && excitation_.frequency > 1
                    ? excitation_.frequency
                    : S(1);
     }
 
 private:
     const S slenderness_;
-    const GroundOf& excitation_;
+    const Excitation& excitation_;
     S end_;
-    Push<GroundOf, sines> push_;
+    Push<Excitation, sines> push_;
 };
 
 /// The forced stage of one point. `fly(rocking, moment, start)` integrates from `moment` to the
 /// next event or the end of the piece, stores the end in `moment`, and returns the outcome. The
 /// tilt of 0 at the beginning of a flight is not an event.
-template <class S, Sines sines, class GroundOf, class Fly>
-PeerEnd<S> run_point(const Block<S>& block, const GroundOf& excitation, Fly&& fly)
+template <class S, Sines sines, class Excitation, class Fly>
+PeerEnd<S> run_point(const Block<S>& block, const Excitation& excitation, Fly&& fly)
 {
     using std::sqrt;
-    Rocking<S, GroundOf, sines> rocking(block.slenderness, excitation);
+    Rocking<S, Excitation, sines> rocking(block.slenderness, excitation);
     const auto& motion = excitation.motion;
     const S sqrt_restitution = sqrt(block.restitution);
     State<S> end{S(0), S(0), S(1)};
@@ -194,15 +195,15 @@ auto with_excitation(const Scene& scene, const Point& point, const Visitor& visi
 {
     const S slenderness(point.slenderness);
     if (scene.is_recorded()) {
-        return visit(RecordExcitation<S, false>{
+        return visit(RecordExcitation<S, Directions::horizontal>{
             .motion = record_motion<S>(*scene.records.front()),
             .acceleration = S(point.amplitude),
             .frequency = S(point.frequency),
             .threshold = uplift_acceleration<Theory::nonlinear>(slenderness)});
     }
-    return visit(excitation_of<Theory::nonlinear>(ground_motion<S>(PulseKind::one_sine),
-                                                  slenderness, S(point.amplitude),
-                                                  S(point.frequency)));
+    return visit(pulse_excitation<Theory::nonlinear>(ground_motion<S>(PulseKind::one_sine),
+                                                     slenderness, S(point.amplitude),
+                                                     S(point.frequency)));
 }
 
 /// The forced stage of every point; see run_point().

@@ -58,9 +58,9 @@ int rocking_derivative(double time, N_Vector state, N_Vector derivative, void* r
 inline auto* rocking_derivative_of(const PeerProblem& problem)
 {
     return problem.scene.is_recorded()
-               ? rocking_derivative<
-                     Rocking<double, RecordExcitation<double, false>, Sines::library>>
-               : rocking_derivative<Rocking<double, Excitation<double>, Sines::library>>;
+               ? rocking_derivative<Rocking<
+                     double, RecordExcitation<double, Directions::horizontal>, Sines::library>>
+               : rocking_derivative<Rocking<double, PulseExcitation<double>, Sines::library>>;
 }
 
 /// The gaps to the ground and to pi/2; each closes at an event.

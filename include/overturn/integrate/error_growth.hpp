@@ -24,6 +24,14 @@ struct StepErrors {
     T turning_tilt;         ///< the tilt where the rate changes its sign, see turning_tilt() [rad]
 };
 
+/// Independent round-off errors of a step.
+template <Number T>
+struct RoundOff {
+    T tilt; ///< [rad]
+    T rate; ///< [rad]
+    T time; ///< [1/p]
+};
+
 template <Number T>
 class ErrorGrowth {
     using S = scalar_t<T>;
@@ -92,20 +100,20 @@ public:
         rate_rate_ = select<T>(lanes, fma(grown, rate_rate_, (weight + own) * rate), rate_rate_);
     }
 
-    /// Adds round-off, whose squares add up because it is random: independent errors of tilt and
-    /// rate [rad], and an error of the time [1/p], which shifts both along the motion.
-    void add_round_off(const T& tilt, const T& rate, const T& time, const T& speed,
-                       const T& acceleration, const Mask& lanes)
+    /// Adds round-off, whose squares add up because it is random. speed, acceleration: of the
+    /// motion, along which the error of the time shifts tilt and rate.
+    void add_round_off(const RoundOff<T>& error, const T& speed, const T& acceleration,
+                       const Mask& lanes)
     {
         using arithmetic::fma;
-        const T along = time * speed;
-        const T faster = time * acceleration;
+        const T along = error.time * speed;
+        const T faster = error.time * acceleration;
         const auto sum = [&](const T& to, const T& own, const T& shift) -> T {
             return select<T>(lanes, to + fma(own, own, shift), to);
         };
-        tilt_tilt_ = sum(tilt_tilt_, tilt, along * along);
+        tilt_tilt_ = sum(tilt_tilt_, error.tilt, along * along);
         tilt_rate_ = sum(tilt_rate_, zero_, along * faster);
-        rate_rate_ = sum(rate_rate_, rate, faster * faster);
+        rate_rate_ = sum(rate_rate_, error.rate, faster * faster);
     }
 
     /// The error bound of by_tilt * tilt + by_rate * rate.

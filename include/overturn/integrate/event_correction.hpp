@@ -2,7 +2,7 @@
 #pragma once
 
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // The first impact or fall within a step of a Taylor series.
 #pragma once
 
-#include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/event_correction.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
 

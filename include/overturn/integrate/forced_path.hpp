@@ -16,14 +16,14 @@ struct ForcedPath {
     ForcedEnd<double> end;
 };
 
-/// excitation: Excitation<double> or RecordExcitation<double, true>.
-template <Theory theory, class GroundOf>
-ForcedPath forced_path(const Block<double>& block, const GroundOf& excitation);
+/// excitation: PulseExcitation<double> or RecordExcitation<double, Directions::both>.
+template <Theory theory, class Excitation>
+ForcedPath forced_path(const Block<double>& block, const Excitation& excitation);
 
 /// The state at a phase [rad] between an event, after which the block rocks, and the next one.
 /// Evaluates the series of the step itself.
-template <Theory theory, class GroundOf>
+template <Theory theory, class Excitation>
 State<double> state_after(const Event<double>& event, const Block<double>& block,
-                          const GroundOf& excitation, double phase);
+                          const Excitation& excitation, double phase);
 
 } // namespace overturn

@@ -28,22 +28,24 @@ struct Event {
     Rocking<T> rocking;
 };
 
-/// Integrates one block per lane. Method: RungeKutta or Taylor<order>. GroundOf: see Excitation.
-template <class Method, Theory theory, Records records, Number T, class GroundOf = Excitation<T>>
+/// Integrates one block per lane. Method: RungeKutta or Taylor<order>. Excitation: PulseExcitation
+/// or RecordExcitation.
+template <class Method, Theory theory, Outputs outputs, Number T,
+          class Excitation = PulseExcitation<T>>
 class ForcedStage {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
 
 public:
-    /// on_unknown_error: used only if errors are recorded.
-    ForcedStage(const Block<T>& block, const GroundOf& excitation, const S& tolerance,
-                OnUnknownError on_unknown_error = OnUnknownError::go_on)
+    /// uncertain_impact: used only if the error is an output.
+    ForcedStage(const Block<T>& block, const Excitation& excitation, const S& tolerance,
+                UncertainImpact uncertain_impact = UncertainImpact::go_on)
         : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
           step_limit_(S(most_steps) + excitation.motion.pieces()),
           stepper_(block, excitation, tolerance),
           now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
           lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
-          on_unknown_error_(on_unknown_error)
+          uncertain_impact_(uncertain_impact)
     {
         using std::sqrt;
         sqrt_restitution_ = sqrt(block.restitution);
@@ -65,7 +67,7 @@ public:
         wait_for_uplift(active_);
     }
 
-    /// The events so far, in order; only if recorded.
+    /// The events so far, in order; only if they are an output.
     const auto& events() const { return events_; }
 
     const Block<T>& block() const { return block_; }
@@ -80,10 +82,10 @@ public:
             straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_); });
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             margin_error_.pass_step(block_, excitation_, now_, step, moved);
         }
-        if constexpr (records.peak) {
+        if constexpr (outputs.peak) {
             T& peak = end_of_run_.peak;
             peak = select<T>(moved, greater<T>(step.peak, peak), peak);
             T& turn = end_of_run_.lowest_turn;
@@ -111,7 +113,7 @@ public:
     ForcedEnd<T> end() const
     {
         ForcedEnd<T> end = end_of_run_;
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             end = margin_error_.at_end(block_, excitation_, now_, end);
         }
         return end;
@@ -120,7 +122,7 @@ public:
 private:
     void record([[maybe_unused]] EventKind kind, [[maybe_unused]] const Mask& happened)
     {
-        if constexpr (records.events) {
+        if constexpr (outputs.events) {
             if (happened) {
                 events_.push_back({kind, now_});
             }
@@ -172,13 +174,13 @@ private:
         const State<T> after =
             state_after_impact<T>({zero_, now_.rate, now_.side}, sqrt_restitution_);
         Mask rests = lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, after.rate);
-        if constexpr (records.events) { // show the individual bounces
+        if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
         }
-        if constexpr (records.peak && std::same_as<GroundOf, Excitation<T>>) {
+        if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {
             const T push = now_.side * excitation_.ground(now_.phase);
             const Mask outward =
                 rocking_acceleration<theory>(zero_, block_.slenderness, push) > zero_;
@@ -190,7 +192,7 @@ private:
         }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);
-        if constexpr (records.impacts) {
+        if constexpr (outputs.impacts) {
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
@@ -198,28 +200,28 @@ private:
         record(EventKind::rest, rests);
         end_of_run_.rested = end_of_run_.rested || rests;
         if (any<T>(rests)) {
-            if constexpr (records.error) {
+            if constexpr (outputs.error) {
                 margin_error_.forget(rests);
             }
             wait_for_uplift(rests);
         }
         stepper_.turn(now_, lanes && active_);
-        if constexpr (records.error) {
-            if (on_unknown_error_ == OnUnknownError::stop) {
+        if constexpr (outputs.error) {
+            if (uncertain_impact_ == UncertainImpact::stop) {
                 finish(active_ && margin_error_.is_doubtful());
             }
         }
     }
 
     const Block<T> block_;
-    const GroundOf excitation_;
+    const Excitation excitation_;
     const T end_;
     const T zero_;
     const T step_limit_;
     T sqrt_restitution_;
 
     typename Method::template Stepper<
-        theory, T, Records{.error = records.error, .peak = records.peak}, GroundOf>
+        theory, T, Outputs{.error = outputs.error, .peak = outputs.peak}, Excitation>
         stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift; the flank of a lobe lifts a block only once
@@ -228,11 +230,11 @@ private:
 
     struct NoError {};
     struct NoEvents {};
-    [[no_unique_address]] std::conditional_t<records.error, MarginError<theory, T>, NoError>
+    [[no_unique_address]] std::conditional_t<outputs.error, MarginError<theory, T>, NoError>
         margin_error_;
-    [[no_unique_address]] std::conditional_t<records.events, std::vector<Event<T>>, NoEvents>
+    [[no_unique_address]] std::conditional_t<outputs.events, std::vector<Event<T>>, NoEvents>
         events_;
-    OnUnknownError on_unknown_error_;
+    UncertainImpact uncertain_impact_;
 };
 
 /// Advances all stages in turn until all are finished, but at most `turns` times; subtracts the
@@ -255,12 +257,12 @@ bool run_in_turns(std::array<Stage, count>& stages, int& turns)
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step
 /// of tilt and rate, over the size of the motion, at most alpha [1].
-template <class Method, Theory theory, Records records = Records{.impacts = true}, Number T,
-          class GroundOf>
-ForcedEnd<T> run_forced_stage(const Block<T>& block, const GroundOf& excitation,
+template <class Method, Theory theory, Outputs outputs = Outputs{.impacts = true}, Number T,
+          class Excitation>
+ForcedEnd<T> run_forced_stage(const Block<T>& block, const Excitation& excitation,
                               const scalar_t<T>& tolerance)
 {
-    ForcedStage<Method, theory, records, T, GroundOf> stage(block, excitation, tolerance);
+    ForcedStage<Method, theory, outputs, T, Excitation> stage(block, excitation, tolerance);
     while (stage.is_active()) {
         stage.advance();
     }

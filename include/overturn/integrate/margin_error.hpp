@@ -4,7 +4,7 @@
 
 #include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
 
@@ -36,8 +36,8 @@ public:
         growth_.pass(step.errors.variation, lanes);
         growth_.add(fma(rounding * duration, rate, step.errors.tilt),
                     fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
-        growth_.add_round_off(T(rounding * step.tilt), T(rounding * rate), T(rounding * late),
-                              step.rate, step.errors.acceleration, lanes);
+        growth_.add_round_off({rounding * step.tilt, rounding * rate, rounding * late}, step.rate,
+                              step.errors.acceleration, lanes);
 
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;

@@ -33,12 +33,12 @@ struct MoreDigits<Digits50> {
     static constexpr int most_steps = 2000;
 };
 
-/// Like run_forced_stage(), for one block, with impacts and error recorded. A run that exceeds
+/// Like run_forced_stage(), for one block, with the outputs impacts and error. A run that exceeds
 /// `step_limit` steps, in addition to one per interval of a record, is capped, as is one that
 /// stop_requested() ends; it is called every few milliseconds. T: long double or Digits50;
-/// Excitation<T>, or RecordExcitation<T, true>. Compiled in src/integrate.
-template <class T, Theory theory, class GroundOf>
-ForcedEnd<T> run_in_more_digits(const Block<T>& block, const GroundOf& excitation,
+/// PulseExcitation<T>, or RecordExcitation<T, Directions::both>. Compiled in src/integrate.
+template <class T, Theory theory, class Excitation>
+ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,
                                 double tolerance = MoreDigits<T>::tolerance,
                                 int step_limit = MoreDigits<T>::most_steps);

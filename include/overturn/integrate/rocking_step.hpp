@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"
-#include "overturn/integrate/records.hpp"
+#include "overturn/integrate/outputs.hpp"
 #include "overturn/integrate/step.hpp"
 
 namespace overturn {
@@ -29,13 +29,13 @@ struct StepEnd {
     mask_t<T> broken;  ///< a number is not finite, and would not be with any other step
 };
 
-/// A step whose errors are recorded.
+/// A step with the output `error`.
 template <Number T>
 struct StepEndWithErrors : StepEnd<T> {
     StepErrors<T> errors;
 };
 
-/// A step whose extreme tilts are recorded.
+/// A step with the output `peak`.
 template <Number T>
 struct StepEndWithPeak : StepEnd<T> {
     T peak;        ///< the largest tilt within the step [rad]
@@ -149,17 +149,16 @@ struct TurnsInStep {
 };
 
 /// The tilt at which the block turns outward within a step; infinite if it does not, or above
-/// `so_far` [rad]. start, end: per step; least: a lower bound of the tilt. See highest_tilt().
+/// `so_far` [rad]. turns: per step; least: a lower bound of the tilt. See highest_tilt().
 template <Number T, class SampleAt>
-T lowest_turn(const StepPoint<T>& start, const StepPoint<T>& end, const T& least, const T& so_far,
-              const mask_t<T>& lanes, const SampleAt& sample_at)
+T lowest_turn(const TurnsInStep<T>& turns, const T& least, const T& so_far, const mask_t<T>& lanes,
+              const SampleAt& sample_at)
 {
     using std::abs;
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));
     const T none(std::numeric_limits<S>::infinity());
-    const TurnsInStep<T> turns(start, end, one);
     const mask_t<T> suspect =
         lanes && ((turns.once && turns.inward) || turns.twice) && least < so_far;
     if (!any<T>(suspect)) {
@@ -178,20 +177,19 @@ T lowest_turn(const StepPoint<T>& start, const StepPoint<T>& end, const T& least
     return select<T>(suspect && found && here.acceleration > zero, here.tilt, none);
 }
 
-/// The tilt where the rate changes its sign within a step of length h, if it may be near the ground
+/// The tilt where the rate changes its sign within a step, if it may be near the ground
 /// or pi/2; otherwise a tilt nearer to the ground or to pi/2 than the turn, as a conservative
 /// substitute [rad]. If the rate has the same sign at both ends, the block may have turned twice:
 /// then this is the lower turn. lowest, highest: bounds of the tilt within the step [rad];
 /// tilt_at_turn(lanes, share) finds it in these lanes, starting from an estimate of its share of
 /// the step.
 template <Number T, class Find>
-T turning_tilt(const T& slenderness, const StepPoint<T>& start, const StepPoint<T>& end, const T& h,
-               const T& lowest, const T& highest, const Find& tilt_at_turn)
+T turning_tilt(const T& slenderness, const TurnsInStep<T>& turns, const T& lowest, const T& highest,
+               const Find& tilt_at_turn)
 {
     using S = scalar_t<T>;
     const T near_ground = slenderness * T(S(1) / 16);
     const T near_flat(pi<S>() / 2 - S(1) / 16);
-    const TurnsInStep<T> turns(start, end, h);
     const mask_t<T> suspect = (turns.once && (lowest < near_ground || highest > near_flat)) ||
                               (turns.twice && lowest < near_ground);
     const T nearer = select<T>(turns.once && turns.inward, near_ground, near_flat);

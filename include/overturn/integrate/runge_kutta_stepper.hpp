@@ -2,12 +2,12 @@
 // is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
-#include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/event_correction.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/step.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/wavelet.hpp"
 
 #include <type_traits>
@@ -15,7 +15,7 @@
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
-template <Theory theory, Number T, Records records = Records{}>
+template <Theory theory, Number T, Outputs outputs = Outputs{}>
 class RungeKuttaStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -24,7 +24,8 @@ class RungeKuttaStepper {
     static constexpr double longest_angle = 2;
 
 public:
-    RungeKuttaStepper(const Block<T>& block, const Excitation<T>& excitation, const S& tolerance)
+    RungeKuttaStepper(const Block<T>& block, const PulseExcitation<T>& excitation,
+                      const S& tolerance)
         : block_(block), excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
           tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
           towards_fall_(zero_), ends_at_event_(zero_ != zero_)
@@ -41,7 +42,7 @@ public:
                 excitation.motion.pulse,
                 T(rough_log2(negligible) - rough_log2(T(abs(excitation.acceleration)))));
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
@@ -61,33 +62,23 @@ public:
         const T push = now.side * excitation_.ground(now.phase);
         const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             remember(sample(now.side, now.tilt, now.rate, now.phase, now.phase), lanes);
         }
     }
 
     /// One trial step in every lane; the results of inactive lanes are meaningless. so_far: peak
-    /// and lowest turn of the previous steps, if recorded.
+    /// and lowest turn of the previous steps, if they are outputs.
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far)
     {
-        const StepMotion<T> start{now.tilt, now.rate, acceleration_};
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / excitation_.frequency;
         const T longest = longest_step(now);
         const Mask last = !ends_at_event_ && longest >= left;
         const T h = select<T>(ends_at_event_, step_to_event_, select<T>(last, left, longest));
         const T phase_step = h * excitation_.frequency;
-        // The stages are compiled for each pulse. Computing the pushes before the stages, or
-        // selecting the pulse in each stage, costs a tenth more, because it prevents overlapping
-        // execution.
-        const Step<T> step = excitation_.motion.with_formula([&](const auto& formula) {
-            return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
-                using arithmetic::fma;
-                const T phase = fma(T(DormandPrince::node_value<S>(stage)), phase_step, now.phase);
-                const T push = now.side * (excitation_.acceleration * formula.value(phase));
-                return rocking_acceleration<theory>(tilt, block_.slenderness, push);
-            });
-        });
+        const StepMotion<T> start{now.tilt, now.rate, acceleration_};
+        const Step<T> step = trial_step(start, h, now, phase_step);
         const T error = relative_error(step, h);
         const Mask accepted = error <= T(S(1));
 
@@ -116,26 +107,19 @@ public:
             delay =
                 move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
         }
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             const T phase = now.phase + phase_step;
             const Sample last_sample =
                 sample(now.side, step.end.position, step.end.rate, phase, now.phase);
-            const StepErrors<T> errors = this->errors(now, start, step, h, delay, last_sample);
+            const StepErrors<T> errors = this->errors(now, {start, step, h}, delay, last_sample);
             remember(last_sample, moved);
             if (excitation_.motion.has_kink()) { // the jerk is different on the next piece
                 remember(sample(now.side, step.end.position, step.end.rate, phase, end.phase),
                          moved);
             }
             return StepEndWithErrors<T>{end, errors};
-        } else if constexpr (records.peak) {
-            const Quintic<T> tilt = dense_output(start, step.end, h);
-            const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
-            const StepPoint<T> first{start.rate * h, start.acceleration * h * h};
-            const StepPoint<T> after{step.end.rate * h, step.end.acceleration * h * h};
-            return StepEndWithPeak<T>{
-                end, highest_tilt<T>(now.tilt, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
-                lowest_turn<T>(first, after, lower_bound(tilt), so_far.lowest_turn,
-                               moved && !arrived, sample_at)};
+        } else if constexpr (outputs.peak) {
+            return with_extremes({start, step, h}, end, so_far, moved && !arrived);
         } else {
             return end;
         }
@@ -150,6 +134,44 @@ private:
         return is_wavelet_ ? lesser<T>(step_size_,
                                        select<T>(now.phase < tail_end_, longest_seen_, step_size_))
                            : step_size_;
+    }
+
+    /// A step with its beginning and its length. With copies instead of references, steps take a
+    /// quarter longer.
+    struct TrialStep {
+        const StepMotion<T>& start;
+        const Step<T>& step;
+        const T& length;
+    };
+
+    /// The stages are compiled for each pulse. Computing the pushes before the stages, or selecting
+    /// the pulse in each stage, costs a tenth more, because it prevents overlapping execution.
+    Step<T> trial_step(const StepMotion<T>& start, const T& h, const Rocking<T>& now,
+                       const T& phase_step) const
+    {
+        return excitation_.motion.with_formula([&](const auto& formula) {
+            return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
+                using arithmetic::fma;
+                const T phase = fma(T(DormandPrince::node_value<S>(stage)), phase_step, now.phase);
+                const T push = now.side * (excitation_.acceleration * formula.value(phase));
+                return rocking_acceleration<theory>(tilt, block_.slenderness, push);
+            });
+        });
+    }
+
+    /// turning: the lanes in which the turns of the step count.
+    StepEndWithPeak<T> with_extremes(const TrialStep& trial, const StepEnd<T>& end,
+                                     const auto& so_far, const Mask& turning) const
+    {
+        const auto& [start, step, h] = trial;
+        const Quintic<T> tilt = dense_output(start, step.end, h);
+        const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
+        const TurnsInStep<T> turns({start.rate * h, start.acceleration * h * h},
+                                   {step.end.rate * h, step.end.acceleration * h * h}, T(S(1)));
+        return {
+            end,
+            highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
+            lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, sample_at)};
     }
 
     /// Local error over the allowed error. The latter is the tolerance times the size of the
@@ -219,11 +241,12 @@ private:
     ///
     /// delay: time from the end of the step to the event. If the variation did not include it,
     /// errors of the time would become errors of the energy at each of thousands of bounces.
-    StepErrors<T> errors(const Rocking<T>& now, const StepMotion<T>& start, const Step<T>& step,
-                         const T& h, const T& delay, const Sample& last) const
+    StepErrors<T> errors(const Rocking<T>& now, const TrialStep& trial, const T& delay,
+                         const Sample& last) const
     {
         using arithmetic::fma;
         using std::abs;
+        const auto& [start, step, h] = trial;
         const StepMotion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);
         const T middle_tilt =
@@ -266,15 +289,15 @@ private:
             }
             return restricted(tilt, zero_, s).back();
         };
+        const TurnsInStep<T> turns({start.rate, start.acceleration}, {end.rate, end.acceleration},
+                                   h);
         return {.variation = variation_over<T>(lesser<T>(h + delay, longest), first.stiffness,
                                                middle.stiffness, last.stiffness),
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
-                .turning_tilt =
-                    turning_tilt<T>(block_.slenderness, {start.rate, start.acceleration},
-                                    {end.rate, end.acceleration}, h, lower_bound(tilt),
-                                    upper_bound(tilt), tilt_at_turn)};
+                .turning_tilt = turning_tilt<T>(block_.slenderness, turns, lower_bound(tilt),
+                                                upper_bound(tilt), tilt_at_turn)};
     }
 
     /// Finds the first impact or fall within an accepted step. In lanes with an event, the next
@@ -301,7 +324,7 @@ private:
     }
 
     const Block<T> block_;
-    const Excitation<T> excitation_;
+    const PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const S tolerance_;
     const T zero_;
@@ -316,17 +339,17 @@ private:
     T longest_seen_ = T(S(0)); // longest step that resolves a wavelet [1/p]
 
     struct Nothing {};
-    [[no_unique_address]] std::conditional_t<records.error, Sample, Nothing>
+    [[no_unique_address]] std::conditional_t<outputs.error, Sample, Nothing>
         sample_; // at the beginning of the next step
-    [[no_unique_address]] std::conditional_t<records.error, T, Nothing>
+    [[no_unique_address]] std::conditional_t<outputs.error, T, Nothing>
         embedded_share_; // see errors()
 };
 
 /// Selects Dormand-Prince 5(4).
 struct RungeKutta {
-    template <Theory theory, Number T, Records records, class GroundOf>
-        requires std::same_as<GroundOf, Excitation<T>>
-    using Stepper = RungeKuttaStepper<theory, T, records>;
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+        requires std::same_as<Excitation, PulseExcitation<T>>
+    using Stepper = RungeKuttaStepper<theory, T, outputs>;
 };
 
 } // namespace overturn

@@ -2,11 +2,11 @@
 // determine the step size. An event is a root of the series and ends the step. No step is repeated.
 #pragma once
 
-#include "overturn/integrate/crossing.hpp"
 #include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
 #include "overturn/mechanics/wavelet.hpp"
 
@@ -14,8 +14,8 @@ namespace overturn {
 
 /// order: of the series of the rate. tolerance: bound of its last terms at the end of a step, over
 /// the size of the motion [1].
-template <int order, Theory theory, Number T, Records records = Records{},
-          class GroundOf = Excitation<T>>
+template <int order, Theory theory, Number T, Outputs outputs = Outputs{},
+          class Excitation = PulseExcitation<T>>
 class TaylorStepper {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
@@ -25,15 +25,15 @@ class TaylorStepper {
     /// With four terms, errors are up to ten times smaller at the same tolerance; two and four take
     /// the same time for the same largest error.
     static constexpr int last_terms = 4;
-    static constexpr bool may_be_wavelet = decltype(GroundOf::motion)::may_be_wavelet;
-    /// The order to which the series is known if errors are recorded. In the linear theory, a term
-    /// is almost free.
+    static constexpr bool may_be_wavelet = decltype(Excitation::motion)::may_be_wavelet;
+    /// The order to which the series is known if the error is an output. In the linear theory, a
+    /// term is almost free.
     static constexpr int known_order =
-        !records.error ? order : order + (theory == Theory::linear ? 3 : 1);
+        !outputs.error ? order : order + (theory == Theory::linear ? 3 : 1);
     using KnownSeries = RockingSeries<known_order, T>;
 
 public:
-    TaylorStepper(const Block<T>& block, const GroundOf& excitation, const S& tolerance)
+    TaylorStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
         : slenderness_(block.slenderness), excitation_(excitation),
           is_wavelet_(excitation.motion.is_wavelet())
     {
@@ -41,7 +41,7 @@ public:
         const T one(S(1));
         const T frequency = excitation.frequency;
         fastest_ = select<T>(frequency > one, frequency, one);
-        if constexpr (!std::same_as<GroundOf, Excitation<T>>) {
+        if constexpr (!std::same_as<Excitation, PulseExcitation<T>>) {
             // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
             // change by the same share of epsilon in each of thousands of steps, and the error
             // would exceed its bound, in which round-off is random.
@@ -52,7 +52,7 @@ public:
         tolerance_ = T(tolerance);
         log2_tolerance_ = rough_log2(tolerance_);
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
-        if constexpr (records.error) {
+        if constexpr (outputs.error) {
             unrolled<last_terms>([&]<int i>() {
                 constexpr int k = order + 1 - last_terms + i;
                 T ratio = rough_power_of_two(T(log2_tolerance_ * T(S(1) / k)));
@@ -79,7 +79,7 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     /// One step in every lane; the results of inactive lanes are meaningless. so_far: peak and
-    /// lowest turn of the previous steps, if recorded.
+    /// lowest turn of the previous steps, if they are outputs.
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
     {
         const auto push =
@@ -116,24 +116,22 @@ public:
         const Mask ends_at_event = event.strikes || event.falls;
         if (any<T>(ends_at_event)) {
             end.tilt = select<T>(ends_at_event, tilt, end.tilt);
-            const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
-            move_to_event(end, event.strikes, event.falls, acceleration, excitation_);
+            move_to_event(end, event.strikes, event.falls,
+                          T(slope_of_series(series.rate, h) * (fastest_ * fastest_)), excitation_);
         }
-        if constexpr (records.error) {
-            return StepEndWithErrors<T>{end, errors(now, known, push, bounds, end, h)};
-        } else if constexpr (records.peak) {
-            const auto sample_at = [&](const T& share) -> MotionSample<T> {
-                const T time = share * h;
-                return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
-                        slope_of_series(series.rate, time) * h * h};
-            };
-            const T most = upper_bound(bounds.upper());
+        if constexpr (outputs.error) {
+            return StepEndWithErrors<T>{end, errors(now, {known, bounds, h}, push, end)};
+        } else if constexpr (outputs.peak) {
+            const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
             const T per_step = h * unit_;
-            const StepPoint<T> first{now.rate * per_step, series.rate[1] * h * h};
-            const StepPoint<T> after{end.rate * per_step, slope_of_series(series.rate, h) * h * h};
+            const TurnsInStep<T> turns(
+                {now.rate * per_step, series.rate[1] * h * h},
+                {end.rate * per_step, slope_of_series(series.rate, h) * h * h}, T(S(1)));
             return StepEndWithPeak<T>{
-                end, highest_tilt<T>(now.tilt, end.tilt, most, so_far.peak, sample_at),
-                lowest_turn<T>(first, after, lower_bound(bounds.lower()), so_far.lowest_turn,
+                end,
+                highest_tilt<T>(now.tilt, end.tilt, upper_bound(bounds.upper()), so_far.peak,
+                                sample_at),
+                lowest_turn<T>(turns, lower_bound(bounds.lower()), so_far.lowest_turn,
                                active && !end.strikes, sample_at)};
         } else {
             return end;
@@ -141,6 +139,21 @@ public:
     }
 
 private:
+    /// The motion within a step of this length.
+    struct Motion {
+        const KnownSeries& known;
+        const Enclosure<T>& bounds; ///< of the tilt
+        const T& length;
+    };
+
+    /// The motion at a share of a step of length h.
+    static MotionSample<T> sample_of(const Series& series, const T& h, const T& share)
+    {
+        const T time = share * h;
+        return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
+                slope_of_series(series.rate, time) * h * h};
+    }
+
     /// The peak ground acceleration over g, positive towards the side of the tilt; 0 once a wavelet
     /// is below the round-off of the acceleration of the block.
     T acceleration(const Rocking<T>& now) const
@@ -195,10 +208,9 @@ private:
     /// follow are not. In the linear theory, the terms of the motion decrease faster than any
     /// geometric series; after the known terms, the ratio is at most a third. The push of a wavelet
     /// is added. The bound is twice the sum; in one of 10^7 points it was too small.
-    StepErrors<T> errors(const Rocking<T>& now, const KnownSeries& known, const auto& push,
-                         const Enclosure<T>& bounds, const StepEnd<T>& end, const T& h) const
+    T truncation_error(const Rocking<T>& now, const KnownSeries& known, const auto& push,
+                       const T& h) const
     {
-        using arithmetic::fma;
         using std::abs;
         T next(S(0));
         T following(S(0));
@@ -220,15 +232,22 @@ private:
             }
         });
         const T sum = next + following;
-        const T left_out = sum + sum;
+        return sum + sum;
+    }
 
+    StepErrors<T> errors(const Rocking<T>& now, const Motion& motion, const auto& push,
+                         const StepEnd<T>& end) const
+    {
+        using arithmetic::fma;
+        const auto& [known, bounds, h] = motion;
+        const T left_out = truncation_error(now, known, push, h);
         const Series series = leading<order>(known);
         const T middle = h * T(S(0.5));
         const auto pushes = pushes_at(now, push, middle, h, end.phase);
         const auto stiffness = [&](const T& tilt, const auto& push_there) -> T {
             return rocking_stiffness<theory>(tilt, slenderness_, push_there);
         };
-        const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
+        const auto tilt_at_turn = [&, &h = h](const Mask& turns, const T& share) -> T {
             const T zero(S(0));
             const T one(S(1));
             T time = h * share;
@@ -244,6 +263,8 @@ private:
         const T longest = T(S(longest_variation));
         const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
         const T acceleration = slope_of_series(series.rate, h);
+        const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
+                                   {end.rate * unit_, acceleration}, h);
         return {.variation =
                     variation_over<T>(lesser<T>(duration, longest), stiffness(now.tilt, pushes[0]),
                                       stiffness(value_of_series(series.tilt, middle), pushes[1]),
@@ -251,9 +272,7 @@ private:
                 .tilt = left_out * h * T(S(1) / (order + 2)),
                 .rate = fma(left_out, fastest_, unknown),
                 .acceleration = acceleration * (fastest_ * fastest_),
-                .turning_tilt = turning_tilt<T>(slenderness_, {series.rate[0], series.rate[1]},
-                                                {end.rate * unit_, acceleration}, h,
-                                                lower_bound(bounds.lower()),
+                .turning_tilt = turning_tilt<T>(slenderness_, turns, lower_bound(bounds.lower()),
                                                 upper_bound(bounds.upper()), tilt_at_turn)};
     }
 
@@ -261,7 +280,7 @@ private:
     auto pushes_at(const Rocking<T>& now, const auto& push, const T& middle, const T& h,
                    const T& end) const
     {
-        if constexpr (std::same_as<GroundOf, Excitation<T>>) {
+        if constexpr (std::same_as<Excitation, PulseExcitation<T>>) {
             std::array<T, 3> pushes = excitation_.ground(
                 std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end});
             for (T& value : pushes) {
@@ -297,7 +316,7 @@ private:
     }
 
     const T slenderness_;
-    const GroundOf excitation_;
+    const Excitation excitation_;
     const bool is_wavelet_;
     T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
     T fastest_;        // its reciprocal
@@ -306,14 +325,14 @@ private:
     T log2_tolerance_;
     T log2_most_allowed_;
     T lost_ = T(S(0));                                            // see acceleration()
-    std::array<T, records.error ? last_terms : 0> following_per_; // see errors()
+    std::array<T, outputs.error ? last_terms : 0> following_per_; // see errors()
 };
 
 /// Selects Taylor series of this order.
 template <int order>
 struct Taylor {
-    template <Theory theory, Number T, Records records, class GroundOf>
-    using Stepper = TaylorStepper<order, theory, T, records, GroundOf>;
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+    using Stepper = TaylorStepper<order, theory, T, outputs, Excitation>;
 };
 
 } // namespace overturn

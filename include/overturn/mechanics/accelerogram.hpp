@@ -24,7 +24,7 @@ public:
 
     /// The largest factor on the record at which gravity stays positive at every time: 1 / -min of
     /// the upwards acceleration; infinite if that is not negative [1].
-    double largest_scale() const;
+    double free_fall_scale() const;
 
     /// The factor on the record above which it lifts a block that the acceleration `threshold` [1]
     /// lifts without vertical motion; infinite if no factor does [1].

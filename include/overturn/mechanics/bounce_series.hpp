@@ -2,7 +2,7 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
 

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/excitation.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,6 +19,65 @@ namespace overturn {
 struct LowBounces {
     double tilt; ///< of |theta| [rad]
     double rate; ///< of |theta'| [rad]
+};
+
+/// What the ground does within a step of bound_of_low_bounces(), for a block on either side.
+struct PullsInStep {
+    std::array<double, 2> weakest; ///< the smallest pull towards the ground
+    std::array<double, 2> rise;    ///< the largest increase of the pull
+};
+
+/// A step of bound_of_low_bounces(), in the letters of its equations.
+struct LowBounceStep {
+    double duration; ///< [1/p]
+    double highest;  ///< the tilt above which there is no bound [rad]
+    double k;
+    double tangent; ///< tan(alpha)
+    double growth = duration < 1 ? k * duration * duration : 1;
+
+    /// The largest tilt of a flight of the energy e under the pull g.
+    double height(double e, double g) const
+    {
+        const double square = g * g - 2 * k * e;
+        return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
+    }
+
+    struct Bounds {
+        double energy;
+        double tilt;
+    };
+
+    /// An energy that is not exceeded by the growth computed from it, and its largest tilt.
+    std::optional<Bounds> after(const Bounds& before, const PullsInStep& pulls,
+                                double lifting) const
+    {
+        const auto& [energy, tilt] = before;
+        // x increases by the duration of the step times the bound of x' at the increased x, which
+        // is the larger root of a quadratic equation.
+        const auto after_step = [&, tilt = tilt](double e) -> double {
+            const double linear = tilt + lifting * duration * duration;
+            const double constant = tilt * tilt - 2 * e * duration * duration;
+            return (linear + std::sqrt(std::max(0.0, linear * linear - (1 - growth) * constant))) /
+                   (1 - growth);
+        };
+        for (double guess = energy + std::numeric_limits<double>::min();; guess *= 1.01) {
+            const double anywhere = after_step(guess);
+            double bound = energy;
+            double higher = 0;
+            for (const std::size_t i : {0, 1}) {
+                const double here = std::min(anywhere, height(guess, pulls.weakest[i]));
+                higher = std::max(higher, here);
+                bound = std::max(bound, energy + pulls.rise[i] * here * (1 + here * tangent));
+            }
+            if (higher > highest) {
+                return std::nullopt;
+            }
+            if (bound <= guess) {
+                return Bounds{bound, higher};
+            }
+            guess = bound;
+        }
+    }
 };
 
 /// Bounds for any restitution up to 1; none unless the tilt is at most a quarter of alpha.
@@ -41,13 +101,12 @@ template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(double slenderness, const auto& excitation,
                                                double step, double between)
 {
-    const double duration = step / excitation.frequency;
     const double most = excitation.largest_acceleration();
-    const double k = theory == Theory::linear ? 1 : std::hypot(1, most);
-    const double tangent = theory == Theory::linear ? 0 : std::tan(slenderness);
-    const double highest = slenderness / 4;
-    const double growth = duration < 1 ? k * duration * duration : 1;
-    if (most > 2 * uplift_acceleration<theory>(slenderness) || growth > 0.01) {
+    const LowBounceStep limits{.duration = step / excitation.frequency,
+                               .highest = slenderness / 4,
+                               .k = theory == Theory::linear ? 1 : std::hypot(1, most),
+                               .tangent = theory == Theory::linear ? 0 : std::tan(slenderness)};
+    if (most > 2 * uplift_acceleration<theory>(slenderness) || limits.growth > 0.01) {
         return std::nullopt; // the push is too strong, or the step too long
     }
 
@@ -55,68 +114,37 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness, const auto& e
         const double push = side * horizontal_of(excitation.ground(phase));
         return -rocking_acceleration<theory>(0.0, slenderness, push);
     };
-    // The largest tilt of a flight of the energy e under the pull g.
-    const auto height = [&](double e, double g) -> double {
-        const double square = g * g - 2 * k * e;
-        return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
-    };
-
     const auto& motion = excitation.motion;
     double phase =
         excitation.next_uplift(true, motion.begin, -std::numeric_limits<double>::infinity());
-    double energy = 0;
-    double tilt = 0;
+    LowBounceStep::Bounds bounds{0, 0};
     double rate = 0;
     while (phase < motion.end) {
         const double next = std::min(phase + step, motion.end_of_piece(phase));
-        double weakest[2], rise[2];
-        for (const int i : {0, 1}) {
+        PullsInStep pulls;
+        for (const std::size_t i : {0, 1}) {
             const double side = i == 0 ? 1 : -1;
             const double first = pull(phase, side);
             const double last = pull(next, side);
-            weakest[i] = std::min(first, last) - between;
-            rise[i] = std::max(0.0, last - first) + 2 * between;
+            pulls.weakest[i] = std::min(first, last) - between;
+            pulls.rise[i] = std::max(0.0, last - first) + 2 * between;
         }
-        const double lifting = std::max(0.0, -std::min(weakest[0], weakest[1]));
-        // x increases by the duration of the step times the bound of x' at the increased x, which
-        // is the larger root of a quadratic equation.
-        const auto after_step = [&](double e) -> double {
-            const double linear = tilt + lifting * duration * duration;
-            const double constant = tilt * tilt - 2 * e * duration * duration;
-            return (linear + std::sqrt(std::max(0.0, linear * linear - (1 - growth) * constant))) /
-                   (1 - growth);
-        };
-        // Find an energy that is not exceeded by the growth computed from it.
-        double bound = energy;
-        double higher = 0;
-        for (double guess = energy + std::numeric_limits<double>::min();; guess *= 1.01) {
-            const double anywhere = after_step(guess);
-            bound = energy;
-            higher = 0;
-            for (const int i : {0, 1}) {
-                const double here = std::min(anywhere, height(guess, weakest[i]));
-                higher = std::max(higher, here);
-                bound = std::max(bound, energy + rise[i] * here * (1 + here * tangent));
-            }
-            if (higher > highest) {
-                return std::nullopt;
-            }
-            if (bound <= guess) {
-                break;
-            }
-            guess = bound;
+        const double lifting = std::max(0.0, -std::min(pulls.weakest[0], pulls.weakest[1]));
+        const auto after = limits.after(bounds, pulls, lifting);
+        if (!after) {
+            return std::nullopt;
         }
-        energy = bound;
-        tilt = higher;
-        rate = std::sqrt(2 * energy + 2 * lifting * tilt + k * tilt * tilt);
+        bounds = *after;
+        const double tilt = bounds.tilt;
+        rate = std::sqrt(2 * bounds.energy + 2 * lifting * tilt + limits.k * tilt * tilt);
         phase = next;
     }
-    return LowBounces{tilt, rate};
+    return LowBounces{bounds.tilt, rate};
 }
 
 template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const Excitation<double>& excitation)
+                                               const PulseExcitation<double>& excitation)
 {
     constexpr double step = std::numbers::pi / (1 << 12);
     const double between =
@@ -126,8 +154,9 @@ std::optional<LowBounces> bound_of_low_bounces(double slenderness,
 
 /// None with a vertical motion.
 template <Theory theory>
-std::optional<LowBounces> bound_of_low_bounces(double slenderness,
-                                               const RecordExcitation<double, true>& excitation)
+std::optional<LowBounces>
+bound_of_low_bounces(double slenderness,
+                     const RecordExcitation<double, Directions::both>& excitation)
 {
     if (!excitation.motion.record->upwards().empty()) {
         return std::nullopt;

@@ -54,11 +54,14 @@ template <class S>
     return {.record = &record, .begin = S(0), .end = S(record.samples() - 1)};
 }
 
-/// upwards: whether there may be a vertical motion. Without one, `false` is faster.
-template <Number T, bool upwards>
+/// The directions in which the ground may move. Without a vertical motion, `horizontal` is faster.
+enum class Directions { horizontal, both };
+
+template <Number T, Directions directions>
 struct RecordExcitation {
     using S = scalar_t<T>;
-    using Push = std::conditional_t<upwards, LinearPushAndGravity<T>, LinearPush<T>>;
+    using Push =
+        std::conditional_t<directions == Directions::both, LinearPushAndGravity<T>, LinearPush<T>>;
 
     RecordMotion<S> motion;
     T acceleration; ///< the factor on the record [1]; negative: mirrored
@@ -85,7 +88,7 @@ struct RecordExcitation {
             return {factor * Ramp<T>{here, rise}.at(since), factor * rise * rate};
         };
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
-        if constexpr (upwards) {
+        if constexpr (directions == Directions::both) {
             using std::abs;
             if (motion.record->upwards().empty()) {
                 return {horizontal, {T(S(1)), T(S(0))}};
@@ -136,7 +139,7 @@ struct RecordExcitation {
         const T towards = select<T>(peak < zero, -scale, scale);
         const auto excess = [&](const T& number) -> T {
             T needed = threshold;
-            if constexpr (upwards) {
+            if constexpr (directions == Directions::both) {
                 if (!motion.record->upwards().empty()) {
                     const T v = gathered<T>(motion.record->upwards().data(), number);
                     needed = threshold * (one + scale * v);
@@ -148,8 +151,8 @@ struct RecordExcitation {
         const T high = excess(there);
         const mask_t<T> crosses = low < zero && high > low;
         const T share = select<T>(crosses, -low, zero) / select<T>(crosses, high - low, one);
-        const T crossing = select<T>(sample == zero, zero, before + lesser<T>(share, one));
-        const T earliest = greater<T>(crossing, phase);
+        const T reached = select<T>(sample == zero, zero, before + lesser<T>(share, one));
+        const T earliest = greater<T>(reached, phase);
         // Rounding must not lift the block at the same phase again.
         const T previous = greater<T>(latest, -one);
         const T after_latest =
@@ -162,8 +165,9 @@ struct RecordExcitation {
 /// The excitation of a block of this slenderness [rad] by a record, for any scalar. scale: the
 /// factor on the record [1]; frequency: samples per time unit 1/p [1].
 template <Theory theory, class S>
-RecordExcitation<S, true> record_excitation(const Accelerogram& record, const S& slenderness,
-                                            const S& scale, const S& frequency)
+RecordExcitation<S, Directions::both> record_excitation(const Accelerogram& record,
+                                                        const S& slenderness, const S& scale,
+                                                        const S& frequency)
 {
     return {.motion = record_motion<S>(record),
             .acceleration = scale,

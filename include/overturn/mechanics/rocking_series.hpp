@@ -56,6 +56,90 @@ T coefficient_of_product(const Ramp<T>& ramp, const std::array<T, terms>& c)
     return fma(ramp.start, c[k], ramp.slope * c[k - 1]);
 }
 
+template <int order, Number T, class Push>
+RockingSeries<order, T> linear_rocking_series(const T& tilt, const T& rate, const T& slenderness,
+                                              const Push& push, const T& unit)
+{
+    using arithmetic::fma;
+    using S = scalar_t<T>;
+    const T square = unit * unit;
+    const auto& horizontal = horizontal_of(push);
+    const T push_0 = coefficient<0>(horizontal);
+    RockingSeries<order, T> series;
+    auto& x = series.tilt;
+    auto& v = series.rate;
+    x[0] = tilt;
+    v[0] = rate;
+    x[1] = rate;
+    const T y = tilt - slenderness;
+    if constexpr (has_gravity<Push>) {
+        v[1] = square * fma(push.gravity.start, y, -push_0);
+    } else {
+        v[1] = square * (y - push_0);
+    }
+    x[2] = v[1] * T(S(0.5));
+    unrolled<order - 1>([&]<int i>() {
+        constexpr int k = i + 1;
+        T pull = x[k];
+        if constexpr (has_gravity<Push>) {
+            pull = fma(push.gravity.start, x[k], push.gravity.slope * (k == 1 ? y : x[k - 1]));
+        }
+        v[k + 1] = (pull - coefficient<k>(horizontal)) * (square * T(S(1) / (k + 1)));
+        x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
+    });
+    return series;
+}
+
+template <int order, Number T, class Push>
+RockingSeries<order, T> nonlinear_rocking_series(const T& tilt, const T& rate, const T& slenderness,
+                                                 const Push& push, const T& unit)
+{
+    using arithmetic::fma;
+    using S = scalar_t<T>;
+    const T square = unit * unit;
+    const auto& horizontal = horizontal_of(push);
+    const T push_0 = coefficient<0>(horizontal);
+    RockingSeries<order, T> series;
+    auto& x = series.tilt;
+    auto& v = series.rate;
+    x[0] = tilt;
+    v[0] = rate;
+    x[1] = rate;
+    const auto [sine, cosine] = sine_and_cosine(T(tilt - slenderness));
+    Coefficients<order, T> s{square * sine};
+    Coefficients<order, T> c{square * cosine};
+    T s_0 = s[0];
+    if constexpr (has_gravity<Push>) {
+        s_0 = push.gravity.start * s[0];
+    }
+    v[1] = fma(-push_0, c[0], s_0);
+    x[2] = v[1] * T(S(0.5));
+    unrolled<order - 1>([&]<int i>() {
+        constexpr int k = i + 1;
+        T c_v(S(0));
+        T s_v(S(0));
+        newest_last<k>([&]<int j>() {
+            if constexpr (j == k / 2) { // the first term
+                c_v = v[j] * c[k - 1 - j];
+                s_v = v[j] * s[k - 1 - j];
+            } else {
+                c_v = fma(v[j], c[k - 1 - j], c_v);
+                s_v = fma(v[j], s[k - 1 - j], s_v);
+            }
+        });
+        s[k] = c_v * T(S(1) / k);
+        c[k] = s_v * T(S(-1) / k);
+        T s_k = s[k];
+        if constexpr (has_gravity<Push>) {
+            s_k = coefficient_of_product<k>(push.gravity, s);
+        }
+        const T push_c = coefficient_of_product<k>(horizontal, c);
+        v[k + 1] = fma(s_k, T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
+        x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
+    });
+    return series;
+}
+
 /// The series of the motion with this tilt [rad] and rate [rad per unit] at t = 0. push: the series
 /// of side * ground acceleration / g. unit: one unit of t [1/p].
 ///
@@ -70,69 +154,11 @@ template <Theory theory, int order, Number T, class Push>
 RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& slenderness,
                                        const Push& push, const T& unit)
 {
-    using arithmetic::fma;
-    using S = scalar_t<T>;
-    const T square = unit * unit;
-    const auto& horizontal = horizontal_of(push);
-    const T push_0 = coefficient<0>(horizontal);
-    RockingSeries<order, T> series;
-    auto& x = series.tilt;
-    auto& v = series.rate;
-    x[0] = tilt;
-    v[0] = rate;
-    x[1] = rate;
     if constexpr (theory == Theory::linear) {
-        const T y = tilt - slenderness;
-        if constexpr (has_gravity<Push>) {
-            v[1] = square * fma(push.gravity.start, y, -push_0);
-        } else {
-            v[1] = square * (y - push_0);
-        }
-        x[2] = v[1] * T(S(0.5));
-        unrolled<order - 1>([&]<int i>() {
-            constexpr int k = i + 1;
-            T pull = x[k];
-            if constexpr (has_gravity<Push>) {
-                pull = fma(push.gravity.start, x[k], push.gravity.slope * (k == 1 ? y : x[k - 1]));
-            }
-            v[k + 1] = (pull - coefficient<k>(horizontal)) * (square * T(S(1) / (k + 1)));
-            x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
-        });
+        return linear_rocking_series<order>(tilt, rate, slenderness, push, unit);
     } else {
-        const auto [sine, cosine] = sine_and_cosine(T(tilt - slenderness));
-        Coefficients<order, T> s{square * sine};
-        Coefficients<order, T> c{square * cosine};
-        T s_0 = s[0];
-        if constexpr (has_gravity<Push>) {
-            s_0 = push.gravity.start * s[0];
-        }
-        v[1] = fma(-push_0, c[0], s_0);
-        x[2] = v[1] * T(S(0.5));
-        unrolled<order - 1>([&]<int i>() {
-            constexpr int k = i + 1;
-            T c_v(S(0));
-            T s_v(S(0));
-            newest_last<k>([&]<int j>() {
-                if constexpr (j == k / 2) { // the first term
-                    c_v = v[j] * c[k - 1 - j];
-                    s_v = v[j] * s[k - 1 - j];
-                } else {
-                    c_v = fma(v[j], c[k - 1 - j], c_v);
-                    s_v = fma(v[j], s[k - 1 - j], s_v);
-                }
-            });
-            s[k] = c_v * T(S(1) / k);
-            c[k] = s_v * T(S(-1) / k);
-            T s_k = s[k];
-            if constexpr (has_gravity<Push>) {
-                s_k = coefficient_of_product<k>(push.gravity, s);
-            }
-            const T push_c = coefficient_of_product<k>(horizontal, c);
-            v[k + 1] = fma(s_k, T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
-            x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
-        });
+        return nonlinear_rocking_series<order>(tilt, rate, slenderness, push, unit);
     }
-    return series;
 }
 
 /// The series truncated to a lower order.

@@ -27,7 +27,7 @@ namespace arithmetic {
 template <class T>
 struct number_traits;
 
-/// Traits of a scalar number: any() and all() return the mask itself.
+/// Traits of a scalar number: any() returns the mask itself.
 template <class T>
 struct scalar_number_traits {
     using scalar = T;
@@ -39,7 +39,6 @@ struct scalar_number_traits {
     static T pi() { return std::numbers::pi_v<T>; }
     static T ln_two() { return std::numbers::ln2_v<T>; }
     static bool any(bool mask) { return mask; }
-    static bool all(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
     static T gathered(const double* from, const T& index) { return T(from[std::size_t(index)]); }
@@ -167,13 +166,6 @@ template <Number T>
 bool any(const mask_t<T>& mask)
 {
     return number_traits<T>::any(mask);
-}
-
-/// Whether the mask is true in every lane.
-template <Number T>
-bool all(const mask_t<T>& mask)
-{
-    return number_traits<T>::all(mask);
 }
 
 } // namespace overturn

@@ -72,7 +72,6 @@ struct number_traits<xsimd::batch<double, Architecture>> {
         return pack::gather(from, xsimd::bitwise_cast<Signed>(bits));
     }
     static bool any(const mask& condition) { return xsimd::any(condition); }
-    static bool all(const mask& condition) { return xsimd::all(condition); }
 };
 
 } // namespace overturn

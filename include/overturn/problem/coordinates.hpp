@@ -6,9 +6,9 @@
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
 
+#include <array>
 #include <cstddef>
 #include <map>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,12 +21,18 @@ double frequency_parameter(double half_diagonal, double gravity);
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
-/// The largest peak ground acceleration over g at which the motion does not lift a block of this
-/// slenderness [rad] at rest; infinite if none does. motion: the number of the record, from 0.
-double lifting_pga(const Scene& scene, std::int64_t motion, double slenderness);
+/// The peak ground acceleration over g of a motion of the strength 1: the amplitude of a pulse that
+/// excites the block of this point, or the scale of its record.
+double pga_of_unit(const Scene& scene, const Point& point);
+
+/// The largest peak ground acceleration over g at which the motion of this point does not lift its
+/// block at rest; infinite if none does.
+double lifting_pga(const Scene& scene, const Point& point);
 
 /// The names of the coordinates that may follow from others, beside those that a job gives.
-std::span<const std::string_view> derived_coordinates(bool is_recorded);
+inline constexpr std::array<std::string_view, 9> derived_coordinates{
+    "slenderness", "size", "frequency_parameter", "restitution", "amplitude",
+    "scale",       "pga",  "frequency",           "pulse_period"};
 
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
@@ -57,21 +63,11 @@ public:
     /// All points of the box, row by row.
     std::vector<Point> points() const;
 
-    /// The number of the record of every point, from 0; empty if all have the first one.
-    std::vector<std::int64_t> motions() const;
-
     /// The values of a coordinate along these dimensions, which contain its own, row by row.
     std::vector<double> along(const std::vector<std::size_t>& dimensions,
                               std::string_view name) const;
 
 private:
-    CoordinateValues given(const Column& column, std::string_view name) const;
-    std::vector<double> spread(const CoordinateValues& coordinate,
-                               const std::vector<std::size_t>& dimensions) const;
-    template <class Function>
-    CoordinateValues combined(std::span<const CoordinateValues* const> from,
-                              std::vector<std::size_t> dimensions, const Function& of) const;
-
     const Scene& scene_;
     const Grid& grid_;
     Shape begin_, count_;

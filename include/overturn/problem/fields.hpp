@@ -64,8 +64,6 @@ struct FieldTraits {
     std::string_view comment;
     std::vector<FieldFlag> flags{};
     bool has_bits = false; ///< the flags are bits that may be combined
-    bool is_of_line =
-        false; ///< has one value per line of a boundary: lacks the dimension `crossing`
 };
 
 const FieldTraits& traits_of(Field field);
@@ -84,6 +82,12 @@ inline std::string_view name_of(Field field)
 
 /// The fields of a line of a boundary under a record.
 inline constexpr std::array line_fields{Field::unsafe_share, Field::undecided_share};
+
+/// Whether a field has one value per line of a boundary: it lacks the dimension `crossing`.
+constexpr bool is_of_line(Field field)
+{
+    return field == line_fields[0] || field == line_fields[1];
+}
 
 /// An array for `points` values of a field.
 FieldValues make_field_values(Field field, std::size_t points);

@@ -48,15 +48,14 @@ struct Grid {
     std::optional<std::size_t> dimension_of(std::string_view name) const;
     std::optional<std::size_t> dimension_of(Role role) const;
 
+    /// Whether the table has a column of this name.
+    bool has_column(std::string_view name) const;
+
     /// The first quantity of this role, other than a column of a table; nullptr if there is none.
     const Column* axis_or_number(Role role) const;
 
     /// The rows of a table; nullptr if there are none.
     const Dimension* table() const;
 };
-
-/// The place of an axis among the dimensions; smaller is slower. Under records, the size of the
-/// block is the fastest.
-int order_of(std::string_view dimension, bool is_recorded);
 
 } // namespace overturn

@@ -9,6 +9,7 @@ struct Point {
     double restitution; ///< r [1]
     double amplitude;   ///< a, or the factor on a record [1]
     double frequency;   ///< Omega, or the samples of a record per time unit 1/p [1]
+    int motion = 0;     ///< the number of the record from 0, if there are any
 };
 
 } // namespace overturn

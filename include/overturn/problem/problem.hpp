@@ -28,10 +28,10 @@ struct Problem {
 };
 
 /// The name of the dimension along the flips of a boundary, which replaces the strength.
-inline constexpr std::string_view crossing_dimension = "crossing";
+inline constexpr std::string_view flip_dimension = "crossing";
 
 /// Maximum number of flips that are stored for a line of a boundary.
-inline std::int64_t most_crossings(const Scene& scene)
+inline std::int64_t most_flips(const Scene& scene)
 {
     return scene.is_recorded() ? 256 : 64;
 }

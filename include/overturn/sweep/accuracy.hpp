@@ -70,16 +70,16 @@ public:
 
 private:
     struct DigitsTruth {
-        std::int64_t tile;
-        int point;
+        std::size_t tile, point;
         bool fell;
         double angle, velocity, margin;
     };
 
-    /// The problem of the sample with these numerics and fields.
-    Problem problem(const Numerics& numerics, std::vector<Field> fields) const;
-    void settle_verdicts();
+    /// The fields of the sample, by tile.
+    std::vector<TileFields> computed(const Numerics& numerics, std::vector<Field> fields) const;
     void compute_in_digits(std::int64_t wanted);
+    void count_verdicts(const std::vector<TileFields>& tiles, AccuracyRow& row) const;
+    void measure_errors(const std::vector<TileFields>& tiles, AccuracyRow& row) const;
 
     Scene scene_;
     Kernel kernel_;

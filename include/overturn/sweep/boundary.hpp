@@ -27,34 +27,36 @@ struct Flip {
 };
 
 /// How closely a line is searched for flips; step and width over the amplitude [1].
-struct SearchResolution {
+struct FlipSearch {
     /// Steps of the scan that are smaller are not halved. Under a record all steps are divided
     /// evenly until each is at most this.
     double finest_step;
     double flip_width; ///< of the two amplitudes of a flip, unless they are adjacent doubles
+    std::size_t most_flips = std::numeric_limits<std::size_t>::max();
     /// The largest number of amplitudes that are computed in 50 digits; default: no limit, except
     /// that of Numerics in each step of the search under a record.
     std::optional<int> most_in_50_digits{};
     /// After this many amplitudes, no further steps are halved; after as many again, no strips are
     /// searched for between neighbours.
     std::size_t most_amplitudes = std::numeric_limits<std::size_t>::max();
+    DropRequested drop_requested = nullptr;
 };
 
 /// Under a record, smaller steps find more flips, and the verdicts closer to a flip need more
 /// digits.
-inline SearchResolution search_resolution(const Scene& scene)
+inline FlipSearch flip_search(const Scene& scene)
 {
-    return scene.is_recorded() ? SearchResolution{.finest_step = 1e-3, .flip_width = 1e-4}
-                               : SearchResolution{.finest_step = 1e-6, .flip_width = 1e-12};
+    return scene.is_recorded() ? FlipSearch{.finest_step = 1e-3, .flip_width = 1e-4}
+                               : FlipSearch{.finest_step = 1e-6, .flip_width = 1e-12};
 }
 
 /// One line through a plane: all coordinates except the amplitude.
 struct BoundaryLine {
-    double slenderness;      ///< [rad]
-    double restitution;      ///< r [1]
-    double frequency;        ///< see Point
-    std::int64_t motion = 0; ///< the number of the record, if there are any
-    double unit = 1;         ///< the strength at Point::amplitude = 1
+    double slenderness; ///< [rad]
+    double restitution; ///< r [1]
+    double frequency;   ///< see Point
+    int motion = 0;     ///< see Point
+    double unit = 1;    ///< the strength at Point::amplitude = 1
 };
 
 /// A part of a line that was searched in steps wider than the finest ones, although the margins
@@ -77,21 +79,18 @@ struct Boundary {
     double undecided_share = 0;
 };
 
-/// The lowest flips, at most most_flips, between the first and the last of these ascending
+/// The lowest flips, at most `most_flips`, between the first and the last of these ascending
 /// amplitudes, all of which are computed.
 /// Steps are halved where the margin is not linear or the number of impacts changes, down to the
-/// finest step of the search resolution.
+/// finest step of the search.
 /// If the verdicts of two neighbours differ, there is a flip between them. If they overturn to
 /// different sides, there is a safe strip between them, however narrow. If |margin| has a local
 /// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
 /// narrower than two steps of the scan that satisfies none of these criteria can be missed.
-/// Under a record all steps are divided evenly until each is at most finest_step; the other
-/// criteria are not applied, and narrower strips are missed. resolution: default:
-/// search_resolution().
+/// Under a record all steps are divided evenly until each is at most `finest_step`; the other
+/// criteria are not applied, and narrower strips are missed. search: default: flip_search().
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
-                     std::size_t most_flips = std::numeric_limits<std::size_t>::max(),
-                     DropRequested drop_requested = nullptr,
-                     std::optional<SearchResolution> resolution = std::nullopt);
+                     const std::optional<FlipSearch>& search = std::nullopt);
 
 } // namespace overturn

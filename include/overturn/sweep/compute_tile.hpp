@@ -27,7 +27,7 @@ struct TileFields {
 /// points, or the kernel; except that under a record with `resolve`, whether a point is left
 /// undecided also depends on the other points of the tile, see Numerics::most_in_50_digits.
 ///
-/// Of a boundary, a tile has the flips of one or more lines in ascending order. Values are NaN and
+/// Of a boundary, a tile has the flips of one line in ascending order. Values are NaN and
 /// no_flip after the last flip, except that region_below of a line without flips is the region at
 /// the first strength. If there are more flips than are stored, the last region_above is undecided.
 TileFields compute_tile(const Problem& problem, const Tile& tile, Kernel kernel,

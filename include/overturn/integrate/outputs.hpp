@@ -1,11 +1,11 @@
-// The quantities recorded of a forced stage. Used at all levels, from job fields to kernels.
+// What is computed of a forced stage. Used at all levels, from job fields to kernels.
 #pragma once
 
 namespace overturn {
 
-/// The quantities recorded in addition to the state at the end of the pulse.
-struct Records {
-    // Recorded in every step. Chosen at compile time, so that they cost nothing if not recorded.
+/// The outputs in addition to the state at the end of the pulse.
+struct Outputs {
+    // Updated in every step. Chosen at compile time, so that they cost nothing if not wanted.
     bool impacts = false;
     bool error = false;  ///< of the margin
     bool peak = false;   ///< the largest tilt and how narrowly impacts were avoided; not together
@@ -22,6 +22,6 @@ struct Records {
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.
 /// A run that will be repeated anyway can stop: thousands of bounces may follow.
-enum class OnUnknownError { go_on, stop };
+enum class UncertainImpact { go_on, stop };
 
 } // namespace overturn

@@ -1,4 +1,4 @@
-#include "overturn/integrate/crossing.hpp"
+#include "overturn/integrate/first_root.hpp"
 #include "support/untrapped_floating_point.hpp"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 namespace overturn {
 
 template <Number T>
-struct Excitation {
+struct PulseExcitation {
     GroundMotion<scalar_t<T>> motion;
     T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
     T frequency;        ///< Omega = omega_p / p [1]
@@ -55,8 +55,8 @@ struct Excitation {
 /// The excitation of a block of this slenderness [rad]. amplitude: a = a_p / (g tan alpha), linear
 /// theory a_p / (g alpha) [1]; frequency: Omega [1].
 template <Theory theory, class S>
-Excitation<S> excitation_of(const GroundMotion<S>& motion, const S& slenderness, const S& amplitude,
-                            const S& frequency)
+PulseExcitation<S> pulse_excitation(const GroundMotion<S>& motion, const S& slenderness,
+                                    const S& amplitude, const S& frequency)
 {
     return {.motion = motion,
             .acceleration = amplitude * uplift_acceleration<theory>(slenderness),
