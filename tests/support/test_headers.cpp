@@ -1,1 +1,0 @@
-// Compiled for its precompiled header only, see tests/CMakeLists.txt.
