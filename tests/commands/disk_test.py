@@ -227,7 +227,7 @@ class AFileThatChanges(Scratch):
         told = words(self.overturn("info", name).stdout)
         return int(told.split(" tiles ")[1].split(" of ")[0]) if " tiles " in told else 0
 
-    def end_of_run_after(self, change, ranks):
+    def end_of_run_after(self, change, ranks, stays_slow=False):
         """Returns the output of a run after the change, which is made when some tiles are done."""
         output = self.folder / "long.h5"
         output.unlink(missing_ok=True)
@@ -236,6 +236,8 @@ class AFileThatChanges(Scratch):
             while self.tiles_done(output.name) < 3:
                 self.assertIsNone(process.poll(), "the run ended too early")
             change(output)
+            if not stays_slow:
+                self.go_on()
             said, _ = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 74, said)
         return words(said)
@@ -247,7 +249,7 @@ class AFileThatChanges(Scratch):
 
     def test_is_reported_if_moved_and_resumes_once_moved_back(self):
         elsewhere = self.folder / "long.h5.part"  # writes to a file of this name are slow, too
-        said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2)
+        said = self.end_of_run_after(lambda path: path.rename(elsewhere), 2, stays_slow=True)
         self.assertIn("move it back and run the same command again to resume", said)
         elsewhere.rename(self.folder / "long.h5")
         self.assert_exit(self.overturn("run", "long.toml", ranks=2), 0, "resuming: ")

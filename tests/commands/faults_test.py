@@ -95,6 +95,7 @@ class ADamagedFile(Scratch):
                     while mark == bytes(8):
                         mark = os.pread(file.fileno(), 8, place)
                     os.pwrite(file.fileno(), bytes(8), place)
+                self.go_on()
                 output, _ = process.communicate(timeout=PATIENCE)
             self.assertEqual(process.returncode, 74, output)
             self.assertIn(f"the file lacks 1 of {LONG_TILES}", output)

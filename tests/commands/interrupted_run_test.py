@@ -63,6 +63,7 @@ class AnInterruptedRun(ScratchWithRuns):
         for name in ("long.h5", "link.h5"):
             result = self.overturn("run", "long.toml", "-o", name)
             self.assert_exit(result, 74, "being written by another run")
+        self.go_on()
         process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 0)
         self.assertEqual(checksum(self.folder / "long.h5"), self.whole)
@@ -128,8 +129,8 @@ class AnInterruptedRun(ScratchWithRuns):
     @unittest.skipIf(is_mpich(), "its UCX handles SIGHUP before main() begins")
     def test_continues_without_a_terminal_if_sighup_is_ignored(self):
         slow = " ".join(f"{name}={self.with_slow('long.h5')[name]}"
-                        for name in ("LD_PRELOAD", "WRITE_TAKES", "FAULTY_FILE"))
-        ignored = f"trap '' HUP; (sleep 1; kill -HUP $$) & export {slow}"
+                        for name in ("LD_PRELOAD", "WRITE_TAKES", "SLOW_WHILE", "FAULTY_FILE"))
+        ignored = f"trap '' HUP; (sleep 1; kill -HUP $$; rm {self.slow}) & export {slow}"
         self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
 
     def test_continues_when_its_output_is_closed(self):

@@ -103,6 +103,8 @@ class Scratch(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        self.slow = pathlib.Path(folder.name + ".slow")
+        self.addCleanup(self.slow.unlink, missing_ok=True)
         (self.folder / "small.toml").write_text(SMALL)
         (self.folder / "long.toml").write_text(LONG)
 
@@ -143,10 +145,14 @@ class Scratch(unittest.TestCase):
             file["run/checksum"][tiles] = 0
 
     def with_slow(self, name):
-        """Returns an environment in which each write to this file takes 10 ms, so that a run lasts
-        seconds and uses little processor time. Requires the library FAULTY_DISK of tests/faults."""
-        return ENVIRONMENT | {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": "10",
-                              "FAULTY_FILE": str(self.folder / name)}
+        """Returns an environment in which each write to this file takes 4 ms, until self.go_on(): a
+        run lasts as long as the test needs it. Requires the library FAULTY_DISK of tests/faults."""
+        self.slow.touch()
+        return ENVIRONMENT | {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": "4",
+                              "SLOW_WHILE": str(self.slow), "FAULTY_FILE": str(self.folder / name)}
+
+    def go_on(self):
+        self.slow.unlink()
 
     def files(self):
         return sorted(path.name for path in self.folder.iterdir())

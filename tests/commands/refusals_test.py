@@ -138,6 +138,7 @@ class ABadOutput(Scratch):
         with self.start("run", "long.toml", "-o", "out.h5", env=self.with_slow("out.h5")) as run:
             run.stdout.readline()
             (self.folder / "out.h5.json").write_text("not to be lost")
+            self.go_on()
             output, _ = run.communicate(timeout=PATIENCE)
         self.assertEqual(run.returncode, 74, output)
         self.assertIn("out.h5.json", output)
