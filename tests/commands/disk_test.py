@@ -201,7 +201,7 @@ class ASlowDisk(OnFaultyDisk):
 
     def end_by(self, number, delay):
         settings = {name: str(value) for name, value in self.settings_of({"READ_TAKES": 12}).items()}
-        with self.start("run", "small.toml", "-o", "out.h5", env=ENVIRONMENT | settings) as run:
+        with self.start("run", "small.toml", "-o", "out.h5", variables=settings) as run:
             time.sleep(delay)
             run.send_signal(number)
             sent = time.monotonic()
@@ -231,7 +231,7 @@ class AFileThatChanges(Scratch):
         """Returns the output of a run after the change, which is made when some tiles are done."""
         output = self.folder / "long.h5"
         output.unlink(missing_ok=True)
-        with self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5")) as process:
+        with self.start("run", "long.toml", ranks=ranks, variables=self.with_slow("long.h5")) as process:
             self.assertIn("tiles", process.stdout.readline())
             while self.tiles_done(output.name) < 3:
                 self.assertIsNone(process.poll(), "the run ended too early")

@@ -38,7 +38,7 @@ class ADamagedFile(Scratch):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
         with h5py.File(self.folder / "long.h5", "r+") as file:
             file["velocity"][:, :, ::64, ::64] += 1e-9  # all tiles
-        with self.start("run", "long.toml", env=self.with_slow("long.h5")) as process:
+        with self.start("run", "long.toml", variables=self.with_slow("long.h5")) as process:
             self.assertIn(f"{LONG_TILES} damaged tiles to recompute", process.stdout.readline())
             process.send_signal(signal.SIGUSR1)
             process.communicate(timeout=PATIENCE)
@@ -86,7 +86,7 @@ class ADamagedFile(Scratch):
     def test_is_not_complete_if_a_checksum_disappears_during_the_run(self):
         for ranks in (None, 2):
             (self.folder / "long.h5").unlink(missing_ok=True)
-            with self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5")) as process:
+            with self.start("run", "long.toml", ranks=ranks, variables=self.with_slow("long.h5")) as process:
                 self.assertIn("tiles", process.stdout.readline())
                 with h5py.File(self.folder / "long.h5", locking=False) as file:
                     place = file["run/checksum"].id.get_offset()
@@ -112,7 +112,7 @@ class ASilentRank(Scratch):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "whole.h5", ranks=2), 0)
         for silent in (2, 0):
             with self.start("run", "long.toml", "--patience", "1", ranks=3,
-                            env=self.with_slow("long.h5")) as process:
+                            variables=self.with_slow("long.h5")) as process:
                 self.assertIn("tiles", process.stdout.readline())
                 os.kill(ranks_of(process.pid)[silent], signal.SIGSTOP)
                 output, _ = process.communicate(timeout=PATIENCE)

@@ -25,7 +25,7 @@ class ScratchWithRuns(Scratch):
     def start_long_run(self, ranks=None):
         """Starts the long job, and returns when some of its tiles are done."""
         before = self.tiles_done() if "long.h5" in self.files() else 0
-        process = self.start("run", "long.toml", ranks=ranks, env=self.with_slow("long.h5"))
+        process = self.start("run", "long.toml", ranks=ranks, variables=self.with_slow("long.h5"))
         deadline = time.monotonic() + PATIENCE
         while "long.h5" not in self.files() or self.tiles_done() < before + 3:
             time.sleep(0.02)
@@ -128,8 +128,7 @@ class AnInterruptedRun(ScratchWithRuns):
 
     @unittest.skipIf(is_mpich(), "its UCX handles SIGHUP before main() begins")
     def test_continues_without_a_terminal_if_sighup_is_ignored(self):
-        slow = " ".join(f"{name}={self.with_slow('long.h5')[name]}"
-                        for name in ("LD_PRELOAD", "WRITE_TAKES", "SLOW_WHILE", "FAULTY_FILE"))
+        slow = " ".join(f"{name}={value}" for name, value in self.with_slow("long.h5").items())
         ignored = f"trap '' HUP; (sleep 1; kill -HUP $$; rm {self.slow}) & export {slow}"
         self.assert_exit(self.overturn("run", "long.toml", shell_setup=ignored), 0)
 

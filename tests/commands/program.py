@@ -120,11 +120,14 @@ class Scratch(unittest.TestCase):
             text=True,
         )
 
-    def start(self, *arguments, ranks=None, env=ENVIRONMENT):
-        """Starts the program. Its output and its messages are read from stdout."""
+    def start(self, *arguments, ranks=None, variables=None):
+        """Starts the program. Its output and its messages are read from stdout. variables: of the
+        environment of the program, but not of its launcher."""
         process = subprocess.Popen(
-            [*(under_mpi(ranks) if ranks else []), OVERTURN, *map(str, arguments)], cwd=self.folder,
-            env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            [*(under_mpi(ranks) if ranks else []), "env",
+             *(f"{name}={value}" for name, value in (variables or {}).items()),
+             OVERTURN, *map(str, arguments)], cwd=self.folder,
+            env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.addCleanup(process.kill)
         return process
 
@@ -145,11 +148,11 @@ class Scratch(unittest.TestCase):
             file["run/checksum"][tiles] = 0
 
     def with_slow(self, name):
-        """Returns an environment in which each write to this file takes 4 ms, until self.go_on(): a
+        """Returns the variables with which each write to this file takes 4 ms, until self.go_on(): a
         run lasts as long as the test needs it. Requires the library FAULTY_DISK of tests/faults."""
         self.slow.touch()
-        return ENVIRONMENT | {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": "4",
-                              "SLOW_WHILE": str(self.slow), "FAULTY_FILE": str(self.folder / name)}
+        return {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": "4",
+                "SLOW_WHILE": str(self.slow), "FAULTY_FILE": str(self.folder / name)}
 
     def go_on(self):
         self.slow.unlink()

@@ -135,7 +135,7 @@ class ABadOutput(Scratch):
             (self.folder / name).unlink()
 
     def test_a_foreign_sidecar_that_appears_during_the_run_is_kept(self):
-        with self.start("run", "long.toml", "-o", "out.h5", env=self.with_slow("out.h5")) as run:
+        with self.start("run", "long.toml", "-o", "out.h5", variables=self.with_slow("out.h5")) as run:
             run.stdout.readline()
             (self.folder / "out.h5.json").write_text("not to be lost")
             self.go_on()
@@ -157,7 +157,7 @@ class ABadOutput(Scratch):
 
     def test_a_lock_that_cannot_be_opened_is_refused(self):
         lock = self.folder / "out.h5.lock"
-        with self.start("run", "long.toml", "-o", "out.h5", env=self.with_slow("out.h5")) as run:
+        with self.start("run", "long.toml", "-o", "out.h5", variables=self.with_slow("out.h5")) as run:
             run.stdout.readline()
             run.kill()
         lock.chmod(lock.stat().st_mode & ~0o777)  # as for the lock of another user

@@ -7,7 +7,8 @@
 //   FAIL_AT_SYNC=1         syncing fails, too
 //   CRASH_AT_READ=17       crash at the 17th read of this process
 //   READ_TAKES=10          milliseconds of each read
-//   WRITE_TAKES=10         milliseconds of each write, in all ranks, while the file SLOW_WHILE exists
+//   WRITE_TAKES=10         milliseconds of each write, in all ranks, ...
+//   SLOW_WHILE=PATH        ... while this file exists
 //   COUNT_WRITES_IN=PATH   writes the numbers of writes and syncs at exit
 //   FAULTY_RANK=1          only in this rank; without a launcher the rank is 0
 #include <cerrno>
@@ -72,7 +73,8 @@ ssize_t faulty_write(int descriptor, size_t bytes, const WriteSome& write_some)
 {
     if (is_the_file(descriptor)) {
         ++count.writes;
-        if (const char* slow = std::getenv("SLOW_WHILE"); slow != nullptr && access(slow, F_OK) == 0) {
+        if (const char* slow = std::getenv("SLOW_WHILE");
+            slow != nullptr && access(slow, F_OK) == 0) {
             usleep(useconds_t(1000 * number_from("WRITE_TAKES", 0)));
         }
         if (is_faulty_rank() && count.writes == number_from("KILL_AT_WRITE", -1)) {
