@@ -113,8 +113,8 @@ void refuse_where(const Coordinates& coordinates, const Grid& corners, std::stri
 
 void expect_slenderness(const Coordinates& coordinates, const Grid& corners)
 {
-    if (corners.find("slenderness") != nullptr) {
-        return;
+    if (!coordinates.has("half_width")) {
+        return; // given, or from the aspect ratio: its range is that of the quantity
     }
     const Quantity& rule = quantity("slenderness");
     refuse_where(coordinates, corners, corners.find("width") != nullptr ? "width" : "half_width",

@@ -33,6 +33,12 @@ bool is_slenderness(double value)
     return value >= 1e-100 && value < std::numbers::pi / 2;
 }
 
+// The slenderness arctan(b/h) is in its own range.
+bool is_aspect_ratio(double value)
+{
+    return value >= 1e-3 && value <= 1e100;
+}
+
 // At 8 periods the wavelets are below 1e-178 of their peak.
 bool is_window(double value)
 {
@@ -72,6 +78,8 @@ constexpr std::string_view positive = "(0, inf)";
 constexpr std::string_view not_negative = "[0, inf)";
 constexpr std::string_view of_length = "It is a length in metres.";
 
+// Axes have this order, slowest first; under records, the size is the fastest. Filling requires
+// that the strength and the rate are the last two.
 constexpr std::array quantities{
     Quantity{"motion", "1", Role::motion, "number of the ground motion in the job", positive,
              is_positive, "It is the number of a record."},
@@ -84,6 +92,8 @@ constexpr std::array quantities{
     Quantity{"slenderness", "rad", Role::block, "slenderness of the block, arctan(b/h)",
              "[1e-100, pi/2)", is_slenderness,
              "It is arctan(width / height) in radians; a degree is 0.01745."},
+    Quantity{"aspect_ratio", "1", Role::block, "aspect ratio of the block, h/b", "[1e-3, 1e100]",
+             is_aspect_ratio, "It is height / width."},
     Quantity{"size", "m", Role::block, "half diagonal of the block, R", positive, is_positive,
              "It is the half diagonal of the block in metres."},
     Quantity{"frequency_parameter", "s-1", Role::block, "frequency parameter, p = sqrt(3g / 4R)",
@@ -131,14 +141,17 @@ bool has(const Names& names, std::string_view name)
 }
 
 /// Quantities of which a point has at most one.
-const Names equivalents[] = {
-    {"width", "half_width"},         {"height", "half_height"},
-    {"size", "frequency_parameter"}, {"restitution", "restitution_of_maximum"},
-    {"amplitude", "scale", "pga"},   {"frequency", "pulse_period", "pulse_frequency"}};
+const Names equivalents[] = {{"width", "half_width"},
+                             {"height", "half_height"},
+                             {"slenderness", "aspect_ratio"},
+                             {"size", "frequency_parameter"},
+                             {"restitution", "restitution_of_maximum"},
+                             {"amplitude", "scale", "pga"},
+                             {"frequency", "pulse_period", "pulse_frequency"}};
 
 /// Two ways to describe a block.
 const Names sides{"width", "half_width", "height", "half_height"};
-const Names angle_and_size{"slenderness", "size", "frequency_parameter"};
+const Names angle_and_size{"slenderness", "aspect_ratio", "size", "frequency_parameter"};
 
 } // namespace
 

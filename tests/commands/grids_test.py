@@ -87,6 +87,15 @@ class AnyAxis(ScratchWithGrids):
             one = self.compute(f"{p}.h5", *block, f"plane.frequency_parameter={p}")
             self.assert_equal(one, data.sel(frequency_parameter=p))
 
+    def test_may_be_the_aspect_ratio(self):
+        data = self.compute("ratios.h5", "plane.size=1.1", "plane.aspect_ratio.values=[3, 5.67, 1000]")
+        self.assertEqual(data.region.dims, ("aspect_ratio", "pga", "pulse_period"))
+        self.assertEqual(data.slenderness.dims, ("aspect_ratio",))
+        for ratio, slenderness in zip(data.aspect_ratio.values, data.slenderness.values, strict=True):
+            self.assertEqual(slenderness, math.atan(1 / ratio))
+            one = self.compute(f"{ratio}.h5", "plane.size=1.1", f"plane.slenderness={slenderness!r}")
+            self.assert_equal(one, data.sel(aspect_ratio=ratio).drop_vars("aspect_ratio"))
+
     def test_may_be_a_point_of_its_own(self):
         data = self.compute("axes.h5", "plane.height.values=[1.8]", "plane.width.values=[0.6]")
         self.assertEqual(data.region.dims, ("width", "height", "pga", "pulse_period"))

@@ -148,7 +148,7 @@ TEST(TheKeysOfAJob, CanBeOverridden)
             settings = {"plane.height=3"};
         } else if (name == "height" || name == "half_height") {
             settings = {"plane.width=0.1"};
-        } else if (name == "restitution") {
+        } else if (name == "restitution" || name == "aspect_ratio") {
             settings = {"plane.restitution=1"}; // without of = "maximum"
         } else if (name == "scale") {
             settings = {fmt::format("scene.record='{}'", folder / "record.AT2"), "plane.size=1"};
