@@ -87,9 +87,9 @@ Error silence_of(int rank, const std::string& on_host, std::chrono::seconds pati
 constexpr int messages_in_patience = 10;
 
 /// The messages to and from rank 0. An answer may arrive while the worker computes.
-class Rank0 {
+class LinkToRank0 {
 public:
-    Rank0(MPI_Comm communicator, std::chrono::seconds patience)
+    LinkToRank0(MPI_Comm communicator, std::chrono::seconds patience)
         : communicator_(communicator), patience_(patience)
     {}
 
@@ -152,7 +152,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
         reported = share;
         return message;
     };
-    Rank0 rank_0(session.communicator(), patience);
+    LinkToRank0 rank_0(session.communicator(), patience);
     Occasionally regular_report(std::chrono::milliseconds(patience) / messages_in_patience);
     const std::function<bool()> drop_requested = [&] {
         if (regular_report.is_due()) {

@@ -16,9 +16,9 @@ struct Coordinate {
     std::function<netcdf::Values()> values;
 };
 
-/// In the order of the file: those of the dimensions first, then single values, columns of the
-/// table and what follows from them, and the measures of the records; the strengths that a boundary
-/// computes first; last, the names of the motions and the texts of the table.
+/// In the order of the file: those of the dimensions first, then single values, the strengths that
+/// a boundary computes first, columns of the table, what follows from all these, and the measures
+/// of the records; last, the names of the motions and the texts of the table.
 std::vector<Coordinate> coordinates_of(const Job& job);
 
 } // namespace overturn

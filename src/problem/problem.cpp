@@ -51,7 +51,7 @@ Shape tile_of(const Grid& grid, std::int64_t side)
 {
     const Shape shape = grid.shape();
     Shape tile(shape.size(), 1);
-    const std::size_t first = // a tile does not extend over motions
+    const std::size_t first = // a tile does not extend over this dimension
         grid.dimensions.empty() || grid.dimensions[0].name != "motion" ? 0 : 1;
     const std::size_t others = shape.size() - std::min<std::size_t>(2, shape.size());
     for (std::size_t i = std::max(first, others); i < shape.size(); ++i) {

@@ -74,10 +74,12 @@ public:
 
     void transfer(Problem& problem)
     {
-        Scene& scene = problem.scene;
-        transfer_all(scene.pulse, scene.theory, scene.shape, scene.records, scene.gravity);
-        transfer_all(problem.grid.numbers, problem.grid.dimensions);
-        transfer_all(problem.numerics, problem.product, problem.fields);
+        // With structured bindings, a new member that is not transferred does not compile.
+        auto& [scene, grid, numerics, product, fields] = problem;
+        auto& [pulse, theory, shape, records, gravity] = scene;
+        auto& [numbers, dimensions] = grid;
+        transfer_all(pulse, theory, shape, records, gravity, numbers, dimensions, numerics, product,
+                     fields);
     }
 
 private:

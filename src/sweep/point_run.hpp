@@ -65,7 +65,7 @@ public:
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr);
 
-    /// The same pulse and kernel with other points.
+    /// The same scene and kernel with other points.
     PointRun with_points(std::vector<Point> points) const;
 
     const Scene& scene() const { return scene_; }

@@ -85,7 +85,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
 {
     Outputs computed = outputs;
     computed.error = outputs.error || numerics.resolve;
-    computed.steps = outputs.steps || numerics.resolve; // see settle_in()
+    computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
     computed.peak = outputs.peak && !computed.error;
     Outcomes outcomes(std::size_t(points.size()), computed);
     points.run(numerics, outcomes, points.all(),
@@ -96,6 +96,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
         resolve(points, most_in_50_digits.value_or(by_default), outcomes);
     }
     if (outputs.peak && !computed.peak) {
+        // A kernel computes either errors or peaks: peaks are those at the tolerance of the job.
         Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
         points.run(numerics, with_peaks, points.all());
         outcomes.peak = std::move(with_peaks.peak);

@@ -17,7 +17,7 @@ struct ForcedEnd {
     mask_t<T> not_finite; ///< stopped at a non-finite number: the state is meaningless
     T impacts;            ///< not those of a bounce series that died out; an output
     T steps;              ///< steps tried
-    T phase;              ///< at the end of the pulse, or at the fall [rad]
+    T phase;              ///< at the end of the motion, or at the fall [rad or samples]
     /// Only if they are outputs:
     T error;            ///< bound on the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin

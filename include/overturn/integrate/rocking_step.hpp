@@ -11,7 +11,7 @@ namespace overturn {
 /// The state of a rocking block during the pulse.
 template <Number T>
 struct Rocking {
-    T phase; ///< of the pulse [rad]
+    T phase; ///< of the pulse [rad]; of a record [samples]
     T tilt;  ///< |theta| [rad]
     T rate;  ///< d|theta| / d tau [rad]
     T side;  ///< +1 or -1: the sign of theta
@@ -20,7 +20,7 @@ struct Rocking {
 /// The end of a step: after the step size chosen by the stepper, or at the first event before that.
 template <Number T>
 struct StepEnd {
-    T phase;           ///< exactly the end of the pulse if that is reached [rad]
+    T phase;           ///< exactly the end of the motion if that is reached [rad or samples]
     T tilt;            ///< 0 at an impact, pi/2 at a fall [rad]
     T rate;            ///< [rad]
     mask_t<T> moved;   ///< false if the step was rejected and must be repeated

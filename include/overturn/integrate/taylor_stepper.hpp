@@ -325,7 +325,7 @@ private:
     T log2_tolerance_;
     T log2_most_allowed_;
     T lost_ = T(S(0));                                            // see acceleration()
-    std::array<T, outputs.error ? last_terms : 0> following_per_; // see errors()
+    std::array<T, outputs.error ? last_terms : 0> following_per_; // see truncation_error()
 };
 
 /// Selects Taylor series of this order.

@@ -27,7 +27,7 @@ struct Motion {
 /// The table of the blocks of a job.
 struct BlockTable {
     std::string file;     ///< path as the job spells it
-    Table table;          ///< under records, `motion` has the numbers of the records
+    Table table;          ///< under records, `motion_number` has the numbers of the records
     std::string checksum; ///< XXH64 of the columns, in hexadecimal digits
 };
 

@@ -7,8 +7,8 @@ namespace overturn {
 struct Point {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]
-    double amplitude;   ///< a, or the factor on a record [1]
-    double frequency;   ///< Omega, or the samples of a record per time unit 1/p [1]
+    double amplitude;   ///< a; under records, the factor on the record [1]
+    double frequency;   ///< Omega; under records, the samples per time unit 1/p [1]
     int motion = 0;     ///< the number of the record from 0, if there are any
 };
 

@@ -63,9 +63,9 @@ struct Numerics {
     double tolerance =
         1e-9;             ///< local error per step, over the size of the motion, at most alpha [1]
     bool resolve = false; ///< settle verdicts in doubt with more digits
-    /// The largest number of points of a tile under a record that are computed in 50 digits. Such a
-    /// point takes 0.4 s to 1.3 s under a record of 8192 samples. Of 256 points under the GeoNet
-    /// record WTMC, at most 5 need them if r = r_max, and 26 if r = 1.
+    /// The largest number of points of a tile, under each record, that are computed in 50 digits.
+    /// Such a point takes 0.4 s to 1.3 s under a record of 8192 samples. Of 256 points under the
+    /// GeoNet record WTMC, at most 5 need them if r = r_max, and 26 if r = 1.
     int most_in_50_digits = 32;
     bool fill = false;   ///< integrate only points near the boundaries of regions, see fill.hpp
     double audit = 1e-3; ///< share of the filled points that are integrated as well
