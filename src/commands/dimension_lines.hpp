@@ -20,14 +20,6 @@ inline double in_degrees(double angle)
     return angle * 180 / std::numbers::pi;
 }
 
-/// r_max of a block (Eq. 17), which does not exist for wide ones.
-inline std::optional<double> r_max_of(double slenderness)
-{
-    return slenderness < std::asin(std::sqrt(2.0 / 3))
-               ? std::optional(largest_restitution(slenderness))
-               : std::nullopt;
-}
-
 /// The extent of a coordinate over all points of a job; nullopt if the coordinate is not known.
 inline std::optional<Extent> extent_of(const Job& job, std::string_view name)
 {

@@ -48,7 +48,7 @@ void add_group(hid_t file, const char* name);
 /// Adds a netCDF-4 dimension without a variable. Its dataset takes no space.
 void add_bare_dimension(hid_t file, const StoredDimension& dimension);
 
-/// Create a dataset of any type.
+/// The properties and the creation of a dataset of any type.
 hdf5::Handle dataset_creation();
 hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                             const Dimensions& dimensions, hid_t creation);

@@ -16,6 +16,12 @@ double frequency_parameter(double half_diagonal, double gravity)
     return std::sqrt(3 * gravity / (4 * half_diagonal));
 }
 
+std::optional<double> r_max_of(double slenderness)
+{
+    return slenderness < limit_of_r_max ? std::optional(largest_restitution(slenderness))
+                                        : std::nullopt;
+}
+
 double uplift_threshold(Theory theory, double slenderness)
 {
     return with_theory(theory,

@@ -138,14 +138,13 @@ void expect_restitution(const Coordinates& coordinates, const Grid& corners)
         return;
     }
     constexpr std::array<std::string_view, 3> names{"restitution", name, "slenderness"};
-    const double limit = std::asin(std::sqrt(2.0 / 3.0));
     refuse_where(coordinates, corners, name, names, [&](double, double share, double alpha) {
-        return alpha < limit
+        return alpha < limit_of_r_max
                    ? ""
                    : fmt::format(" = {}: r_max is defined only for a slenderness below arcsin "
                                  "sqrt(2/3) = {} rad (Eq. 17), but that of the block is {} rad. "
                                  "Choose a more slender block, or give restitution, r itself.",
-                                 share, limit, alpha);
+                                 share, limit_of_r_max, alpha);
     });
     const Quantity& rule = quantity("restitution");
     refuse_where(coordinates, corners, name, names, [&](double r, double share, double alpha) {

@@ -56,17 +56,16 @@ std::string finding_about(const PlausibleRange& range, const Extent& values,
                        range.advice);
 }
 
-/// Whether r is above r_max (Eq. 17) for a block of this slenderness [rad]. Above
-/// arcsin sqrt(2/3), r_max does not exist.
+/// Whether r is above r_max (Eq. 17), if it exists, for a block of this slenderness [rad].
 std::string finding_about_restitution(double restitution, double alpha)
 {
-    const double largest = largest_restitution(alpha);
+    const auto largest = r_max_of(alpha);
     const double rounding = 1e-9; // of numbers that users copy from a printed r_max
-    return !(restitution > largest * (1 + rounding)) || alpha > std::asin(std::sqrt(2.0 / 3))
+    return !largest || !(restitution > *largest * (1 + rounding))
                ? ""
                : fmt::format("r = {:.4g} is above r_max = {:.4g} for alpha = {:.4g} degrees "
                              "(Eq. 17)",
-                             restitution, largest, alpha * 180 / std::numbers::pi);
+                             restitution, *largest, alpha * 180 / std::numbers::pi);
 }
 
 /// Every row of a table is judged; of a plane, the largest r at the smallest slenderness.

@@ -16,17 +16,11 @@ UNSAFE, SAFE, UNDECIDED = "#f4e3b0", "#8bc77f", "#f3b3d6"  # shades of plot_boun
 
 
 class ABoundary(Scratch):
-    computed = None  # boundary.h5 of the first test that needs it: equal jobs give equal bytes
-
     def boundary(self, output="boundary.h5", ranks=None):
         return self.overturn("boundary", "small.toml", "-o", output, *FEW, ranks=ranks)
 
     def have_boundary(self):
-        path = self.folder / "boundary.h5"
-        if ABoundary.computed is None:
-            self.assert_exit(self.boundary(), 0)
-            ABoundary.computed = path.read_bytes()
-        path.write_bytes(ABoundary.computed)
+        self.have("boundary.h5", self.boundary)
 
     def test_has_the_flips_of_every_line_in_order(self):
         self.assert_exit(self.boundary(), 0, "60 lines in 60 tiles", "computed 60 lines")

@@ -99,6 +99,8 @@ def words(text):
 class Scratch(unittest.TestCase):
     """A separate folder for each test, with the two jobs in it."""
 
+    computed = {}  # the bytes of files, see have()
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
         self.addCleanup(folder.cleanup)
@@ -135,6 +137,15 @@ class Scratch(unittest.TestCase):
         """Runs a Python tool to its end."""
         return subprocess.run([sys.executable, TOOLS / name, *arguments], cwd=self.folder, text=True,
                               timeout=PATIENCE, capture_output=True)
+
+    def have(self, name, compute):
+        """Writes the file `name` as compute() does, which runs only for the first test of the class."""
+        path = self.folder / name
+        key = (type(self), name)
+        if key not in self.computed:
+            self.assert_exit(compute(), 0)
+            self.computed[key] = path.read_bytes()
+        path.write_bytes(self.computed[key])
 
     def opened(self, name):
         """Returns the content of a result file."""

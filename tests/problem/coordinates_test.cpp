@@ -245,6 +245,14 @@ TEST(Coordinates, OfAScalarGridAreOnePoint)
                              .frequency = points[0].frequency});
 }
 
+TEST(LargestRestitution, ExistsBelowTheSlendernessAtWhichItIsZero)
+{
+    EXPECT_DOUBLE_EQ(limit_of_r_max, std::asin(std::sqrt(2.0 / 3)));
+    EXPECT_EQ(r_max_of(0.3), largest_restitution(0.3));
+    EXPECT_EQ(r_max_of(limit_of_r_max), std::nullopt);
+    EXPECT_NEAR(r_max_of(std::nextafter(limit_of_r_max, 0.0)).value(), 0, 1e-30);
+}
+
 TEST(LiftingPga, LiftsTheBlockOfThisSlenderness)
 {
     Point point{.slenderness = 0.2, .restitution = 1, .amplitude = 1, .frequency = 1};

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,12 @@ namespace overturn {
 
 /// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
 double frequency_parameter(double half_diagonal, double gravity);
+
+/// r_max (Eq. 17) exists for blocks below this slenderness, arcsin sqrt(2/3) [rad].
+inline constexpr double limit_of_r_max = 0.9553166181245093;
+
+/// r_max of a block of this slenderness [rad] (Eq. 17); nullopt if it does not exist.
+std::optional<double> r_max_of(double slenderness);
 
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
