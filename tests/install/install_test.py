@@ -90,7 +90,7 @@ class AnInstallation(unittest.TestCase):
         run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
         outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
                    "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
-                   "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("--restitution=0.9", "phase.png"),
+                   "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
                    "plot-fragility": (recorded, "fragility.png"), "to-csv": (self.spectrum, "spectrum.csv")}
         for tool, (argument, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", argument, "-o", self.folder / output)

@@ -8,8 +8,8 @@ import unittest
 
 from tool import InAFolder
 
-FIGURES = ("04", "05", "07a", "07b_08", "09a", "09b", "10", "11a", "11b", "12a", "12b", "14a", "14b",
-           "15a", "15b", "16a", "16b", "17a", "17b")
+FIGURES = ("02", "03", "04", "05", "07a", "07b_08", "09a", "09b", "10", "11a", "11b", "12a", "12b",
+           "14a", "14b", "15a", "15b", "16a", "16b", "17a", "17b")
 BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF"}
 
 

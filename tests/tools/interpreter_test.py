@@ -38,7 +38,7 @@ class TestAPythonWithoutTheModules(InOneFolder):
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn(f"usage: {name.name} ", run.stdout)
             self.assertEqual(run.stderr, "")
-        run = self.run_here(TOOLS / "plot_phase", "-o", "a picture.png")
+        run = self.run_here(TOOLS / "plot_phase", "regions", "-o", "a picture.png")
         self.assertEqual((run.returncode, run.stdout), (0, "a picture.png\n"), run.stderr)
 
     def test_ends_with_the_packages_to_install_if_the_systems_lacks_them_too(self):

@@ -18,7 +18,7 @@ from overturn.output_file import OutputError, new_file, write_text
 
 class TestAWrittenFile(InAFolder):
     WRITERS = (("to_csv", "result.h5", "-o", "{}"), ("synthetic_record", "-o", "{}"),
-               ("plot_phase", "-o", "{}.svg"))
+               ("plot_phase", "regions", "-o", "{}.svg"))
 
     @classmethod
     def setUpClass(cls):

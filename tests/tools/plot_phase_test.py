@@ -1,4 +1,4 @@
-"""The picture of tools/plot_phase: its colours compared with Eq. 20, its texts read from
+"""The portraits of tools/plot_phase: their colours compared with Eq. 20, their texts read from
 SVG."""
 
 import re
@@ -81,6 +81,12 @@ class TestTheFormulas(unittest.TestCase):
         self.assertAlmostEqual(block.inward_rate(0.0), largest / np.sqrt(R), delta=1e-15)
         self.assertAlmostEqual(block.inward_rate(ALPHA), largest * np.sqrt(1 / R - 1), delta=1e-15)
 
+    def test_turn_an_orbit_back_where_its_speed_is_zero(self):
+        for linear in (False, True):
+            block = FreeBlock(ALPHA, R, linear)
+            q = 0.3 * block.largest_rate**2
+            self.assertAlmostEqual(block.rate(block.outermost_angle(q), q), 0, delta=1e-7)
+
     def test_are_straight_in_the_linear_theory(self):
         np.testing.assert_allclose(FreeBlock(ALPHA, R, linear=True).separatrix_rate(
             np.array([-0.5, 0, 0.1])), [-0.1, 0.4, 0.3], atol=1e-15)
@@ -89,28 +95,39 @@ class TestTheFormulas(unittest.TestCase):
 class TestAPortrait(InAFolder):
     TOOL = "plot_phase"
 
-    def words(self, *arguments):
-        return " ".join(re.findall(r"<(?:text|tspan)[^>]*>\s*([^<\s][^<]*)", self.svg(*arguments))).split()
+    def text(self, portrait, *arguments):
+        """Returns all words in one line; a bar or a prime is a separate word."""
+        return " ".join(re.findall(r"<(?:text|tspan)[^>]*>\s*([^<\s][^<]*)", self.svg(portrait, *arguments)))
 
-    def test_names_all_seven_regions(self):
-        words = self.words()
+    def test_of_the_regions_names_all_seven(self):
+        words = self.text("regions").split()
         for name in ("S", "S+", "S−", "U0+", "U0−", "U1+", "U1−"):
             self.assertEqual(words.count(name), 1, name)
 
+    def test_names_the_papers_points(self):
+        for portrait, names in (("pendulum", "ABD"), ("libration", "ABC")):
+            words = self.text(portrait)
+            for name in names:
+                self.assertRegex(words, rf"\b{name}\b", portrait)
+
     def test_names_the_block(self):
-        words = self.words("--slenderness", "0.3", "--restitution", "0.75")
-        self.assertIn("0.3", words)
+        words = self.text("libration", "--slenderness", "0.3", "--restitution", "0.75")
+        self.assertIn("0.3 rad", words)
         self.assertIn("0.75", words)
 
     def test_can_be_drawn_for_any_block(self):
         for alpha, r in (("0.02", "0.999"), ("0.1746", "0.9115"), ("1.4", "0.05"), ("1.5", "1")):
-            run = self.run_tool("--slenderness", alpha, "--restitution", r)
-            self.assertEqual((run.returncode, run.stderr), (0, ""), (alpha, r))
+            for portrait, loss in (("pendulum", ()), ("libration", ("--restitution", r)),
+                                   ("regions", ("--restitution", r))):
+                run = self.run_tool(portrait, "--slenderness", alpha, *loss)
+                self.assertEqual((run.returncode, run.stderr), (0, ""), (portrait, alpha, r))
 
     def test_is_refused_for_invalid_blocks_and_formats(self):
-        for arguments, sentence in ((("--slenderness", "1.6"), "outside (0, pi/2)"),
-                                    (("--restitution", "1.2"), "outside (0, 1]"),
-                                    (("-o", "picture.jpg"), ".png, .pdf or .svg")):
+        for arguments, sentence in ((("regions", "--slenderness", "1.6"), "outside (0, pi/2)"),
+                                    (("regions", "--restitution", "1.2"), "outside (0, 1]"),
+                                    (("pendulum", "--restitution", "1"), "no loss at impacts"),
+                                    (("regions", "-o", "picture.jpg"), ".png, .pdf or .svg"),
+                                    (("others",), "invalid choice")):
             self.refuses(2, sentence, *arguments)
 
 

@@ -26,10 +26,18 @@ class FreeBlock:
         below_top = self.slenderness - np.abs(angle)
         return below_top if self.linear else 2 * np.sin(below_top / 2)
 
+    def rate(self, angle, q):
+        """The speed on the orbit of this q: theta'^2 = c^2 - q (Eq. 21)."""
+        return np.sqrt(np.maximum(self.separatrix_rate(angle)**2 - q, 0))
+
     def inward_rate(self, angle):
-        """The largest inward speed at which the block stays safe after one impact: q0 = q_min, where
-        theta'^2 = c^2 - q0 (Eq. 21)."""
-        return np.sqrt(self.separatrix_rate(angle)**2 - self.q_min)
+        """The largest inward speed at which the block stays safe after one impact: q0 = q_min."""
+        return self.rate(angle, self.q_min)
+
+    def outermost_angle(self, q):
+        """The largest angle on the orbit of 0 <= q <= q_max: c^2 = q."""
+        rate = np.sqrt(q)
+        return self.slenderness - (rate if self.linear else 2 * np.arcsin(rate / 2))
 
 
 def largest_restitution(slenderness):

@@ -28,11 +28,13 @@ def parser_of(name, description, example, written_by=None):
 
 
 def parse_with_output(parser, argv, default, what):
-    """Parses the arguments, with -o for the output. FILE in its default name is the name of the file."""
+    """Parses the arguments, with -o for the output. In its default name, FILE stands for the name of the file and
+    PORTRAIT for that argument."""
     parser.add_argument("-o", "--output", metavar="OUT", help=f"{what} (default: {default} in the working directory)")
     arguments = parser.parse_args(argv)
     if arguments.output is None:
-        arguments.output = default.replace("FILE", pathlib.Path(getattr(arguments, "file", "")).stem)
+        arguments.output = default.replace("FILE", pathlib.Path(getattr(arguments, "file", "")).stem).replace(
+            "PORTRAIT", getattr(arguments, "portrait", ""))
     return arguments
 
 
