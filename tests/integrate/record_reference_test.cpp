@@ -3,6 +3,7 @@
 #include "support/record_point.hpp"
 
 #include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/number/digits50.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "overturn/integrate/forced_end.hpp"
-#include "overturn/number/digits50.hpp"
 #include "support/random_record.hpp"
 
 namespace overturn {
@@ -11,10 +10,6 @@ namespace overturn {
 /// record_point.cpp, for the orders 8, 14 and 20.
 template <Theory theory, Directions directions, int order = 14>
 ForcedEnd<double> run_record(const RecordPoint& point, double tolerance);
-
-/// The same in 50 digits, with order 20, nonlinear, without error. In record_digits.cpp.
-template <Directions directions>
-ForcedEnd<Digits50> run_record_in_digits(const RecordPoint& point, double tolerance);
 
 /// The largest tilt [rad].
 template <Theory theory, Directions directions>
