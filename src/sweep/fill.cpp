@@ -105,8 +105,11 @@ public:
     Filler(const Problem& problem, const Tile& tile, Kernel kernel, DropRequested drop_requested,
            const FillRule& rule)
         : theory_(problem.scene.theory), numerics_(problem.numerics), rule_(rule),
-          points_(Coordinates(problem.scene, problem.grid, tile).points()),
-          columns_(along(problem.grid.dimension_of(Role::rate), tile.count, 1)),
+          coordinates_(problem.scene, problem.grid, tile),
+          slenderness_(coordinates_.of("slenderness").first()),
+          restitution_(coordinates_.of("restitution").first()),
+          amplitudes_(coordinates_.of("amplitude").values),
+          frequencies_(coordinates_.of("frequency").values),
           longest_{longest_cell(problem.grid, Role::strength),
                    longest_cell(problem.grid, Role::rate)},
           run_(problem.scene, {}, kernel, std::move(drop_requested)),
@@ -130,35 +133,55 @@ public:
     /// first: the row and the column of the first point among all points of the grid.
     void audit(std::array<std::int64_t, 2> first)
     {
-        std::vector<int> checked;
-        for (int row = 0; row < rows(); ++row) {
-            for_each_audited(numerics_.audit, first[0] + row, first[1], first[1] + columns(),
-                             [&](std::int64_t column) {
-                                 const int at = place(row, int(column - first[1]));
-                                 if (!filled_.evaluated[std::size_t(at)]) {
-                                     checked.push_back(at);
-                                 }
-                             });
-        }
-        filled_.audit = {std::int64_t(checked.size()), integrate(checked, {.impacts = true})};
+        const std::vector<int> checked = audited(first);
+        filled_.audit = {std::int64_t(checked.size()),
+                         store(checked, integrate(checked, {.impacts = true}).outcomes)};
         if (filled_.audit.wrong > 0) {
-            std::vector<int> others;
-            for (std::size_t i = 0; i < filled_.evaluated.size(); ++i) {
-                if (!filled_.evaluated[i]) {
-                    others.push_back(int(i));
-                }
-            }
-            integrate(others, {.impacts = true});
+            const std::vector<int> others = not_integrated();
+            store(others, integrate(others, {.impacts = true}).outcomes);
         }
     }
 
     FilledTile result() { return std::move(filled_); }
 
 private:
-    int rows() const { return int(std::int64_t(points_.size()) / columns_); }
-    int columns() const { return int(columns_); }
+    struct Integrated {
+        PointRun run;
+        Outcomes outcomes;
+    };
+
+    int rows() const { return int(amplitudes_.size()); }
+    int columns() const { return int(frequencies_.size()); }
     int place(int row, int column) const { return row * columns() + column; }
+    bool is_integrated(int place) const { return filled_.evaluated[std::size_t(place)] != 0; }
     bool with_impacts() const { return !filled_.impacts.empty(); }
+
+    /// The filled points that the audit checks.
+    std::vector<int> audited(std::array<std::int64_t, 2> first) const
+    {
+        std::vector<int> places;
+        for (int row = 0; row < rows(); ++row) {
+            for_each_audited(numerics_.audit, first[0] + row, first[1], first[1] + columns(),
+                             [&](std::int64_t column) {
+                                 const int at = place(row, int(column - first[1]));
+                                 if (!is_integrated(at)) {
+                                     places.push_back(at);
+                                 }
+                             });
+        }
+        return places;
+    }
+
+    std::vector<int> not_integrated() const
+    {
+        std::vector<int> places;
+        for (int i = 0; i < rows() * columns(); ++i) {
+            if (!is_integrated(i)) {
+                places.push_back(i);
+            }
+        }
+        return places;
+    }
 
     std::vector<Cell> largest_cells() const
     {
@@ -173,7 +196,7 @@ private:
     /// others.
     std::vector<Cell> pass(const std::vector<Cell>& cells)
     {
-        integrate(places_of_nodes(cells), node_outputs);
+        integrate_nodes(missing_nodes(cells));
         std::vector<Cell> parts;
         for (const Cell& cell : cells) {
             if (cell.is_smallest()) { // all of its points are nodes
@@ -192,47 +215,56 @@ private:
 
     /// The nodes that have not been integrated yet, row by row: points of a row share their scaled
     /// pulse.
-    std::vector<int> places_of_nodes(const std::vector<Cell>& cells)
+    std::vector<int> missing_nodes(const std::vector<Cell>& cells) const
     {
         std::vector<int> places;
         for (const Cell& cell : cells) {
             for (const int row : cell.places(0)) {
                 for (const int column : cell.places(1)) {
-                    std::uint8_t& evaluated = filled_.evaluated[std::size_t(place(row, column))];
-                    if (!evaluated) {
+                    if (!is_integrated(place(row, column))) {
                         places.push_back(place(row, column));
                     }
-                    evaluated = 1;
                 }
             }
         }
         std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
         return places;
     }
 
-    /// Integrates points and stores them, as nodes if all outputs for a node are requested. Returns
-    /// the number of points whose stored value has changed.
-    std::int64_t integrate(const std::vector<int>& places, Outputs outputs)
+    Integrated integrate(const std::vector<int>& places, Outputs outputs) const
     {
         outputs.region = true;
         std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
-            points.push_back(points_[std::size_t(place)]);
+            points.push_back({slenderness_, restitution_,
+                              amplitudes_[std::size_t(place / columns())],
+                              frequencies_[std::size_t(place % columns())]});
         }
-        const PointRun run = run_.with_points(std::move(points));
-        const Outcomes outcomes = outcomes_of(run, numerics_, outputs);
+        PointRun run = run_.with_points(std::move(points));
+        Outcomes outcomes = outcomes_of(run, numerics_, outputs);
+        return {std::move(run), std::move(outcomes)};
+    }
+
+    void integrate_nodes(const std::vector<int>& places)
+    {
+        const auto [run, outcomes] = integrate(places, node_outputs);
+        store(places, outcomes);
+        with_theory(theory_, [&, &run = run, &outcomes = outcomes]<Theory theory>() {
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                node_at_[std::size_t(places[i])] = int(nodes_.size());
+                nodes_.push_back(node_of<theory>(run, outcomes, int(i)));
+            }
+        });
+    }
+
+    /// Returns the number of points whose value has changed.
+    std::int64_t store(const std::vector<int>& places, const Outcomes& outcomes)
+    {
         std::int64_t changed = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             changed += store(std::size_t(places[i]), outcomes, i);
-        }
-        if (outputs.grazes) {
-            with_theory(theory_, [&]<Theory theory>() {
-                for (std::size_t i = 0; i < places.size(); ++i) {
-                    node_at_[std::size_t(places[i])] = int(nodes_.size());
-                    nodes_.push_back(node_of<theory>(run, outcomes, int(i)));
-                }
-            });
         }
         return changed;
     }
@@ -242,7 +274,8 @@ private:
         bool changed =
             outcomes.region[i] != std::exchange(filled_.region[place], outcomes.region[i]);
         if (with_impacts()) {
-            const std::uint16_t impacts = outcomes.stored_impacts(i, false);
+            constexpr bool recorded = false; // see reason_not_to_fill()
+            const std::uint16_t impacts = outcomes.stored_impacts(i, recorded);
             changed = impacts != std::exchange(filled_.impacts[place], impacts) || changed;
         }
         filled_.evaluated[place] = 1;
@@ -267,7 +300,7 @@ private:
             const int first = place(row, cell.begin[1]);
             const int last = place(row, cell.end[1]);
             const auto fill_unless_integrated = [&](int at) {
-                if (!filled_.evaluated[std::size_t(at)]) {
+                if (!is_integrated(at)) {
                     values[std::size_t(at)] = value;
                 }
             };
@@ -292,10 +325,13 @@ private:
     const Theory theory_;
     const Numerics numerics_;
     const FillRule rule_;
-    const std::vector<Point> points_; // row by row
-    const std::int64_t columns_;
-    const std::array<int, 2> longest_; // side of a cell along rows and columns [points]
-    const PointRun run_;               // without points
+    const Coordinates coordinates_;
+    const double slenderness_;
+    const double restitution_;
+    const std::vector<double>& amplitudes_;  // of the rows
+    const std::vector<double>& frequencies_; // of the columns
+    const std::array<int, 2> longest_;       // side of a cell along rows and columns [points]
+    const PointRun run_;                     // without points
     FilledTile filled_;
     std::vector<Node> nodes_;
     std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is
