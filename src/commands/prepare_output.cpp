@@ -55,30 +55,29 @@ std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
 
 } // namespace
 
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
-                                                        const SoleWriter& writer)
+PreparedOutput prepare_output(const Job& job, const std::string& path, const SoleWriter& writer)
 {
-    std::vector<std::int64_t> damaged;
+    PreparedOutput output{};
     bool exists = false;
-    bool is_complete = false;
     {
         const GuardedReading guarded(path, writer.lock());
         if (const auto stored = existing_result(path, job)) {
-            damaged = find_damaged_tiles(*stored);
+            output.damaged = find_damaged_tiles(*stored);
             exists = true;
-            is_complete = damaged.empty() && stored->tiles().tiles_done == stored->tiles().tiles;
+            output.is_complete =
+                output.damaged.empty() && stored->tiles().tiles_done == stored->tiles().tiles;
         }
     }
-    if (is_complete) {
+    if (output.is_complete) {
         clear_open_mark(path);
         say(path + " is already complete.");
-        return std::nullopt;
+        return output;
     }
     demand_place_for_sidecar(path);
     if (!exists) {
         make_file(job, path);
     }
-    return damaged;
+    return output;
 }
 
 } // namespace overturn

@@ -6,15 +6,18 @@
 #include "overturn/job/job.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace overturn {
 
-/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns its
-/// damaged tiles, which are to be recomputed; nullopt if the file is complete. Throws Error.
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
-                                                        const SoleWriter& writer);
+/// The result file before the computation.
+struct PreparedOutput {
+    bool is_complete;                  ///< nothing is left to compute
+    std::vector<std::int64_t> damaged; ///< finished tiles that have to be recomputed
+};
+
+/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Throws Error.
+PreparedOutput prepare_output(const Job& job, const std::string& path, const SoleWriter& writer);
 
 } // namespace overturn

@@ -42,7 +42,7 @@ struct Task {
     const std::string path;
     const RunOptions& options;
     const Clock::time_point start;           ///< of the program
-    const std::vector<std::int64_t> damaged; ///< tiles of the existing file; on rank 0
+    const std::vector<std::int64_t> damaged; ///< finished tiles to recompute; on rank 0
     const Tiling tiling = tiling_of(problem);
     const Items items = items_of(problem);
     const Kernel kernel = kernel_called(options.kernel);
@@ -94,7 +94,7 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
 {
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
     Progress progress(task.items_in(tiles_before), task.items.count, task.items.name);
-    TileFields fields;
+    TileFields fields; // of the last tile computed
     const TileWork tile_work{
         .compute =
             [&](std::int64_t number, const DropRequested& drop_requested) {
@@ -185,7 +185,6 @@ int compute_missing_tiles(const Task& task)
     }
     const FarmReport report = compute_tiles(task, missing, file);
     file.close();
-
     int code = exit_code::complete;
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
@@ -206,9 +205,9 @@ int run(const RunOptions& options)
     const std::string path = output_path(options);
     std::optional<Job> job;
     std::optional<SoleWriter> sole_writer;
-    std::optional<std::vector<std::int64_t>> damaged;
+    PreparedOutput output{};
+    bool computes = false;
     int code = exit_code::complete;
-
     start_hdf5();
     const MpiSession session;
     // An error that rank 0 finds before the computation is printed once, and all ranks return its
@@ -222,22 +221,23 @@ int run(const RunOptions& options)
             }
             demand_path_for_mpi(fs::absolute(path).string());
             sole_writer.emplace(path);
-            damaged = prepare_output(*job, path, *sole_writer);
-            if (damaged) {
+            output = prepare_output(*job, path, *sole_writer);
+            if (!output.is_complete) {
                 warn_of_implausible_values(*job);
                 std::ranges::for_each(notes_on_records(*job), say);
+                computes = true;
             }
         } catch (const std::exception& error) {
             code = complain(error);
         }
     }
-    if (!session.from_rank_0(damaged.has_value())) {
+    if (!session.from_rank_0(computes)) {
         return session.from_rank_0(code);
     }
     try {
         const std::string bytes = session.from_rank_0(job ? bytes_of(job->problem) : "");
-        return compute_missing_tiles({session, problem_of(bytes), path, options, start,
-                                      damaged.value_or(std::vector<std::int64_t>())});
+        return compute_missing_tiles(
+            {session, problem_of(bytes), path, options, start, output.damaged});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

@@ -154,6 +154,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
     };
     LinkToRank0 rank_0(session.communicator(), patience);
     Occasionally regular_report(std::chrono::milliseconds(patience) / messages_in_patience);
+    // The computation of a tile calls it regularly, so messages are sent there, too.
     const std::function<bool()> drop_requested = [&] {
         if (regular_report.is_due()) {
             rank_0.send(report(false));
@@ -198,6 +199,7 @@ public:
     FarmReport lead()
     {
         Occasionally communication(answer_interval);
+        // The computation of a tile calls it regularly, so messages are handled there, too.
         const std::function<bool()> drop_requested = [&] {
             if (communication.is_due()) {
                 communicate();

@@ -4,6 +4,7 @@
 #include "hdf5_handles.hpp"
 
 #include "overturn/file/stored_result.hpp"
+#include "overturn/mechanics/region.hpp"
 #include "overturn/problem/fields.hpp"
 
 #include <array>
@@ -52,7 +53,10 @@ inline constexpr char tile_shape[] = "tile_shape";
 inline std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field)
 {
     switch (traits_of(field).type) {
-    case FieldType::uint8: return status::not_computed;
+    case FieldType::uint8:
+        static_assert(status::not_computed == std::uint8_t(Region::not_computed) &&
+                      status::not_computed == point_origin::not_computed);
+        return status::not_computed;
     case FieldType::uint16: return impact_count::not_computed;
     case FieldType::uint32: return step_count::not_computed;
     case FieldType::float64: break;

@@ -28,9 +28,10 @@ using hdf5::write_attribute;
 using layout::in_run_group;
 using namespace netcdf;
 
-/// Writes fill values to every chunk, so that a run only overwrites existing values.
-void fill(const StoredField& stored, const Problem& problem, const std::string& path,
-          const BetweenTiles& between_tiles)
+/// Writes the value of points that are not computed to every chunk, so that a run only overwrites
+/// existing values.
+void write_not_computed(const StoredField& stored, const Problem& problem, const std::string& path,
+                        const BetweenTiles& between_tiles)
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
     constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
@@ -200,7 +201,8 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job,
                     "comment", "used by the ranks to check at the start that they share the file");
     const std::string auxiliary = add_coordinates(file, job);
     for (const Field field : problem.fields) {
-        fill(add_field(file, field, problem, auxiliary), problem, path, between_tiles);
+        write_not_computed(add_field(file, field, problem, auxiliary), problem, path,
+                           between_tiles);
     }
     add_checksums(file, problem);
 }

@@ -62,10 +62,8 @@ struct SpectrumFile::Open {
     /// Stores the counts of a filled tile.
     void write_audit(const Tile& tile, const AuditCount& audit)
     {
-        if (is_filled) {
-            write_number(audit_checked, tile.number, std::uint64_t(audit.checked));
-            write_number(audit_wrong, tile.number, std::uint64_t(audit.wrong));
-        }
+        write_number(audit_checked, tile.number, std::uint64_t(audit.checked));
+        write_number(audit_wrong, tile.number, std::uint64_t(audit.wrong));
     }
 
     /// Throws Error if the path no longer names the opened file, or the file was truncated:
@@ -267,7 +265,9 @@ void SpectrumFile::forget(const Tile& tile)
         for (const StoredField& stored : open_->fields) {
             write_tile(stored, tile, not_computed(stored.field, stored.part_of(tile).points()));
         }
-        open_->write_audit(tile, {});
+        if (open_->is_filled) {
+            open_->write_audit(tile, {});
+        }
         write_number(open_->checksums, tile.number, not_computed_checksum);
     } catch (const hdf5::Hdf5Error& error) {
         throw Error(exit_code::output, "cannot clear the damaged tile {} of \"{}\": {}.",
@@ -290,9 +290,11 @@ void SpectrumFile::write(const Tile& tile, const TileFields& fields)
             dataset = name_of(open_->fields[i].field);
             write_tile(open_->fields[i], tile, fields.values[i]);
         }
-        dataset = layout::audit_checked;
-        open_->write_audit(tile, fields.audit);
-        open_->sync_if_durable();
+        if (open_->is_filled) {
+            dataset = layout::audit_checked;
+            open_->write_audit(tile, fields.audit);
+        }
+        open_->sync_if_durable(); // a failure is that of the last dataset
         dataset = layout::checksum;
         const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
         write_number(open_->checksums, tile.number, tile_checksum(fields.values, audit));

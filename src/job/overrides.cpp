@@ -183,7 +183,7 @@ void drop_scene(toml::table& job, const Path& path, const toml::table& given)
     const bool is_record = path == Path{"scene", "record"};
     const bool is_pulse = path == Path{"scene", "pulse"};
     if (is_record || (is_pulse && job["scene"]["record"])) {
-        for (const std::string_view key : scene_keys_of(is_record ? KeyOf::pulse : KeyOf::record)) {
+        for (const std::string_view key : scene_keys_of(is_record ? Under::pulse : Under::record)) {
             erase(job, "scene", key);
         }
     }

@@ -45,7 +45,7 @@ std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
     return given;
 }
 
-/// Refuses a quantity at its place, the latter of two; that of a missing one is the table to which
+/// Refuses a quantity at its key, or at the second of two keys; a missing one at the table to which
 /// it belongs.
 [[noreturn]] void refuse_given(const Entry& job, const std::vector<Given>& given,
                                const GivenError& error)
@@ -85,7 +85,7 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     const auto has_column = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
-    if (is_recorded && !has_column("motion_number")) {
+    if (is_recorded && !has_column(motion_number)) {
         const auto last = std::int64_t(job.motions.size());
         given.push_back({&quantity("motion"), "scene.record",
                          Axis(AxisRange{1, double(last), last}),

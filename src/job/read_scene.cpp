@@ -38,7 +38,7 @@ Scene read_scene(const Entry& job)
     scene.theory = choice_of(entry, "theory", theory_names, scene.theory);
     scene.gravity = quantity_of(entry, "gravity", scene.gravity);
     const bool is_recorded = find(entry, "record").has_value();
-    for (const std::string_view key : scene_keys_of(is_recorded ? KeyOf::pulse : KeyOf::record)) {
+    for (const std::string_view key : scene_keys_of(is_recorded ? Under::pulse : Under::record)) {
         if (const auto other = find(entry, key)) {
             refuse(*other, is_recorded
                                ? " cannot be combined with scene.record. Remove one of them."

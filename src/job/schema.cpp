@@ -19,17 +19,17 @@ constexpr std::array keys{
     Key{"", "blocks"},
     Key{"", "numerics"},
     Key{"", "output"},
-    Key{"scene", "pulse", KeyOf::pulse},
-    Key{"scene", "record", KeyOf::record},
+    Key{"scene", "pulse", Under::pulse},
+    Key{"scene", "record", Under::record},
     Key{"scene", "theory"},
-    Key{"scene", "window", KeyOf::pulse},
-    Key{"scene", "cycles", KeyOf::pulse},
-    Key{"scene", "gamma", KeyOf::pulse},
-    Key{"scene", "nu", KeyOf::pulse},
-    Key{"scene", "units", KeyOf::record},
-    Key{"scene", "component", KeyOf::record},
-    Key{"scene", "vertical", KeyOf::record},
-    Key{"scene", "time_step", KeyOf::record},
+    Key{"scene", "window", Under::pulse},
+    Key{"scene", "cycles", Under::pulse},
+    Key{"scene", "gamma", Under::pulse},
+    Key{"scene", "nu", Under::pulse},
+    Key{"scene", "units", Under::record},
+    Key{"scene", "component", Under::record},
+    Key{"scene", "vertical", Under::record},
+    Key{"scene", "time_step", Under::record},
     Key{"scene", "gravity"},
     Key{"blocks", "table"},
     Key{"numerics", "method"},
@@ -59,7 +59,7 @@ std::vector<std::string_view> keys_of(std::string_view table)
     return names;
 }
 
-std::vector<std::string_view> scene_keys_of(KeyOf motion)
+std::vector<std::string_view> scene_keys_of(Under motion)
 {
     std::vector<std::string_view> names;
     for (const Key& key : keys) {

@@ -30,7 +30,7 @@ double uplift_threshold(Theory theory, double slenderness)
 
 double pga_of_unit(const Scene& scene, const Point& point)
 {
-    return scene.is_recorded() ? scene.records[std::size_t(point.motion)]->peak()
+    return scene.is_recorded() ? scene.records[std::size_t(point.record)]->peak()
                                : uplift_threshold(scene.theory, point.slenderness);
 }
 
@@ -40,15 +40,13 @@ double lifting_pga(const Scene& scene, const Point& point)
     if (!scene.is_recorded()) {
         return threshold;
     }
-    const Accelerogram& record = *scene.records[std::size_t(point.motion)];
+    const Accelerogram& record = *scene.records[std::size_t(point.record)];
     return record.peak() * record.lifting_scale(threshold);
 }
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-enum class Under { any_motion, pulse, record };
 
 /// A coordinate that follows from one or two others, x and y.
 struct Derivation {
@@ -60,7 +58,7 @@ struct Derivation {
 
 const Accelerogram& record_of(const Scene& scene, double motion)
 {
-    return *scene.records[std::size_t(motion) - 1];
+    return *scene.records[Scene::record_index(motion)];
 }
 
 constexpr Derivation derivations[]{
@@ -277,7 +275,8 @@ std::vector<Point> Coordinates::points() const
     fill(is_recorded ? "samples_per_unit" : "frequency",
          [](Point& point, double value) { point.frequency = value; });
     if (is_recorded) {
-        fill("motion", [](Point& point, double value) { point.motion = int(value) - 1; });
+        fill("motion",
+             [](Point& point, double value) { point.record = int(Scene::record_index(value)); });
     }
     return points;
 }

@@ -165,7 +165,7 @@ void expect_finite_scales(const Scene& scene, const Coordinates& coordinates, co
     const std::array<std::string_view, 4> names{is_pga ? "scale" : "pga", "scale", name, "motion"};
     refuse_where(coordinates, corners, name, names,
                  [&](double, double scale, double strength, double motion) {
-                     const Accelerogram& record = *scene.records[std::size_t(motion) - 1];
+                     const Accelerogram& record = *scene.records[Scene::record_index(motion)];
                      return std::isfinite(scale) && std::isfinite(scale * record.upwards_peak())
                                 ? ""
                                 : fmt::format(" = {} exceeds the range of double precision as a "
@@ -292,7 +292,7 @@ std::vector<ScaleRange> scales_of(const Scene& scene, const Grid& grid)
     std::vector<ScaleRange> ranges(scene.records.size(),
                                    {std::numeric_limits<double>::infinity(), 0});
     for (std::size_t i = 0; i < scale.size(); ++i) {
-        ScaleRange& range = ranges[std::size_t(motion[i]) - 1];
+        ScaleRange& range = ranges[Scene::record_index(motion[i])];
         range = {std::min(range.smallest, scale[i]), std::max(range.largest, scale[i])};
     }
     return ranges;

@@ -51,7 +51,9 @@ Shape tile_of(const Grid& grid, std::int64_t side)
 {
     const Shape shape = grid.shape();
     Shape tile(shape.size(), 1);
-    const std::size_t first = // a tile does not extend over this dimension
+    // Kernels compute points under one record at a time, so a tile of a suite has one. Rows of a
+    // table may have records of their own.
+    const std::size_t first =
         grid.dimensions.empty() || grid.dimensions[0].name != "motion" ? 0 : 1;
     const std::size_t others = shape.size() - std::min<std::size_t>(2, shape.size());
     for (std::size_t i = std::max(first, others); i < shape.size(); ++i) {

@@ -74,7 +74,7 @@ public:
 
     void transfer(Problem& problem)
     {
-        // With structured bindings, a new member that is not transferred does not compile.
+        // With structured bindings, a new member that is not named here does not compile.
         auto& [scene, grid, numerics, product, fields] = problem;
         auto& [pulse, theory, shape, records, gravity] = scene;
         auto& [numbers, dimensions] = grid;

@@ -21,15 +21,11 @@ std::int64_t count_points(const Shape& shape)
     return std::accumulate(shape.begin(), shape.end(), std::int64_t(1), std::multiplies());
 }
 
-Tiling::Tiling(Shape shape, const Shape& tile)
-    : shape_(std::move(shape)), tile_shape_(shape_.size(), 1)
+Tiling::Tiling(Shape shape, const Shape& tile) : shape_(std::move(shape))
 {
-    assert(tile.size() <= shape_.size());
-    const std::size_t outer = shape_.size() - tile.size();
+    assert(tile.size() == shape_.size());
     for (std::size_t i = 0; i < shape_.size(); ++i) {
-        if (i >= outer) {
-            tile_shape_[i] = std::min(tile[i - outer], shape_[i]);
-        }
+        tile_shape_.push_back(std::min(tile[i], shape_[i]));
         tiles_.push_back(ceiling_of_ratio(shape_[i], tile_shape_[i]));
     }
 }

@@ -103,7 +103,7 @@ void AccuracyStudy::compute_in_digits(std::int64_t wanted)
         Outcomes outcomes(std::size_t(run.size()), {.margin = true});
         for (const int point : chosen[std::size_t(i)]) {
             run.run_in_more_digits<Digits50>(point, outcomes);
-            if (!(outcomes.flags[point] & outcome_flag::undecided)) {
+            if (!(outcomes.flags[point] & outcome_flag::without_end)) {
                 in_digits_.push_back({std::size_t(i), std::size_t(point),
                                       (outcomes.flags[point] & outcome_flag::fell) != 0,
                                       outcomes.side[point] * outcomes.tilt[point],

@@ -115,7 +115,7 @@ public:
         std::vector<Point> points;
         for (const double amplitude : amplitudes) {
             points.push_back({line_.slenderness, line_.restitution, amplitude / line_.unit,
-                              line_.frequency, line_.motion});
+                              line_.frequency, line_.record});
         }
         computed_ += amplitudes.size();
         const PointRun run(scene_, std::move(points), kernel_, search.drop_requested);
@@ -158,7 +158,7 @@ public:
     {
         const double free_fall =
             scene_.is_recorded()
-                ? scene_.records[std::size_t(line_.motion)]->free_fall_scale() * line_.unit
+                ? scene_.records[std::size_t(line_.record)]->free_fall_scale() * line_.unit
                 : std::numeric_limits<double>::infinity();
         const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
         if (first != amplitudes.end()) {

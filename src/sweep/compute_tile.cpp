@@ -29,12 +29,12 @@ std::vector<Value> for_each_of(const Outcomes& outcomes, const OfPoint& of_point
     return result;
 }
 
-/// An angle or a velocity with its sign; NaN if the point is undecided.
+/// An angle or a velocity with its sign; NaN if the integration did not reach the end.
 std::vector<double> with_sign(const std::vector<double>& values, const Outcomes& outcomes)
 {
     return for_each_of<double>(outcomes, [&](std::size_t i) {
         const double value = outcomes.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
-        return outcomes.flags[i] & outcome_flag::undecided
+        return outcomes.flags[i] & outcome_flag::without_end
                    ? std::numeric_limits<double>::quiet_NaN()
                    : value;
     });
@@ -136,7 +136,7 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
                                           {.slenderness = point.slenderness,
                                            .restitution = point.restitution,
                                            .frequency = point.frequency,
-                                           .motion = point.motion,
+                                           .record = point.record,
                                            .unit = is_pga ? unit : 1},
                                           strengths.values.values(), kernel, search);
     std::vector<double> amplitude(search.most_flips, std::numeric_limits<double>::quiet_NaN());

@@ -73,16 +73,16 @@ ScaledPulses::ScaledPulses(const GroundMotion<double>& motion, Theory theory,
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
                    DropRequested drop_requested)
-    : scene_(scene), motion_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
+    : scene_(scene), pulse_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
-      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(motion_, scene.theory, points_))
+      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_))
 {}
 
 PointRun PointRun::with_points(std::vector<Point> points) const
 {
     PointRun run = *this;
     run.points_ = std::move(points);
-    run.pulses_ = ScaledPulses(motion_, scene_.theory, run.points_);
+    run.pulses_ = ScaledPulses(pulse_, scene_.theory, run.points_);
     return run;
 }
 
@@ -102,15 +102,14 @@ bool PointRun::falls_freely(int point) const
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const auto& [slenderness, restitution, amplitude, frequency, motion] = this->point(point);
+    const auto& [slenderness, restitution, amplitude, frequency, index] = this->point(point);
     if (const Accelerogram* record = record_of(point)) {
         return visit(
             record_excitation<theory>(*record, T(slenderness), T(amplitude), T(frequency)));
     }
     if constexpr (std::same_as<T, double>) {
         const ScaledPulse& pulse = pulse_of(point);
-        return visit(
-            PulseExcitation<double>{motion_, pulse.acceleration, frequency, pulse.uplifts});
+        return visit(PulseExcitation<double>{pulse_, pulse.acceleration, frequency, pulse.uplifts});
     } else {
         return visit(pulse_excitation<theory>(ground_motion<T>(scene_.pulse, scene_.shape),
                                               T(slenderness), T(amplitude), T(frequency)));
@@ -132,7 +131,7 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
         return drop_requested && drop_requested();
     };
     const auto run_under = [&](const Accelerogram* record, const std::vector<int>& points) {
-        const KernelTask task{.pulse = motion_,
+        const KernelTask task{.pulse = pulse_,
                               .record = record,
                               .points = points_.data(),
                               .pulse_of_point = pulses_.of_point.data(),
@@ -232,7 +231,7 @@ bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
     }
     outcomes.error[i] = error;
     put(outcomes.region, point, std::uint8_t(Region::S));
-    if (!(outcomes.flags[i] & outcome_flag::undecided)) {
+    if (!(outcomes.flags[i] & outcome_flag::without_end)) {
         put(outcomes.margin, point, 1);
     }
     return true;
@@ -277,8 +276,9 @@ std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
                 return excitation.next_uplift(true, excitation.motion.begin, -infinity);
             });
         const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
-        return outcomes.flags[i] & outcome_flag::fell ? forced
-                                                      : forced + free_fall_time<theory>(end, block);
+        return outcomes.flags[i] & outcome_flag::fell
+                   ? forced
+                   : forced + time_to_lie_flat<theory>(end, block);
     };
     return after_the_pulse(outcomes, fall_time);
 }

@@ -13,7 +13,7 @@
 
 namespace overturn {
 
-/// The arrays that OutcomePointers points to; those that are no outputs are empty.
+/// The arrays that OutcomePointers points to; those that are not requested are empty.
 struct Outcomes {
     Outcomes(std::size_t points, const Outputs& wanted);
 
@@ -65,7 +65,7 @@ public:
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr);
 
-    /// The same scene and kernel with other points.
+    /// The same scene and kernel with other points; only under a pulse.
     PointRun with_points(std::vector<Point> points) const;
 
     const Scene& scene() const { return scene_; }
@@ -75,17 +75,17 @@ public:
     /// The indices of all points.
     std::vector<int> all() const;
 
-    /// The phase at the end of the pulse [rad].
-    double end_of_pulse() const { return motion_.end; }
+    /// The phase at the end of the pulse, if there are no records [rad].
+    double end_of_pulse() const { return pulse_.end; }
 
     /// The record of a point; nullptr under a pulse.
     const Accelerogram* record_of(int point) const
     {
-        return scene_.is_recorded() ? scene_.records[std::size_t(this->point(point).motion)].get()
+        return scene_.is_recorded() ? scene_.records[std::size_t(this->point(point).record)].get()
                                     : nullptr;
     }
 
-    /// The pulse that lifts a point.
+    /// The scaled pulse of a point.
     const ScaledPulse& pulse_of(int point) const { return pulses_[point]; }
 
     /// Integrates the chosen points, which must be in ascending order. Points where the ground
@@ -124,7 +124,7 @@ private:
     std::vector<double> after_the_pulse(const Outcomes& outcomes, const OfPoint& of_point) const;
 
     Scene scene_;
-    GroundMotion<double> motion_;
+    GroundMotion<double> pulse_; // replaced by the record of each point, if there are records
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;

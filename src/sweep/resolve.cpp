@@ -50,7 +50,7 @@ bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 {
     run.run_in_more_digits<T>(point, outcomes);
     return !(outcomes.flags[std::size_t(point)] &
-             (outcome_flag::in_doubt | outcome_flag::undecided));
+             (outcome_flag::in_doubt | outcome_flag::without_end));
 }
 
 /// most_in_50_digits: of the points under one motion.
@@ -65,7 +65,7 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
         bool settled = run.settle_low_bounces(point, outcomes) ||
                        (may_settle_in<long double>(run, point, outcomes) &&
                         settle_in<long double>(run, point, outcomes));
-        int& count = in_50_digits[run.point(point).motion];
+        int& count = in_50_digits[run.point(point).record];
         if (!settled && may_settle_in<Digits50>(run, point, outcomes) &&
             count < most_in_50_digits) {
             ++count;

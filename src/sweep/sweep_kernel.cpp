@@ -3,7 +3,7 @@
 // only function with external linkage. Apart from it, only templates over OVERTURN_NUMBER may be
 // instantiated here: with packs, a function in double would be shared with the rest of the program,
 // whose commands must be able to refuse a processor without these instructions. The kernel `double`
-// shares functions: every command calls widest_kernel() before it computes.
+// shares functions: every command calls kernel_called() or widest_kernel() before it computes.
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
@@ -109,10 +109,9 @@ struct PackPoints {
     template <Theory theory, Directions directions>
     RecordExcitation<T, directions> record_excitation(const Block<T>& blocks) const
     {
-        const T in_use = load<T>(spare);
         return {.motion = record_motion<double>(*task.record),
                 .acceleration =
-                    select<T>(in_use == T(0.0),
+                    select<T>(load<T>(spare) == T(0.0),
                               gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
                 .frequency = gathered([&](int i) { return task.points[i].frequency; }),
                 .threshold = uplift_acceleration<theory>(blocks.slenderness)};
@@ -195,19 +194,22 @@ SweepKernel kernel_for(const Outputs& outputs)
     if (outputs.peak) {
         return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;
     }
-    if (OVERTURN_RECORDED || outputs.impacts) { // a step under a record is long compared with it
+    // Counting impacts costs little beside a step under a record.
+    if (OVERTURN_RECORDED || outputs.impacts) {
         return sweep<theory, Outputs{.impacts = true}, directions>;
     }
+    // Under a record this is not reached, and compiles no further kernel.
     return sweep<theory, Outputs{.impacts = bool(OVERTURN_RECORDED)}, directions>;
 }
 
 template <Theory theory>
 SweepKernel kernel_for(const Outputs& outputs, Directions directions)
 {
-    constexpr Directions most = OVERTURN_RECORDED ? Directions::both : Directions::horizontal;
+    // Only records have a vertical motion: for pulses no further kernel is compiled.
+    constexpr Directions both = OVERTURN_RECORDED ? Directions::both : Directions::horizontal;
     return directions == Directions::horizontal
                ? kernel_for<theory, Directions::horizontal>(outputs)
-               : kernel_for<theory, most>(outputs);
+               : kernel_for<theory, both>(outputs);
 }
 
 } // namespace

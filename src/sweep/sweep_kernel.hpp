@@ -1,5 +1,5 @@
 // The kernels integrate the forced stage of points, with plain arrays as input and output. Each is
-// compiled for one method, either pulses or records, and one instruction set, see sweep_kernel.cpp.
+// compiled by sweep_kernel.cpp for one method, either pulses or records, and one instruction set.
 #pragma once
 
 #include "overturn/integrate/outputs.hpp"
@@ -47,7 +47,8 @@ inline constexpr std::uint8_t not_finite = 8;
 inline constexpr std::uint8_t unresolved = 16; ///< set only by outcomes_of(), see resolve.cpp
 inline constexpr std::uint8_t in_doubt = 32;   ///< only if the error is an output, see ForcedEnd
 inline constexpr std::uint8_t free_fall = 64;  ///< not integrated, see PointRun
-inline constexpr std::uint8_t undecided = capped | not_finite | free_fall;
+/// The integration was stopped, or did not begin: the state is meaningless.
+inline constexpr std::uint8_t without_end = capped | not_finite | free_fall;
 } // namespace outcome_flag
 
 /// The outcomes of the forced stage, one value per point. A kernel writes the points that it
@@ -76,7 +77,8 @@ using SweepKernel = void (*)(const KernelTask& task, const OutcomePointers& outc
 using SweepKernelChoice = SweepKernel (*)(Theory theory, const Outputs& outputs,
                                           Directions directions);
 
-/// Selects a kernel; runs_here(kernel) must be true. directions: those of the record.
+/// Selects a kernel, in kernel.cpp; runs_here(kernel) must be true. directions: those of the
+/// record.
 SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
                          const Outputs& outputs, Directions directions);
 

@@ -190,7 +190,7 @@ void expect_equal(const Point& one, const Point& other)
     EXPECT_EQ(one.restitution, other.restitution);
     EXPECT_EQ(one.amplitude, other.amplitude);
     EXPECT_EQ(one.frequency, other.frequency);
-    EXPECT_EQ(one.motion, other.motion);
+    EXPECT_EQ(one.record, other.record);
 }
 
 TEST(Coordinates, OfATileAreThoseOfTheWholeGrid)
@@ -209,8 +209,10 @@ TEST(Coordinates, OfATileAreThoseOfTheWholeGrid)
         const Shape shape = grid.shape();
         const std::vector<Point> all = Coordinates(scene, grid).points();
         ASSERT_EQ(std::int64_t(all.size()), grid.points());
-        EXPECT_EQ(all.back().motion, is_recorded ? 2 : 0);
-        const Tiling tiling(shape, {2, 2, 3, 2});
+        EXPECT_EQ(all.back().record, is_recorded ? 2 : 0);
+        Shape extents(shape.size(), 2);
+        extents.back() = 3;
+        const Tiling tiling(shape, extents);
         for (std::int64_t n = 0; n < tiling.size(); ++n) {
             const Tile tile = tiling[n];
             const Coordinates coordinates(scene, grid, tile);
@@ -260,7 +262,7 @@ TEST(LiftingPga, LiftsTheBlockOfThisSlenderness)
     EXPECT_DOUBLE_EQ(lifting_pga({.theory = Theory::linear}, point), 0.2);
     // Without vertical motion, the peak of any record lifts the block at the same acceleration.
     const Scene scene = scene_of_three_records();
-    for (; point.motion < 3; ++point.motion) {
+    for (; point.record < 3; ++point.record) {
         EXPECT_NEAR(lifting_pga(scene, point), std::tan(0.2), 1e-15);
     }
 }

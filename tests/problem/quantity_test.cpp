@@ -1,9 +1,12 @@
 #include "overturn/problem/quantity.hpp"
 
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
+#include <fstream>
 #include <limits>
 #include <set>
+#include <string>
 
 namespace overturn {
 namespace {
@@ -17,6 +20,26 @@ TEST(Quantity, HasANameOfItsOwnAndALabelOfAtMostFortyCharacters)
         EXPECT_LE(each.long_name.size(), 40u) << each.name;
     }
     EXPECT_EQ(find_quantity("slendernes"), nullptr);
+}
+
+TEST(Quantity, HasTheRangeThatTheDocumentationOfJobsStates)
+{
+    std::set<std::string_view> documented;
+    std::ifstream page(OVERTURN_DOCS "/jobs.md");
+    for (std::string line; std::getline(page, line);) {
+        for (const Quantity& each : all_quantities()) {
+            const std::string key = fmt::format(".{}`", each.name);
+            const std::string keys = line.substr(0, line.find(" | "));
+            if (line.starts_with("| `") && keys.find(key) != keys.npos) {
+                documented.insert(each.name);
+                EXPECT_THAT(line, testing::HasSubstr(fmt::format(" | {} | ", each.interval)));
+            }
+        }
+    }
+    const std::set<std::string_view> elsewhere{"motion", "time_step"}; // in records.md, without one
+    for (const Quantity& each : all_quantities()) {
+        EXPECT_NE(documented.contains(each.name), elsewhere.contains(each.name)) << each.name;
+    }
 }
 
 TEST(Quantity, AllowsNoValueThatIsNotANumber)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 namespace overturn {
@@ -10,7 +12,9 @@ namespace {
 TEST(Tiling, CoversEveryPointOnceInAnyNumberOfDimensions)
 {
     for (const Shape& shape : {Shape{23, 31}, {3, 23, 31}, {2, 3, 23, 31}, {2, 1, 3, 5, 7}}) {
-        for (const Shape& extents : {Shape{7}, {7, 8}, {1, 31}, {23, 1}, {64, 64}}) {
+        for (const auto& last_extents : {std::array{1, 7}, {7, 8}, {1, 31}, {23, 1}, {64, 64}}) {
+            Shape extents(shape.size(), 2);
+            std::ranges::copy(last_extents, extents.end() - 2);
             const Tiling tiling(shape, extents);
             std::set<Shape> seen;
             for (std::int64_t n = 0; n < tiling.size(); ++n) {
@@ -38,7 +42,7 @@ TEST(Tiling, CoversEveryPointOnceInAnyNumberOfDimensions)
 
 TEST(Tiling, NumbersTilesInTheOrderOfTheDimensions)
 {
-    const Tiling tiling({3, 2, 20, 20}, {10, 10});
+    const Tiling tiling({3, 2, 20, 20}, {1, 1, 10, 10});
     EXPECT_EQ(tiling[1].begin, (Shape{0, 0, 0, 10}));
     EXPECT_EQ(tiling[2].begin, (Shape{0, 0, 10, 0}));
     EXPECT_EQ(tiling[4].begin, (Shape{0, 1, 0, 0}));

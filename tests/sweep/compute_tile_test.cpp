@@ -112,7 +112,8 @@ TEST(ComputeTile, TileShapeAndLaneNeighboursChangeNoStoredValue)
             const auto whole = computed(tiling_of(problem));
             // Rows of 3, 5 and 37 points put every point into different lanes with different
             // neighbours.
-            for (const Shape& tile : {Shape{1, 3}, {29, 5}, {7, 37}, {2, 2, 4, 8}}) {
+            for (const Shape& tile :
+                 {Shape{1, 1, 1, 3}, {1, 1, 29, 5}, {1, 1, 7, 37}, {2, 2, 4, 8}}) {
                 EXPECT_EQ(computed(Tiling(problem.grid.shape(), tile)), whole)
                     << name_of(scene, numerics);
             }
@@ -186,7 +187,7 @@ TEST(ComputeTile, IsAbandonedDuringABlockThatBouncesAMillionTimes)
 TEST(ComputeTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
 {
     const Problem problem = small_problem();
-    const Tile tile = Tiling(problem.grid.shape(), {29, 37})[3];
+    const Tile tile = Tiling(problem.grid.shape(), {1, 1, 29, 37})[3];
     const std::vector<Point> points = Coordinates(problem.scene, problem.grid, tile).points();
     const TileFields fields = compute_tile(problem, tile, widest_kernel());
     const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);

@@ -42,7 +42,8 @@ Shape shape_of(const Scene& scene, const Quantities& given)
 std::vector<double> computed(const Scene& scene, const Quantities& given, std::size_t field)
 {
     const Problem problem = problem_of_points(scene, given);
-    const Tiling tiling(problem.grid.shape(), {});
+    const Shape shape = problem.grid.shape();
+    const Tiling tiling(shape, Shape(shape.size(), 1));
     std::vector<double> all;
     for (std::int64_t i = 0; i < tiling.size(); ++i) {
         const TileFields fields = compute_tile(problem, tiling[i], widest_kernel());

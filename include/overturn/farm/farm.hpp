@@ -17,6 +17,7 @@ struct TileWork {
     /// Calls drop_requested at least once a second, because messages are handled there, and drops
     /// the tile if it returns true. Returns false if it was dropped.
     std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
+    /// Called after compute() has returned true, before the next tile.
     std::function<void(std::int64_t number)> write;
     /// Called on rank 0 at intervals, with the number of tiles done by all ranks.
     std::function<void(std::int64_t done)> on_progress;
@@ -24,7 +25,7 @@ struct TileWork {
 
 /// Whether a rank is asked to stop. Once true, both remain true.
 struct StopRequest {
-    std::function<bool()> requested; ///< finish the current tile, and leave
+    std::function<bool()> requested; ///< finish the current tile, then stop
     std::function<bool()> overdue;   ///< drop the current tile
 };
 

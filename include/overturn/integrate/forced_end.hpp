@@ -23,11 +23,11 @@ struct ForcedEnd {
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
     T peak;             ///< the largest tilt [rad]
     T softest_impact;   ///< the smallest speed of the impacts that would not occur at a smaller
-                        ///< speed, because the block accelerates outward; an output like
-                        ///< lowest_turn, under a pulse only [rad]
-    T last_impact;      ///< the speed of the last impact; an output like softest_impact [rad]
+                        ///< speed, because the block accelerates outward; with the peak
+                        ///< under a pulse [rad]
+    T last_impact;      ///< the speed of the last impact; with the peak under a pulse [rad]
     T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
-                        ///< an output with the peak, infinite if there is none [rad]
+                        ///< with the peak; infinite if there is none [rad]
 
     mask_t<T> is_stopped() const { return capped || not_finite; }
 };

@@ -180,6 +180,7 @@ private:
         if constexpr (outputs.error) {
             margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
         }
+        // For filling, which is for pulses only.
         if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {
             const T push = now_.side * excitation_.ground(now_.phase);
             const Mask outward =

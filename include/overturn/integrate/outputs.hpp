@@ -17,7 +17,7 @@ struct Outputs {
     bool margin = false;
     bool steps = false;
     bool phase = false;  ///< at the end of the pulse, or at the fall
-    bool grazes = false; ///< lowest turn, softest and last impact; only together with the peak
+    bool grazes = false; ///< lowest turn, softest and last impact, which a run with the peak has
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

@@ -154,7 +154,7 @@ private:
                 slope_of_series(series.rate, time) * h * h};
     }
 
-    /// The peak ground acceleration over g, positive towards the side of the tilt; 0 once a wavelet
+    /// The excitation's `acceleration`, positive towards the side of the tilt; 0 once a wavelet
     /// is below the round-off of the acceleration of the block.
     T acceleration(const Rocking<T>& now) const
     {

@@ -15,7 +15,7 @@ namespace overturn {
 /// Where a record of the scene comes from, and what it is like.
 struct Motion {
     std::string file;      ///< path as the job spells it, or as a pattern matched it
-    std::string name;      ///< of its own among the motions of the job: the file, or with component
+    std::string name;      ///< unique among the motions of the job: the file, or with component
     std::string component; ///< its name in the file; may be empty
     std::string label;     ///< the component, or its number if it has no name of its own
     std::string vertical;  ///< component or file of the vertical motion as the job spells it

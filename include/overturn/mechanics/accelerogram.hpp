@@ -22,8 +22,8 @@ public:
     double peak() const { return later_peak_.front(); }
     double upwards_peak() const { return upwards_peak_; }
 
-    /// The largest factor on the record at which gravity stays positive at every time: 1 / -min of
-    /// the upwards acceleration; infinite if that is not negative [1].
+    /// The smallest factor on the record at which gravity vanishes at some time: 1 / -min of the
+    /// upwards acceleration; infinite if that is not negative [1].
     double free_fall_scale() const;
 
     /// The factor on the record above which it lifts a block that the acceleration `threshold` [1]

@@ -117,7 +117,7 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
 /// The time from this state until a block that overturns lies flat, |theta| = pi/2 [1/p]. Infinite
 /// if the state cannot be distinguished from the boundary in T.
 template <Theory theory, Number T>
-T free_fall_time(const State<T>& state, const Block<T>& block)
+T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 {
     using std::sqrt;
     const T c = separatrix_rate<theory>(state.tilt, block.slenderness);

@@ -1,5 +1,5 @@
-// The ground motion, which all blocks of a spectrum share. It is a run-time value; an integrator
-// evaluates it once per step, so that selecting the pulse costs one branch.
+// A pulse as the ground motion, which all blocks of a spectrum share. It is a run-time value; an
+// integrator evaluates it once per step, so that selecting the pulse costs one branch.
 #pragma once
 
 #include "overturn/mechanics/modulated_sine.hpp"
@@ -108,7 +108,7 @@ struct GroundMotion {
 
     static constexpr bool may_be_wavelet = true;
     bool is_wavelet() const { return form == PulseForm::wavelet; }
-    S pieces() const { return S(0); } ///< not worth counting
+    S pieces() const { return S(0); } ///< too few to raise the step limit
 
     bool has_kink() const { return kink != begin; }
 

@@ -64,7 +64,7 @@ struct RecordExcitation {
         std::conditional_t<directions == Directions::both, LinearPushAndGravity<T>, LinearPush<T>>;
 
     RecordMotion<S> motion;
-    T acceleration; ///< the factor on the record [1]; negative: mirrored
+    T acceleration; ///< the factor on the record [1]; negative: mirrored. Named as that of a pulse
     T frequency;    ///< samples per time unit 1/p: 1 / (p time_step) [1]
     T threshold;    ///< uplift_acceleration() of the block [1]
 
@@ -90,7 +90,7 @@ struct RecordExcitation {
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
         if constexpr (directions == Directions::both) {
             using std::abs;
-            if (motion.record->upwards().empty()) {
+            if (motion.record->upwards().empty()) { // in more digits, compiled only for both
                 return {horizontal, {T(S(1)), T(S(0))}};
             }
             Ramp<T> gravity = ramp_of(motion.record->upwards(), T(abs(acceleration)));

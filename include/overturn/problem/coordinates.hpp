@@ -36,7 +36,8 @@ double pga_of_unit(const Scene& scene, const Point& point);
 /// block at rest; infinite if none does.
 double lifting_pga(const Scene& scene, const Point& point);
 
-/// The names of the coordinates that may follow from others, beside those that a job gives.
+/// The coordinates that result files store in addition to those given in the job, if they follow
+/// from these.
 inline constexpr std::array<std::string_view, 9> derived_coordinates{
     "slenderness", "size", "frequency_parameter", "restitution", "amplitude",
     "scale",       "pga",  "frequency",           "pulse_period"};

@@ -49,8 +49,9 @@ bool applies_to(const Quantity& quantity, bool is_recorded);
 /// own. Under records, one quantity is the motion. Throws GivenError.
 Grid grid_of(const Scene& scene, std::vector<Given> given);
 
-/// The grid with only the first and the last value of every axis. All coordinates are monotonic
-/// functions of each quantity, so that their smallest and largest values are those of the grid.
+/// The grid with only the first and the last value of every axis, but all motions and all rows of a
+/// table. All coordinates are monotonic functions of each quantity, so that their smallest and
+/// largest values are those of the grid.
 Grid corners_of(const Grid& grid);
 
 /// The smallest and the largest factor on each record [1]; infinity and 0 for one to which no point

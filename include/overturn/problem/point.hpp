@@ -9,7 +9,7 @@ struct Point {
     double restitution; ///< r [1]
     double amplitude;   ///< a; under records, the factor on the record [1]
     double frequency;   ///< Omega; under records, the samples per time unit 1/p [1]
-    int motion = 0;     ///< the number of the record from 0, if there are any
+    int record = 0;     ///< the index of its record among those of the scene, if there are any
 };
 
 } // namespace overturn

@@ -20,7 +20,7 @@ enum class Product {
 
 struct Problem {
     Scene scene{};
-    Grid grid{}; ///< of a boundary: its strengths are computed first
+    Grid grid{}; ///< of a boundary: the scan begins with its strengths
     Numerics numerics{};
     Product product = Product::spectrum;
     std::vector<Field> fields{}; ///< in the job's order, without duplicates; of a filled spectrum,

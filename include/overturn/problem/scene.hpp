@@ -18,6 +18,9 @@ namespace overturn {
 
 enum class Method { rk45, taylor };
 
+/// The ground motions under which something applies.
+enum class Under { any_motion, pulse, record };
+
 /// Names in job files and result files, in the order of the enumerators.
 inline constexpr auto pulse_names = [] {
     std::array<std::string_view, pulses.size()> names;
@@ -51,6 +54,9 @@ struct Scene {
     double gravity = 9.81; ///< g [m/s2]
 
     bool is_recorded() const { return !records.empty(); }
+
+    /// The index into `records` of a value of the coordinate "motion", which counts from 1.
+    static std::size_t record_index(double motion) { return std::size_t(motion) - 1; }
 };
 
 /// The reason why this value of a number of its shape is refused for a pulse, as a text that

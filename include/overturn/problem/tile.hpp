@@ -24,7 +24,7 @@ struct Tile {
 };
 
 /// Called at least once a second by the thread that computes a tile. Once it returns true, it must
-/// remain true, and the computation throws TileDropped.
+/// remain true, and the computation throws TileDropped. The farm also handles messages in it.
 using DropRequested = std::function<bool()>;
 class TileDropped {};
 
@@ -32,8 +32,7 @@ class TileDropped {};
 /// from 0 in the order of the dimensions, columns fastest.
 class Tiling {
 public:
-    /// tile: its extents in the last dimensions [points], which are limited to those of the shape;
-    /// it is 1 in the others.
+    /// tile: its extents [points], as many as those of the shape, to which they are limited.
     Tiling(Shape shape, const Shape& tile);
 
     std::int64_t size() const { return count_points(tiles_); }

@@ -55,7 +55,7 @@ struct BoundaryLine {
     double slenderness; ///< [rad]
     double restitution; ///< r [1]
     double frequency;   ///< see Point
-    int motion = 0;     ///< see Point
+    int record = 0;     ///< see Point
     double unit = 1;    ///< the strength at Point::amplitude = 1
 };
 
