@@ -63,7 +63,7 @@ public:
         if (!job_.motions.empty()) {
             add_measures();
         }
-        std::ranges::stable_partition(all_, [](const Coordinate& coordinate) {
+        std::stable_partition(all_.begin(), all_.end(), [](const Coordinate& coordinate) {
             return std::holds_alternative<std::vector<double>>(coordinate.variable.values);
         });
         return std::move(all_);
