@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -77,6 +78,15 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
         refuse_name(fmt::format(
             " is the name of the dimension of the texts of {} in the result. Rename the column.",
             texts->name));
+    }
+    const auto lower = [](unsigned char letter) { return std::tolower(letter); };
+    for (const Quantity& quantity : all_quantities()) {
+        if (name != quantity.name && applies_to(quantity, is_recorded) &&
+            std::ranges::equal(name, quantity.name, {}, lower)) {
+            refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct "
+                                    "the name, or choose another one.",
+                                    quantity.name));
+        }
     }
     const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
     const char* reason = name.size() > longest_name              ? "it is too long"

@@ -87,8 +87,12 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.error = outputs.error || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
     computed.peak = outputs.peak && !computed.error;
+    // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
+    // error has no bound. Filling only compares the peaks of nodes.
+    const bool needs_peaks = numerics.resolve && outputs.peak && !outputs.grazes;
+    const Numerics& first_pass = needs_peaks ? most_accurate : numerics;
     Outcomes outcomes(std::size_t(points.size()), computed);
-    points.run(numerics, outcomes, points.all(),
+    points.run(first_pass, outcomes, points.all(),
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
         const int by_default =
@@ -96,9 +100,9 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
         resolve(points, most_in_50_digits.value_or(by_default), outcomes);
     }
     if (outputs.peak && !computed.peak) {
-        // A kernel computes either errors or peaks: peaks are those at the tolerance of the job.
+        // A kernel computes either errors or peaks.
         Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
-        points.run(numerics, with_peaks, points.all());
+        points.run(first_pass, with_peaks, points.all());
         outcomes.peak = std::move(with_peaks.peak);
         outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
         outcomes.softest_impact = std::move(with_peaks.softest_impact);

@@ -3,6 +3,8 @@
 
 #include "support/scratch_folder.hpp"
 
+#include "overturn/problem/given.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -234,6 +236,21 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
         refusal(exit_code::job,
                 [&] { table("slenderness,size,restitution,id,id_length\n0.2,1,0.9,a,1\n"); }),
         HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
+}
+
+TEST_F(Columns, WithTheNameOfAQuantityInOtherLettersAreRefused)
+{
+    for (const Quantity& quantity : all_quantities()) {
+        std::string name(quantity.name);
+        name[0] = char(std::toupper(static_cast<unsigned char>(name[0])));
+        const std::string message = refusal(exit_code::job, [&] { table(with_column(name)); });
+        if (applies_to(quantity, false)) {
+            EXPECT_THAT(message, HasSubstr("t.csv:1:4: " + name + " is not the quantity " +
+                                           std::string(quantity.name)));
+        } else {
+            EXPECT_EQ(message, "");
+        }
+    }
 }
 
 TEST_F(Columns, MayGiveAnySubsetOfTheQuantities)

@@ -84,6 +84,39 @@ TEST(ResolvedVerdicts, AreThoseOfTheFirstPassWhereItIsCertain)
     EXPECT_EQ(once.error, resolved.error);
 }
 
+TEST(ResolvedVerdicts, HavePeaksThatAreAccurateAfterManyImpacts)
+{
+    // After many impacts, a tolerance that settles the verdict may be wrong by half of the peak.
+    const Scene scene{.pulse = PulseKind::cosine, .shape = {.cycles = 4}};
+    const Problem accurate{.scene = scene,
+                           .grid = grid_of(scene, {axis("slenderness", {0.1, 0.18, 0.3}),
+                                                   axis("restitution_of_maximum", {0.6, 0.9}),
+                                                   axis("amplitude", AxisRange{1.05, 3, 40}),
+                                                   axis("frequency", AxisRange{0.5, 8, 60})}),
+                           .numerics = {Method::taylor, 1e-13},
+                           .fields = {Field::peak, Field::margin, Field::error}};
+    for (const Numerics& numerics : {resolved_rk45, resolved_taylor}) {
+        Problem resolved = accurate;
+        resolved.numerics = numerics;
+        int compared = 0;
+        const Tiling tiling = tiling_of(accurate);
+        for (std::int64_t n = 0; n < tiling.size(); ++n) {
+            const TileFields expected = compute_tile(accurate, tiling[n], widest_kernel());
+            const TileFields found = compute_tile(resolved, tiling[n], widest_kernel());
+            const auto value = [](const TileFields& fields, std::size_t field, std::size_t i) {
+                return std::get<std::vector<double>>(fields.values[field])[i];
+            };
+            for (std::size_t i = 0; i < std::size_t(tiling[n].points()); ++i) {
+                if (value(expected, 2, i) < std::abs(value(expected, 1, i))) { // no more digits
+                    EXPECT_EQ(value(expected, 0, i), value(found, 0, i));
+                    ++compared;
+                }
+            }
+        }
+        EXPECT_GT(compared, 14000);
+    }
+}
+
 TEST(ResolvedVerdicts, AreUndecidedIfMoreDigitsDoNotHelp)
 {
     // Without loss the block bounces a hundred thousand times before a slow pulse lifts it again.
