@@ -132,13 +132,20 @@ RecordFile read_at2(Lines lines, const std::optional<AccelerationUnit>& unit)
     expect_acceleration(ahead_by(before, unit_line));
     const Sampling sampling = read_sampling(lines);
     const auto stated = unit_of_header(before, unit);
+    if (!stated && !unit) {
+        Lines title_line = ahead_by(before, unit_line);
+        title_line.refuse("{} states no unit that is understood, such as UNITS OF G. Give one of "
+                          "{}: {}.",
+                          quoted_bytes(trimmed(title_line.line())),
+                          fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+    }
     const std::string_view title = ahead_by(before, 2).line(); // event, date, station, component
     const std::size_t comma = title.rfind(',');
     RecordComponent component{
         .name = std::string(comma == title.npos ? "" : trimmed(title.substr(comma + 1))),
         .acceleration = take_free_numbers(
             lines, {.count = sampling.count, .name = "NPTS", .line = header_lines}),
-        .unit = stated.value_or(unit.value_or(AccelerationUnit::g)),
+        .unit = stated ? *stated : *unit,
         .time_step = sampling.time_step,
         .header = std::move(header).kept()};
     return {
