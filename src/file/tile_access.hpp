@@ -35,7 +35,7 @@ List stored_dimensions_of(Field field, List of_points, std::size_t crossing)
 struct StoredField {
     Field field;
     hdf5::Handle dataset;
-    std::size_t crossing; ///< the place of this dimension of the points
+    std::size_t crossing; ///< of a boundary: the place of this dimension
 
     /// The part of the field that belongs to a tile of the points.
     Tile part_of(const Tile& tile) const

@@ -82,10 +82,10 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
         job.blocks = read_block_table(string_of(table), folder, job.motions);
         std::ranges::move(columns_of(*job.blocks, is_recorded), std::back_inserter(given));
     }
-    const auto has_column = [&](std::string_view name) {
+    const auto table_has = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
-    if (is_recorded && !has_column(motion_number)) {
+    if (is_recorded && !table_has(motion_number)) {
         const auto last = std::int64_t(job.motions.size());
         given.push_back({&quantity("motion"), "scene.record",
                          Axis(AxisRange{1, double(last), last}),
@@ -94,7 +94,7 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     try {
         job.problem.grid = grid_of(job.problem.scene, given);
     } catch (const GivenError& error) {
-        if (has_column(error.quantity()) || (job.blocks && !find(entry, "plane"))) {
+        if (table_has(error.quantity()) || (job.blocks && !find(entry, "plane"))) {
             refuse(*job.blocks, error);
         }
         refuse_given(entry, given, error);

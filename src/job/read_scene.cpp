@@ -1,6 +1,6 @@
 #include "read_steps.hpp"
 
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ Scene read_scene(const Entry& job)
 
 double cut_by_window(const Scene& scene)
 {
-    const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
+    const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
     return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
 }
 

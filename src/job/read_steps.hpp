@@ -48,7 +48,7 @@ inline constexpr std::string_view motion_number = "motion_number";
 BlockTable read_block_table(const std::string& file, const std::string& folder,
                             const std::vector<Motion>& motions);
 
-/// The columns that describe points.
+/// The columns that describe points. In a grid, `motion_number` is the quantity `motion` again.
 std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded);
 
 /// Throws Error with file, line and column, of which the latter two may be unknown.

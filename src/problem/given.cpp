@@ -100,7 +100,7 @@ void refuse_where(const Coordinates& coordinates, const Grid& corners, std::stri
             continue;
         }
         auto row = std::int64_t(i);
-        if (!corners.has_column(quantity)) {
+        if (!corners.has_table_column(quantity)) {
             throw GivenError(GivenError::no_row, quantity, text);
         }
         const std::size_t table = *corners.dimension_of(quantity);
@@ -230,6 +230,7 @@ bool applies_to(const Quantity& quantity, bool is_recorded)
 
 Grid grid_of(const Scene& scene, std::vector<Given> given)
 {
+    // In the order of all_quantities(), into which these are pointers.
     std::stable_sort(given.begin(), given.end(), [](const Given& one, const Given& other) {
         return one.quantity < other.quantity;
     });
@@ -249,6 +250,7 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     if (!table.columns.empty()) {
         grid.dimensions.push_back(std::move(table));
     }
+    // A table comes before its columns, and the size of the block may be last.
     const bool is_recorded = scene.is_recorded();
     std::stable_sort(grid.dimensions.begin(), grid.dimensions.end(),
                      [&](const Dimension& one, const Dimension& other) {

@@ -40,7 +40,7 @@ std::optional<std::size_t> Grid::dimension_of(Role role) const
                            [&](const Column& column) { return column.quantity->role == role; });
 }
 
-bool Grid::has_column(std::string_view name) const
+bool Grid::has_table_column(std::string_view name) const
 {
     const auto dimension = dimension_of(name);
     return dimension && dimensions[*dimension].name == table_dimension;

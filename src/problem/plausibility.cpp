@@ -101,7 +101,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
             const Extent extent = extent_of(coordinates.of(name));
             findings.push_back(finding_about(range, {extent.first / unit, extent.last / unit},
                                              grid.find(dimensionless) != nullptr &&
-                                                 !grid.has_column(dimensionless)));
+                                                 !grid.has_table_column(dimensionless)));
         }
     };
     judge(slenderness, "slenderness", "", std::numbers::pi / 180);

@@ -46,7 +46,8 @@ std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
 namespace {
 
 /// The extents of a tile of a spectrum: at most `side` points along each of the last two
-/// dimensions; then as many points of these and of the others as a square of this side has.
+/// dimensions. If these are fewer than side x side points, the tile is extended along all
+/// dimensions, the fastest first, up to that number.
 Shape tile_of(const Grid& grid, std::int64_t side)
 {
     const Shape shape = grid.shape();

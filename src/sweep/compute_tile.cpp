@@ -64,7 +64,9 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                    flag(outcome_flag::unresolved, status::unresolved) |
                    flag(outcome_flag::free_fall, status::free_fall);
         });
-    default: return {}; // fields of other products, or moved from the outcomes by the caller
+    default:
+        return {}; // fields of other products, or moved from the outcomes by the caller,
+                   // because `peak` and `fall_time` read the regions
     }
 }
 

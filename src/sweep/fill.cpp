@@ -306,6 +306,7 @@ private:
             };
             if (first < last && row > cell.begin[0] && row < cell.end[0]) {
                 fill_unless_integrated(first);
+                // The nodes inside the cell have this value, too.
                 std::fill(values.begin() + first + 1, values.begin() + last, value);
                 fill_unless_integrated(last);
             } else { // neighbours may have nodes of their own on the sides
@@ -344,7 +345,7 @@ FilledTile fill_tile(const Problem& problem, const Tile& tile, Kernel kernel,
 {
     Filler filler(problem, tile, kernel, std::move(drop_requested), rule);
     filler.fill();
-    // The rows of all spectra are numbered from the first one of the first spectrum.
+    // Rows are numbered through all planes of the grid.
     const auto rate = problem.grid.dimension_of(Role::rate);
     const Shape shape = problem.grid.shape();
     std::int64_t row = 0;

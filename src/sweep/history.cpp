@@ -253,7 +253,7 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
             return build(record_excitation<theory>(*scene.records.front(), point.slenderness,
                                                    point.amplitude, point.frequency));
         }
-        return build(pulse_excitation<theory>(ground_motion<double>(scene.pulse, scene.shape),
+        return build(pulse_excitation<theory>(pulse_motion<double>(scene.pulse, scene.shape),
                                               point.slenderness, point.amplitude, point.frequency));
     });
 }

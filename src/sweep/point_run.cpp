@@ -50,7 +50,7 @@ std::uint16_t Outcomes::stored_impacts(std::size_t point, bool recorded) const
                : std::uint16_t(std::min(impacts[point], double(impact_count::largest)));
 }
 
-ScaledPulses::ScaledPulses(const GroundMotion<double>& motion, Theory theory,
+ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
                            const std::vector<Point>& points)
     : of_point(points.size())
 {
@@ -73,7 +73,7 @@ ScaledPulses::ScaledPulses(const GroundMotion<double>& motion, Theory theory,
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
                    DropRequested drop_requested)
-    : scene_(scene), pulse_(ground_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
+    : scene_(scene), pulse_(pulse_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
       pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_))
 {}
@@ -111,7 +111,7 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         const ScaledPulse& pulse = pulse_of(point);
         return visit(PulseExcitation<double>{pulse_, pulse.acceleration, frequency, pulse.uplifts});
     } else {
-        return visit(pulse_excitation<theory>(ground_motion<T>(scene_.pulse, scene_.shape),
+        return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape),
                                               T(slenderness), T(amplitude), T(frequency)));
     }
 }
@@ -281,6 +281,37 @@ std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
                    : forced + time_to_lie_flat<theory>(end, block);
     };
     return after_the_pulse(outcomes, fall_time);
+}
+
+Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
+                     std::optional<int> most_in_50_digits)
+{
+    Outputs computed = outputs;
+    computed.error = outputs.error || numerics.resolve;
+    computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
+    computed.peak = outputs.peak && !computed.error;
+    // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
+    // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
+    const bool stores_peaks = outputs.peak && !outputs.grazes;
+    const Numerics& first_pass = numerics.resolve && stores_peaks ? most_accurate : numerics;
+    Outcomes outcomes(std::size_t(points.size()), computed);
+    points.run(first_pass, outcomes, points.all(),
+               numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
+    if (numerics.resolve) {
+        const int by_default =
+            points.scene().is_recorded() ? numerics.most_in_50_digits : points.size();
+        resolve(points, most_in_50_digits.value_or(by_default), outcomes);
+    }
+    if (outputs.peak && !computed.peak) {
+        // A kernel computes either errors or peaks.
+        Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
+        points.run(first_pass, with_peaks, points.all());
+        outcomes.peak = std::move(with_peaks.peak);
+        outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
+        outcomes.softest_impact = std::move(with_peaks.softest_impact);
+        outcomes.last_impact = std::move(with_peaks.last_impact);
+    }
+    return outcomes;
 }
 
 } // namespace overturn

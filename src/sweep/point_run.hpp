@@ -47,7 +47,7 @@ void put(std::vector<Value>& values, int point, std::type_identity_t<Value> valu
 /// The scaled pulses of points, in their order; successive points with the same one share it.
 struct ScaledPulses {
     ScaledPulses() = default;
-    ScaledPulses(const GroundMotion<double>& motion, Theory theory,
+    ScaledPulses(const PulseMotion<double>& motion, Theory theory,
                  const std::vector<Point>& points);
 
     const ScaledPulse& operator[](int point) const
@@ -124,17 +124,20 @@ private:
     std::vector<double> after_the_pulse(const Outcomes& outcomes, const OfPoint& of_point) const;
 
     Scene scene_;
-    GroundMotion<double> pulse_; // replaced by the record of each point, if there are records
+    PulseMotion<double> pulse_; // not used under records
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;
     ScaledPulses pulses_; // only under a pulse
 };
 
-/// The outcomes of all points. If verdicts are to be resolved, points in doubt are integrated again
-/// with more and more digits; those that remain in doubt get outcome_flag::unresolved. See
-/// resolve.cpp. most_in_50_digits: of the points under one motion; default: all of them, under a
-/// record those of Numerics.
+/// Integrates again, with more and more digits, the points whose verdict is in doubt; those that
+/// remain in doubt get outcome_flag::unresolved. most_in_50_digits: of the points under one motion.
+/// Defined in resolve.cpp.
+void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes);
+
+/// The outcomes of all points of any job, resolved if its numerics ask for it. most_in_50_digits:
+/// default: all points, under a record those of Numerics.
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
                      std::optional<int> most_in_50_digits = std::nullopt);
 

@@ -53,12 +53,15 @@ bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
              (outcome_flag::in_doubt | outcome_flag::without_end));
 }
 
-/// most_in_50_digits: of the points under one motion.
+} // namespace
+
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
 {
     std::vector<int> in_doubt = settle_capped(run, run.all(), outcomes);
     if (!in_doubt.empty()) {
-        run.run(most_accurate, outcomes, in_doubt); // settles almost every point, still in double
+        // Settles almost every point, still in double; if the first pass was as accurate, it still
+        // completes the runs that were stopped.
+        run.run(most_accurate, outcomes, in_doubt);
     }
     std::map<int, int> in_50_digits; // of each motion
     for (const int point : settle_capped(run, in_doubt, outcomes)) {
@@ -76,39 +79,6 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
             give_up(point, outcomes);
         }
     }
-}
-
-} // namespace
-
-Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
-                     std::optional<int> most_in_50_digits)
-{
-    Outputs computed = outputs;
-    computed.error = outputs.error || numerics.resolve;
-    computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
-    computed.peak = outputs.peak && !computed.error;
-    // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
-    // error has no bound. Filling only compares the peaks of nodes.
-    const bool needs_peaks = numerics.resolve && outputs.peak && !outputs.grazes;
-    const Numerics& first_pass = needs_peaks ? most_accurate : numerics;
-    Outcomes outcomes(std::size_t(points.size()), computed);
-    points.run(first_pass, outcomes, points.all(),
-               numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
-    if (numerics.resolve) {
-        const int by_default =
-            points.scene().is_recorded() ? numerics.most_in_50_digits : points.size();
-        resolve(points, most_in_50_digits.value_or(by_default), outcomes);
-    }
-    if (outputs.peak && !computed.peak) {
-        // A kernel computes either errors or peaks.
-        Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
-        points.run(first_pass, with_peaks, points.all());
-        outcomes.peak = std::move(with_peaks.peak);
-        outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
-        outcomes.softest_impact = std::move(with_peaks.softest_impact);
-        outcomes.last_impact = std::move(with_peaks.last_impact);
-    }
-    return outcomes;
 }
 
 } // namespace overturn

@@ -25,7 +25,8 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-/// Stores the lanes of one pack, except those without a point.
+/// Stores the lanes of one pack, except those without a point. outputs: chosen at compile time, see
+/// Outputs; task.outputs: at run time.
 template <Theory theory, Outputs outputs>
 [[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
                              int first, const OutcomePointers& to)

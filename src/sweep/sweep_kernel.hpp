@@ -4,7 +4,7 @@
 
 #include "overturn/integrate/outputs.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
@@ -22,7 +22,7 @@ struct ScaledPulse {
 
 /// The input of a kernel.
 struct KernelTask {
-    const GroundMotion<double>& pulse; ///< unless there is a record
+    const PulseMotion<double>& pulse; ///< unless there is a record
     const Accelerogram* record;
     const Point* points;
     const int* pulse_of_point; ///< index into `pulses`, ascending; only under a pulse
@@ -64,7 +64,7 @@ struct OutcomePointers {
     double* impacts;        ///< count
     double* error;          ///< of the margin
     double* steps;          ///< tried
-    double* phase;          ///< end of the pulse, or phase of the fall [rad]
+    double* phase;          ///< end of the motion, or phase of the fall [rad or samples]
     double* peak;           ///< the largest |theta| [rad]
     double* lowest_turn;    ///< see ForcedEnd [rad]
     double* softest_impact; ///< see ForcedEnd [rad]

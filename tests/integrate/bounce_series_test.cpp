@@ -67,7 +67,7 @@ AfterImpact<PulseExcitation<double>> random_impact(PulseKind pulse, std::mt19937
     const double slenderness = 0.08 + 0.4 * uniform(generator);
     const double amplitude = 0.5 + 3 * uniform(generator) * uniform(generator);
     const double frequency = 0.2 + 5 * uniform(generator);
-    const GroundMotion<double> motion = ground_motion<double>(pulse);
+    const PulseMotion<double> motion = pulse_motion<double>(pulse);
     const double duration = motion.end - motion.begin;
     const double restitution = 0.05 + 0.85 * uniform(generator);
     // The series lasts between about a hundredth of a pulse and a pulse.

@@ -142,7 +142,7 @@ bool is_doubtful_after(const Rocking<double>& start, double end_tilt, double end
 {
     const Block<double> block{0.2, 0.9};
     const auto excitation =
-        pulse_excitation<Theory::linear>(ground_motion<double>(PulseKind::one_sine), 0.2, 2.0, 3.0);
+        pulse_excitation<Theory::linear>(pulse_motion<double>(PulseKind::one_sine), 0.2, 2.0, 3.0);
     StepEndWithErrors<double> step{};
     step.phase = start.phase + 1;
     step.tilt = end_tilt;

@@ -37,7 +37,7 @@ TEST(ForcedStage, ErrorDecreasesWithTheTolerance)
     EXPECT_LT(log_ratio, 3.6);
 }
 
-TYPED_TEST(ForcedStageByMethod, MirroredGroundMotionGivesTheMirroredEnd)
+TYPED_TEST(ForcedStageByMethod, MirroredPulseMotionGivesTheMirroredEnd)
 {
     std::mt19937_64 generator(8);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {

@@ -28,7 +28,7 @@ TEST(LowBounces, BoundTheMotionAtAnyMoment)
                                            std::pow(10, -1 + 2 * uniform(generator)),
                                            1 + std::pow(10, -0.5 - 2.5 * uniform(generator))};
             PulseExcitation<double> excitation = excitation_of<theory>(pulse, point);
-            const GroundMotion<double>& motion = excitation.motion;
+            const PulseMotion<double>& motion = excitation.motion;
             excitation.motion =
                 cut_at(motion.begin + uniform(generator) * (motion.end - motion.begin), motion);
             const auto bounds = bound_of_low_bounces<theory>(slenderness, excitation);

@@ -1,5 +1,5 @@
 // Sines and cosines of several cycles, and the pulse of Mavroeidis and Papageorgiou.
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
 
@@ -11,9 +11,9 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 template <class S>
-GroundMotion<S> mavroeidis_papageorgiou(double gamma, double nu)
+PulseMotion<S> mavroeidis_papageorgiou(double gamma, double nu)
 {
-    return ground_motion<S>(PulseKind::mavroeidis_papageorgiou, {.gamma = gamma, .nu = nu});
+    return pulse_motion<S>(PulseKind::mavroeidis_papageorgiou, {.gamma = gamma, .nu = nu});
 }
 
 /// Calls visit(gamma, nu) over the range of both.
@@ -29,8 +29,8 @@ void for_many_shapes(double gamma_step, const Visitor& visit)
 
 void expect_one_cycle_of(PulseKind kind, PulseKind cycles)
 {
-    const GroundMotion<double> one = ground_motion<double>(kind);
-    const GroundMotion<double> same = ground_motion<double>(cycles, {.cycles = 1});
+    const PulseMotion<double> one = pulse_motion<double>(kind);
+    const PulseMotion<double> same = pulse_motion<double>(cycles, {.cycles = 1});
     EXPECT_EQ(same.begin, one.begin);
     EXPECT_EQ(same.end, one.end);
     for (int i = 0; i <= 1000; ++i) {
@@ -48,7 +48,7 @@ TEST(ModulatedSine, OfOneCycleIsBitIdenticalToTheOneSineAndTheOneCosine)
 
 TEST(ModulatedSine, OfManyCyclesRepeatsItself)
 {
-    const GroundMotion<double> sine = ground_motion<double>(PulseKind::sine, {.cycles = 10});
+    const PulseMotion<double> sine = pulse_motion<double>(PulseKind::sine, {.cycles = 10});
     for (int cycle = 1; cycle < 10; ++cycle) {
         for (const double phase : {0.1, 1.0, 2.5, 4.0, 6.0}) {
             // The phases are rounded to half a unit of 20 pi in the last place, 4e-15.
@@ -62,7 +62,7 @@ TEST(MavroeidisPapageorgiou, IsTheDerivativeOfItsVelocity)
 {
     for (const double gamma : {1.01, 1.5, 2.0, 3.7, 10.0}) {
         for (const double nu : {-2.0, 0.0, 0.4, 1.5707963267948966}) {
-            const GroundMotion<Digits50> motion = mavroeidis_papageorgiou<Digits50>(gamma, nu);
+            const PulseMotion<Digits50> motion = mavroeidis_papageorgiou<Digits50>(gamma, nu);
             const auto velocity = [&](const Digits50& phase) -> Digits50 {
                 return (1 + cos(phase / gamma)) * cos(phase + nu) / 2;
             };
@@ -84,7 +84,7 @@ TEST(MavroeidisPapageorgiou, IsTheDerivativeOfItsVelocity)
 TEST(MavroeidisPapageorgiou, HasAPeakOfExactlyOne)
 {
     for_many_shapes(0.37, [](double gamma, double nu) {
-        const GroundMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, nu);
+        const PulseMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, nu);
         double peak = 0;
         for (const double phase : motion.peaks) {
             peak = std::max(peak, std::abs(value_of_pulse(motion, phase)));
@@ -102,8 +102,8 @@ TEST(MavroeidisPapageorgiou, HasAPeakOfExactlyOne)
 TEST(MavroeidisPapageorgiou, HasTheSameScaleAndPeaksInFiftyDigits)
 {
     for (const double gamma : {1.2, 2.0, 6.3}) {
-        const GroundMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, 0.8);
-        const GroundMotion<Digits50> exact = mavroeidis_papageorgiou<Digits50>(gamma, 0.8);
+        const PulseMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, 0.8);
+        const PulseMotion<Digits50> exact = mavroeidis_papageorgiou<Digits50>(gamma, 0.8);
         EXPECT_NEAR(motion.sine.scale, double(exact.sine.scale), 4 * epsilon);
         ASSERT_EQ(motion.peaks.count, exact.peaks.count);
         for (int i = 1; i + 1 < motion.peaks.count; ++i) {
@@ -129,7 +129,7 @@ TEST(MavroeidisPapageorgiou, HasNoMoreLobesThanThereIsRoomFor)
 TEST(MavroeidisPapageorgiou, BeginsAndEndsAtZero)
 {
     for_many_shapes(0.37, [](double gamma, double nu) {
-        const GroundMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, nu);
+        const PulseMotion<double> motion = mavroeidis_papageorgiou<double>(gamma, nu);
         // The phase of the slow sine, +-pi, is rounded to 4e-16 and multiplied by 1 / gamma < 1.
         EXPECT_NEAR(value_of_pulse(motion, motion.begin), 0, 1e-15);
         EXPECT_NEAR(value_of_pulse(motion, motion.end), 0, 1e-15);
@@ -138,8 +138,8 @@ TEST(MavroeidisPapageorgiou, BeginsAndEndsAtZero)
 
 TEST(MavroeidisPapageorgiou, WithTheOppositePhaseIsMirroredInTime)
 {
-    const GroundMotion<double> motion = mavroeidis_papageorgiou<double>(2.2, 0.6);
-    const GroundMotion<double> mirrored = mavroeidis_papageorgiou<double>(2.2, -0.6);
+    const PulseMotion<double> motion = mavroeidis_papageorgiou<double>(2.2, 0.6);
+    const PulseMotion<double> mirrored = mavroeidis_papageorgiou<double>(2.2, -0.6);
     for (const double phase : {0.0, 0.3, 2.0, 6.5}) {
         EXPECT_EQ(value_of_pulse(mirrored, -phase), -value_of_pulse(motion, phase)) << phase;
     }

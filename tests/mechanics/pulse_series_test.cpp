@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Pulse, SeriesOfEveryPulse, every_pulse(), pulse_test_na
 std::vector<double> phases(PulseKind pulse, double window = 1)
 {
     constexpr int count = 61; // none in the middle, where doubles may miss a kink
-    const GroundMotion<double> motion = ground_motion<double>(pulse, shape_of_test(window));
+    const PulseMotion<double> motion = pulse_motion<double>(pulse, shape_of_test(window));
     std::vector<double> result;
     for (int i = 0; i <= count; ++i) {
         result.push_back(motion.begin + (motion.end - motion.begin) * i / count);
@@ -54,7 +54,7 @@ TEST_P(SeriesOfEveryPulse, SumsToThePulseItselfOnItsSmoothPiece)
         for (const double phase : phases(GetParam(), window)) {
             const auto terms = series<40>(scale, Digits50(phase), rate);
             for (const double t : {-0.125, 0.0625, 0.125}) {
-                const GroundMotion<Digits50> pulse = motion(Digits50(1));
+                const PulseMotion<Digits50> pulse = motion(Digits50(1));
                 const Digits50 there = phase + rate * t;
                 if (pulse.end_of_piece(Digits50(phase)) != pulse.end_of_piece(there)) {
                     continue;
@@ -125,8 +125,8 @@ TEST_P(SeriesOfEveryPulse, ScalesWithTheAmplitudeAndWithPowersOfTheRate)
 void expect_parity(PulseKind pulse, double parity)
 {
     for (const double phase : {0.0, 0.1, 0.7, 1.5}) {
-        const auto after = ground_motion<double>(pulse).series<20>(1.4, phase, 0.8);
-        const auto before = ground_motion<double>(pulse).series<20>(1.4, -phase, -0.8);
+        const auto after = pulse_motion<double>(pulse).series<20>(1.4, phase, 0.8);
+        const auto before = pulse_motion<double>(pulse).series<20>(1.4, -phase, -0.8);
         for (std::size_t k = 0; k < after.size(); ++k) {
             EXPECT_EQ(before[k], parity * after[k]) << "phase " << phase << ", coefficient " << k;
         }
@@ -139,7 +139,7 @@ void expect_terms_to_follow_as_told(PulseKind pulse)
     constexpr int all = 60;
     for (const double window : {1.0, 2.0, 5.0}) {
         for (const double phase : phases(pulse, window)) {
-            const auto series = ground_motion<Digits50>(pulse).series<all>(
+            const auto series = pulse_motion<Digits50>(pulse).series<all>(
                 Digits50(1), Digits50(phase), Digits50(1));
             for (const double step : {0.1, 0.5, 1.0, 2.0, 3.0}) {
                 const auto term = [&](int k) -> Digits50 {
@@ -173,13 +173,13 @@ TEST(PulseSeries, HasTheSymmetryOfThePulseAboutPhaseZero)
 
 TEST(PulseSeries, OfTheConstantPushIsItsScaleOnly)
 {
-    EXPECT_EQ((ground_motion<double>(PulseKind::rectangular).series<4>(1.4, 0.3, 0.8)),
+    EXPECT_EQ((pulse_motion<double>(PulseKind::rectangular).series<4>(1.4, 0.3, 0.8)),
               (Coefficients<4, double>{1.4}));
 }
 
 TEST(PulseSeries, OfATriangleAtItsKinkIsThatOfTheRequestedPiece)
 {
-    const GroundMotion<double> triangle = ground_motion<double>(PulseKind::triangular);
+    const PulseMotion<double> triangle = pulse_motion<double>(PulseKind::triangular);
     const double kink = pi<double>() / 2;
     const auto rising = triangle.series<4>(1.5, kink, kink, 0.0);
     const auto falling = triangle.series<4>(1.5, kink, kink, kink);
@@ -189,9 +189,9 @@ TEST(PulseSeries, OfATriangleAtItsKinkIsThatOfTheRequestedPiece)
 
 TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
 {
-    const auto sine = ground_motion<Digits50>(PulseKind::one_sine)
+    const auto sine = pulse_motion<Digits50>(PulseKind::one_sine)
                           .series<8>(Digits50(1), Digits50(0), Digits50(1));
-    const auto cosine = ground_motion<Digits50>(PulseKind::one_cosine)
+    const auto cosine = pulse_motion<Digits50>(PulseKind::one_cosine)
                             .series<8>(Digits50(1), Digits50(0), Digits50(1));
     Digits50 factorial = 1;
     for (int k = 0; k < 8; ++k) {
@@ -206,12 +206,12 @@ TEST(PulseSeries, OfASineAndACosineAtPhaseZeroAreTheirTaylorSeries)
 TEST(PulseSeries, OfTheWaveletsAtTheirCentreAreTheirTaylorSeries)
 {
     // With x = t / 2: (1 - 2 x^2) exp(-x^2) = 1 - 3 x^2 + 5/2 x^4 - 7/6 x^6 + ...
-    const auto even = ground_motion<Digits50>(PulseKind::symmetric_ricker)
+    const auto even = pulse_motion<Digits50>(PulseKind::symmetric_ricker)
                           .series<8>(Digits50(1), Digits50(0), Digits50(2));
     const Coefficients<8, Digits50> even_by_hand{1, 0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 6,
                                                  0};
     // With z = t: z (z^2 - 3) exp(-z^2 / 2) = -3 z + 5/2 z^3 - 7/8 z^5 + 3/16 z^7 + ...
-    const auto odd = ground_motion<Digits50>(PulseKind::antisymmetric_ricker)
+    const auto odd = pulse_motion<Digits50>(PulseKind::antisymmetric_ricker)
                          .series<8>(Digits50("1.38"), Digits50(0), sqrt(Digits50(3)));
     const Coefficients<8, Digits50> odd_by_hand{
         0, -3, 0, Digits50(5) / 2, 0, -Digits50(7) / 8, 0, Digits50(3) / 16};

@@ -66,7 +66,7 @@ Start<Digits50> in_digits(const Start<double>& start)
 template <Theory theory, int order, class T>
 RockingSeries<order, T> series_of(PulseKind pulse, const Start<T>& start)
 {
-    const auto push = ground_motion<T>(pulse).template series<order>(
+    const auto push = pulse_motion<T>(pulse).template series<order>(
         start.acceleration, start.phase, T(start.frequency * start.unit));
     return rocking_series<theory, order>(start.tilt, T(start.rate * start.unit), start.slenderness,
                                          push, start.unit);
@@ -103,7 +103,7 @@ Digits50 residual(PulseKind pulse, const Start<Digits50>& start, const Digits50&
 {
     const auto series = series_of<theory, order>(pulse, start);
     const Digits50 push = start.acceleration *
-                          value_of_pulse(ground_motion<Digits50>(pulse),
+                          value_of_pulse(pulse_motion<Digits50>(pulse),
                                          Digits50(start.phase + start.frequency * start.unit * t));
     return slope(series.rate, t) -
            start.unit * start.unit *
@@ -187,9 +187,9 @@ TYPED_TEST(SeriesOfEveryTheory, IsReversedInTimeWithThePush)
     for (const Start<double>& start : random_starts(200)) {
         const double w = start.frequency * start.unit;
         const double rate = start.rate * start.unit;
-        const auto forth = ground_motion<double>(PulseKind::one_sine)
+        const auto forth = pulse_motion<double>(PulseKind::one_sine)
                                .series<20>(start.acceleration, start.phase, w);
-        const auto back = ground_motion<double>(PulseKind::one_sine)
+        const auto back = pulse_motion<double>(PulseKind::one_sine)
                               .series<20>(start.acceleration, start.phase, -w);
         const auto later = rocking_series<TypeParam::value, 20>(start.tilt, rate, start.slenderness,
                                                                 forth, start.unit);

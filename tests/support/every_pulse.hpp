@@ -2,7 +2,7 @@
 // every_pulse(), pulse_test_name).
 #pragma once
 
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,9 @@ inline PulseShape shape_of_test(double window)
 class EveryPulse : public testing::TestWithParam<PulseKind> {
 protected:
     template <class S>
-    static GroundMotion<S> motion(const S& window)
+    static PulseMotion<S> motion(const S& window)
     {
-        return ground_motion<S>(GetParam(), shape_of_test(double(window)));
+        return pulse_motion<S>(GetParam(), shape_of_test(double(window)));
     }
 };
 
@@ -42,7 +42,7 @@ inline std::string pulse_test_name(const testing::TestParamInfo<PulseKind>& puls
 
 /// f at one phase [rad].
 template <class S>
-S value_of_pulse(const GroundMotion<S>& motion, const S& phase)
+S value_of_pulse(const PulseMotion<S>& motion, const S& phase)
 {
     return motion.values(std::array{phase})[0];
 }

@@ -20,13 +20,13 @@ template <Theory theory, class S>
 PulseExcitation<S> excitation_of(PulseKind pulse, const PulsePoint<S>& point,
                                  const PulseShape& shape = {})
 {
-    return pulse_excitation<theory>(ground_motion<S>(pulse, shape), point.slenderness,
+    return pulse_excitation<theory>(pulse_motion<S>(pulse, shape), point.slenderness,
                                     point.amplitude, point.frequency);
 }
 
 /// The motion as if it ended at an earlier phase [rad].
 template <class S>
-GroundMotion<S> cut_at(const S& phase, GroundMotion<S> motion)
+PulseMotion<S> cut_at(const S& phase, PulseMotion<S> motion)
 {
     motion.end = phase;
     motion.kink = motion.kink < phase ? motion.kink : motion.begin;

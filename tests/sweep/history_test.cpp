@@ -1,4 +1,4 @@
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/history.hpp"
 #include "support/every_scene.hpp"
@@ -111,7 +111,7 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
         const double size = 1 + point.amplitude;
         const double tolerance =
             std::pow(h, 5) / 90 * 100 * size * std::pow(1 + point.frequency, 4) + 1e-14;
-        const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
+        const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
         const double kink = (motion.kink - motion.begin) / point.frequency; // 0 if there is none
         int compared = 0;
         for (std::size_t i = 2; i < history.samples.size(); ++i) {

@@ -67,7 +67,7 @@ Grid grid_of_side(std::int64_t side)
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
     const auto& [scene, grid, numerics, product, fields] = work.problem;
-    const GroundMotion<double> motion = ground_motion<double>(scene.pulse, scene.shape);
+    const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
     const std::vector<Point> points = Coordinates(scene, grid, work.tile).points();
     const ScaledPulses pulses(motion, scene.theory, points);
     const std::size_t count = points.size();

@@ -201,9 +201,8 @@ auto with_excitation(const Scene& scene, const Point& point, const Visitor& visi
             .frequency = S(point.frequency),
             .threshold = uplift_acceleration<Theory::nonlinear>(slenderness)});
     }
-    return visit(pulse_excitation<Theory::nonlinear>(ground_motion<S>(PulseKind::one_sine),
-                                                     slenderness, S(point.amplitude),
-                                                     S(point.frequency)));
+    return visit(pulse_excitation<Theory::nonlinear>(
+        pulse_motion<S>(PulseKind::one_sine), slenderness, S(point.amplitude), S(point.frequency)));
 }
 
 /// The forced stage of every point; see run_point().

@@ -39,9 +39,9 @@ long double spectrum_file_bytes(const Job& job);
 /// Called between tiles; an exception from it stops the work.
 using BetweenTiles = std::function<void()>;
 
-/// Creates the file, with no tile computed, under a temporary name, and renames it once it is
-/// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if
-/// the folder is missing or not writable, or if there is not enough space.
+/// Defined in skeleton.cpp. Creates the file, with no tile computed, under a temporary name, and
+/// renames it once it is synced to the disk. To be called by one rank. Throws Error, and leaves no
+/// file behind, if the folder is missing or not writable, or if there is not enough space.
 void create_spectrum_file(
     const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
 

@@ -320,7 +320,7 @@ private:
     const bool is_wavelet_;
     T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
     T fastest_;        // its reciprocal
-    T phase_per_unit_; // [rad]
+    T phase_per_unit_; // [rad or samples]
     T tolerance_;
     T log2_tolerance_;
     T log2_most_allowed_;

@@ -6,8 +6,9 @@
 
 namespace overturn {
 
-/// Per lane: whether the bounces after an impact at `phase` [rad] are certain to die out before the
-/// pulse ends and before the ground can lift the block. v >= 0 is the rate just after the impact.
+/// Per lane: whether the bounces after an impact at `phase` [rad or samples] are certain to die out
+/// before the motion ends and before the ground can lift the block. v >= 0 is the rate just after
+/// the impact.
 ///
 /// Let g(t) be the pull towards the ground on one side, sin(alpha) +- A cos(alpha), A = ground
 /// acceleration / g. Between two extrema of the ground motion, the pull increases on one side,

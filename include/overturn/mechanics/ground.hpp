@@ -73,7 +73,7 @@ struct LinearPushAndGravity {
     Ground<T> at(const T& t) const { return {horizontal.at(t), gravity.at(t)}; }
 };
 
-/// The horizontal part of a push, and its gravity if that varies.
+/// The horizontal part of a push.
 template <class Push>
 const Push& horizontal_of(const Push& push)
 {
@@ -94,6 +94,7 @@ const T& horizontal_of(const Ground<T>& ground)
 {
     return ground.horizontal;
 }
+/// Whether a push includes a gravity that varies.
 template <class Push>
 inline constexpr bool has_gravity = false;
 template <class T>

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 
 namespace overturn {
 
 template <Number T>
 struct PulseExcitation {
-    GroundMotion<scalar_t<T>> motion;
+    PulseMotion<scalar_t<T>> motion;
     T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
     T frequency;        ///< Omega = omega_p / p [1]
     PerLobe<T> uplifts; ///< see uplift_phases() [rad]
@@ -26,7 +26,7 @@ struct PulseExcitation {
     }
     T ground(const T& phase) const { return ground(std::array{phase})[0]; }
 
-    /// The Taylor coefficients of the push from the phase on, see GroundMotion::series().
+    /// The Taylor coefficients of the push from the phase on, see PulseMotion::series().
     template <int count>
     Coefficients<count, T> series(const T& towards, const T& phase, const T& rate) const
     {
@@ -55,7 +55,7 @@ struct PulseExcitation {
 /// The excitation of a block of this slenderness [rad]. amplitude: a = a_p / (g tan alpha), linear
 /// theory a_p / (g alpha) [1]; frequency: Omega [1].
 template <Theory theory, class S>
-PulseExcitation<S> pulse_excitation(const GroundMotion<S>& motion, const S& slenderness,
+PulseExcitation<S> pulse_excitation(const PulseMotion<S>& motion, const S& slenderness,
                                     const S& amplitude, const S& frequency)
 {
     return {.motion = motion,

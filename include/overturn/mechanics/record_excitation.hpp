@@ -90,7 +90,7 @@ struct RecordExcitation {
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
         if constexpr (directions == Directions::both) {
             using std::abs;
-            if (motion.record->upwards().empty()) { // in more digits, compiled only for both
+            if (motion.record->upwards().empty()) { // outside the kernels, compiled only for both
                 return {horizontal, {T(S(1)), T(S(0))}};
             }
             Ramp<T> gravity = ramp_of(motion.record->upwards(), T(abs(acceleration)));

@@ -1,4 +1,4 @@
-// Ascending values of one quantity.
+// The values of one quantity: an axis, a single number, or a column of a table.
 #pragma once
 
 #include <array>

@@ -49,7 +49,7 @@ struct Grid {
     std::optional<std::size_t> dimension_of(Role role) const;
 
     /// Whether the table has a column of this name.
-    bool has_column(std::string_view name) const;
+    bool has_table_column(std::string_view name) const;
 
     /// The first quantity of this role, other than a column of a table; nullptr if there is none.
     const Column* axis_or_number(Role role) const;

@@ -1,4 +1,6 @@
-// The kernels of the forced stage, one per lane width, and their support by this processor.
+// The lane widths for which the kernels of the forced stage are compiled, and their support by this
+// processor. For each width there is a function per method, theory and set of outputs, see
+// src/sweep/sweep_kernel.hpp.
 #pragma once
 
 #include <array>
@@ -6,8 +8,9 @@
 
 namespace overturn {
 
-/// All kernels give identical bits. one_lane computes one point at a time. On x86-64 it uses the
-/// instructions of avx2 and is for debugging and comparison; elsewhere it is the only kernel.
+/// A lane width. All of them give identical bits. one_lane computes one point at a time. On x86-64
+/// it uses the instructions of avx2 and is for debugging and comparison; elsewhere it is the only
+/// kernel.
 enum class Kernel { one_lane, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 3> kernel_names{"double", "avx2", "avx512"};

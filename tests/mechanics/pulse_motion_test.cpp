@@ -1,4 +1,4 @@
-#include "overturn/mechanics/ground_motion.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/mechanics/wavelet.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
@@ -13,14 +13,14 @@ INSTANTIATE_TEST_SUITE_P(Pulse, EveryPulse, every_pulse(), pulse_test_name);
 constexpr int samples = 20000;
 
 /// Evenly spaced phases of the pulse.
-double phase_number(int i, const GroundMotion<double>& motion)
+double phase_number(int i, const PulseMotion<double>& motion)
 {
     return motion.begin + (motion.end - motion.begin) * i / samples;
 }
 
 TEST_P(EveryPulse, HasPeakOne)
 {
-    const GroundMotion<double> pulse = motion(1.0);
+    const PulseMotion<double> pulse = motion(1.0);
     double peak = 0;
     for (int i = 0; i <= samples; ++i) {
         peak = std::max(peak, std::abs(value_of_pulse(pulse, phase_number(i, pulse))));
@@ -32,7 +32,7 @@ TEST_P(EveryPulse, HasPeakOne)
 
 TEST_P(EveryPulse, HasNoExtremumExceptItsPeaks)
 {
-    const GroundMotion<double> pulse = motion(1.0);
+    const PulseMotion<double> pulse = motion(1.0);
     const double step = phase_number(1, pulse) - pulse.begin;
     for (int i = 1; i < samples; ++i) {
         const double phase = phase_number(i, pulse);
@@ -52,7 +52,7 @@ TEST_P(EveryPulse, HasNoLargerSecondDerivativeThanItsBound)
 {
     // The bound of low_bounces.hpp. A second difference is the mean of f'' over the two steps; its
     // rounding error is 4 epsilon / step^2, at most 1e-8.
-    const GroundMotion<double> pulse = motion(1.0);
+    const PulseMotion<double> pulse = motion(1.0);
     const double step = phase_number(1, pulse) - pulse.begin;
     for (int i = 0; i + 2 <= samples; ++i) {
         const double first = phase_number(i, pulse);
@@ -69,7 +69,7 @@ TEST_P(EveryPulse, HasNoLargerSecondDerivativeThanItsBound)
 }
 
 /// The first phase of each interval with amplitude |f| > 1, by sampling the whole pulse.
-std::vector<double> spells(const GroundMotion<double>& pulse, double amplitude)
+std::vector<double> spells(const PulseMotion<double>& pulse, double amplitude)
 {
     std::vector<double> result;
     bool lifted = false;
@@ -87,7 +87,7 @@ std::vector<double> spells(const GroundMotion<double>& pulse, double amplitude)
 TEST_P(EveryPulse, UpliftsAreWhereTheGroundFirstExceedsTheThreshold)
 {
     for (const double window : {0.05, 0.15, 0.3, 0.6, 1.0, 3.0}) {
-        const GroundMotion<double> pulse = motion(window);
+        const PulseMotion<double> pulse = motion(window);
         for (const double amplitude : {0.5, 1.003, 1.3, 2.1, 2.4, 9.0, 200.0}) {
             std::vector<double> ours;
             for (const double phase : uplift_phases(pulse, amplitude)) {
@@ -127,7 +127,7 @@ TEST_P(EveryPulse, UpliftsInDoubleAndFiftyDigitsAgree)
 
 double first_uplift(PulseKind pulse, double amplitude)
 {
-    return uplift_phases(ground_motion<double>(pulse), amplitude).values[0];
+    return uplift_phases(pulse_motion<double>(pulse), amplitude).values[0];
 }
 
 TEST(UpliftPhases, OfASineEqualsItsClosedForm)
@@ -156,7 +156,7 @@ TEST(UpliftPhases, SideLobeOfTheSymmetricRickerLiftsFromItsOwnPeakOn)
 TEST(Wavelets, HaveTailsThatEndBelowAnyLevel)
 {
     for (const PulseKind kind : {PulseKind::symmetric_ricker, PulseKind::antisymmetric_ricker}) {
-        const GroundMotion<double> pulse = ground_motion<double>(kind);
+        const PulseMotion<double> pulse = pulse_motion<double>(kind);
         for (const double level : {1e-12, 1e-19, 1e-30, 1e-60}) {
             const double end = end_of_tail(kind, std::log2(level));
             for (const double beyond : {1.0, 1.1, 2.0, 3.0}) {

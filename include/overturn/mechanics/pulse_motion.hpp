@@ -35,7 +35,7 @@ struct PerLobe {
 
 /// A pulse of unit peak over its phase. S: the type of one lane.
 template <class S>
-struct GroundMotion {
+struct PulseMotion {
     PulseKind pulse;
     PulseForm form;
     S begin; ///< phases at which the ground motion begins and ends [rad]
@@ -145,7 +145,7 @@ ModulatedSine<S> modulated_sine(PulseKind pulse, const PulseShape& shape)
 
 /// Finds the extrema of a ModulatedSine and scales it to a peak of 1.
 template <class S>
-void find_peaks(GroundMotion<S>& motion, const PulseShape& shape)
+void find_peaks(PulseMotion<S>& motion, const PulseShape& shape)
 {
     using std::abs;
     motion.sine = modulated_sine<S>(motion.pulse, shape);
@@ -178,7 +178,7 @@ void find_peaks(GroundMotion<S>& motion, const PulseShape& shape)
 
 /// The pulse with the numbers of the shape that complete it; the others are ignored.
 template <class S>
-GroundMotion<S> ground_motion(PulseKind pulse, const PulseShape& shape = {})
+PulseMotion<S> pulse_motion(PulseKind pulse, const PulseShape& shape = {})
 {
     const PulseForm form = traits_of(pulse).form;
     const bool is_centred = has_window(pulse) || has_number(pulse, &PulseShape::gamma);
@@ -186,14 +186,14 @@ GroundMotion<S> ground_motion(PulseKind pulse, const PulseShape& shape = {})
                   : has_number(pulse, &PulseShape::cycles) ? 2 * pi<S>() * S(shape.cycles)
                   : is_centred                             ? pi<S>() * S(shape.gamma)
                                                            : traits_of(pulse).half_turns * pi<S>();
-    GroundMotion<S> motion{.pulse = pulse,
-                           .form = form,
-                           .begin = is_centred ? S(-end) : S(0),
-                           .end = end,
-                           .kink = is_centred ? S(-end) : S(0),
-                           .fastest = S(form == PulseForm::linear ? 0 : 1),
-                           .sine = {},
-                           .peaks = {}};
+    PulseMotion<S> motion{.pulse = pulse,
+                          .form = form,
+                          .begin = is_centred ? S(-end) : S(0),
+                          .end = end,
+                          .kink = is_centred ? S(-end) : S(0),
+                          .fastest = S(form == PulseForm::linear ? 0 : 1),
+                          .sine = {},
+                          .peaks = {}};
     const auto add_peaks = [&]<class Pulse>() {
         static_assert(Pulse::lobes <= most_lobes);
         if (Pulse::template kink<S>() < end) {
@@ -210,7 +210,7 @@ GroundMotion<S> ground_motion(PulseKind pulse, const PulseShape& shape = {})
 
 /// uplift_phases() of a ModulatedSine, which is monotone between two peaks.
 template <class S>
-PerLobe<S> uplift_phases_by_peaks(const GroundMotion<S>& motion, const S& amplitude)
+PerLobe<S> uplift_phases_by_peaks(const PulseMotion<S>& motion, const S& amplitude)
 {
     PerLobe<S> result;
     S from = motion.begin;
@@ -238,7 +238,7 @@ struct FlankInPulse {
 
 /// The flanks of a pulse; none of a ModulatedSine.
 template <class S>
-PerLobe<FlankInPulse<S>> flanks_of(const GroundMotion<S>& motion)
+PerLobe<FlankInPulse<S>> flanks_of(const PulseMotion<S>& motion)
 {
     using std::abs;
     const auto within_pulse = [&]<class Pulse>() {
@@ -269,7 +269,7 @@ PerLobe<FlankInPulse<S>> flanks_of(const GroundMotion<S>& motion)
 /// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
 /// flanks: flanks_of(motion); amplitude [1].
 template <class S>
-PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
+PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
                          const S& amplitude)
 {
     const auto by_flanks = [&]<class Pulse>() {
@@ -286,7 +286,7 @@ PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const PerLobe<FlankInPul
                       [&] { return uplift_phases_by_peaks(motion, amplitude); });
 }
 template <class S>
-PerLobe<S> uplift_phases(const GroundMotion<S>& motion, const S& amplitude)
+PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const S& amplitude)
 {
     return uplift_phases(motion, flanks_of(motion), amplitude);
 }
