@@ -330,10 +330,14 @@ private:
         const bool is_share = is_in("fraction fractions multiples parts terms units", word(at_)) &&
                               continues(at_ + 1, "of") && continues(at_ + 2);
         const auto found = match(is_share ? at_ + 2 : at_);
-        const bool is_changed =
-            found && continues(found->end) &&
-            (is_in("per times x divided multiplied squared", word(found->end)) ||
-             word(found->end).find_first_of("/*^") == 0);
+        if (!found || found->end == words_.size()) {
+            return found;
+        }
+        const std::string& next = word(found->end);
+        const bool is_changed = // also behind a comma or a bracket
+            is_in("divided multiplied scaled", next) ||
+            (continues(found->end) &&
+             (is_in("per times x squared", next) || next.find_first_of("/*^") == 0));
         return is_changed ? std::nullopt : found;
     }
 
