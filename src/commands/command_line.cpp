@@ -6,12 +6,15 @@
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/job/nearest_name.hpp"
+#include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <concepts>
 #include <memory>
@@ -94,6 +97,36 @@ std::string refusal_of_pga(const std::string& text)
                : fmt::format("{} is above {} g.", text, largest);
 }
 
+/// An option for each quantity in metres or radians that describes a block.
+void add_block(CLI::App& command, std::map<std::string, double>& block)
+{
+    for (const Quantity& quantity : all_quantities()) {
+        if (quantity.role != Role::block || quantity.units == "1" || quantity.units == "s-1") {
+            continue;
+        }
+        const std::string name(quantity.name);
+        std::string option = "--" + name;
+        std::ranges::replace(option, '_', '-');
+        std::string text(quantity.long_name);
+        text[0] = char(std::toupper(text[0]));
+        command
+            .add_option_function<std::string>(
+                option,
+                [&block, &quantity, name](const std::string& given) {
+                    double value = 0;
+                    if (!CLI::detail::lexical_cast(given, value)) {
+                        throw CLI::ValidationError(fmt::format("{} is not a number.", given));
+                    }
+                    if (!quantity.allows(value)) {
+                        throw CLI::ValidationError(name + quantity.refusal_of(value));
+                    }
+                    block[name] = value;
+                },
+                fmt::format("{} [{}]", text, quantity.units))
+            ->type_name(quantity.units == "m" ? "M" : "RAD");
+    }
+}
+
 void add_topple_arguments(CLI::App& command, ToppleOptions& options)
 {
     const auto number = [&](const char* name, auto& value, const char* unit, const char* text) {
@@ -102,8 +135,11 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     const auto text = [&](const char* name, auto& value, const char* type, const char* what) {
         return command.add_option(name, value, what)->type_name(type);
     };
-    number("--width", options.width, "M", "Width of the block [m]")->required();
-    number("--height", options.height, "M", "Height of the block [m]")->required();
+    add_block(command, options.block);
+    command
+        .add_option("--direction", options.direction,
+                    "180: the mirror image of the motion, for blocks with two different sides")
+        ->type_name("DEGREES");
     number("--period", options.period, "S", "Period of the pulse [s]");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")
         ->check(refusal_of_pga);

@@ -1,6 +1,7 @@
 // The subcommands, one file each. They return an exit code, and throw an exception on error.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,14 +49,14 @@ int history(const HistoryOptions& options);
 
 /// Answers whether one block topples under one motion, and at which peak accelerations.
 struct ToppleOptions {
-    double width = 0;                 ///< [m]
-    double height = 0;                ///< [m]
-    std::optional<std::string> pulse; ///< its name; default: one_sine
-    std::optional<double> period;     ///< of the pulse [s]
-    std::string record;               ///< path; empty: a pulse
-    std::string component;            ///< of the record, its name or number
-    std::optional<double> pga;        ///< over g [1]
-    std::optional<double> scale;      ///< of the record [1]
+    std::map<std::string, double> block; ///< quantities of the block, by name
+    std::optional<double> direction;     ///< [degree]
+    std::optional<std::string> pulse;    ///< its name; default: one_sine
+    std::optional<double> period;        ///< of the pulse [s]
+    std::string record;                  ///< path; empty: a pulse
+    std::string component;               ///< of the record, its name or number
+    std::optional<double> pga;           ///< over g [1]
+    std::optional<double> scale;         ///< of the record [1]
     std::optional<double> restitution;
     std::optional<double> restitution_of_maximum; ///< default, without restitution: 1
     std::vector<std::string> overrides;           ///< of keys of [scene]

@@ -28,14 +28,49 @@ inline std::optional<Extent> extent_of(const Job& job, std::string_view name)
     return coordinates.has(name) ? std::optional(extent_of(coordinates.of(name))) : std::nullopt;
 }
 
+inline std::string degrees_text(const Extent& angle)
+{
+    return Extent{in_degrees(angle.first), in_degrees(angle.last)}.text(" degrees");
+}
+
+/// What describes blocks with two different sides: alpha, p and R of the sides plus and minus,
+/// r_max.
+inline std::string two_sides_line(const Job& job)
+{
+    const auto of_both = [&](std::string_view plus, std::string_view minus, const auto& text) {
+        return fmt::format("{} (+), {} (-)", text(*extent_of(job, plus)),
+                           text(*extent_of(job, minus)));
+    };
+    const auto in = [](std::string_view unit) {
+        return [unit](const Extent& extent) { return extent.text(unit); };
+    };
+    return fmt::format("alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
+                       of_both("slenderness_plus", "slenderness_minus", degrees_text),
+                       of_both("size_plus", "size_minus", in(" m")),
+                       of_both("frequency_parameter", "frequency_parameter_minus", in(" 1/s")),
+                       job.problem.scene.gravity, extent_of(job, "largest_restitution")->text(""),
+                       job.blocks ? ", r = " + extent_of(job, "restitution")->text("") : "");
+}
+
+/// r_max of the only block of a job, if it exists.
+inline std::optional<double> r_max_of_only_block(const Job& job)
+{
+    return job.problem.grid.has_two_sides()
+               ? std::optional(extent_of(job, "largest_restitution")->first)
+               : r_max_of(extent_of(job, "slenderness")->first);
+}
+
 /// A line about the blocks.
 inline std::string block_line(const Job& job)
 {
-    const Extent alpha = *extent_of(job, "slenderness");
     std::string line;
     if (job.blocks) {
         line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
     }
+    if (job.problem.grid.has_two_sides()) {
+        return line + two_sides_line(job);
+    }
+    const Extent alpha = *extent_of(job, "slenderness");
     line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
     if (job.blocks) {
         line += ", r = " + extent_of(job, "restitution")->text("");

@@ -151,7 +151,7 @@ void print_events(const History& history, const Units& units)
     }
 }
 
-void print_outcome(const History& history, double slenderness, double peak,
+void print_outcome(const History& history, const std::optional<double>& slenderness, double peak,
                    const std::optional<double>& p)
 {
     const auto time = [&](double value) {
@@ -182,7 +182,7 @@ int history(const HistoryOptions& options)
         expect_room_for(options.output, FileKind::history);
     }
     warn_of_implausible_values(job);
-    const double slenderness = only_point_of(job).slenderness;
+    const auto slenderness = slenderness_of_only_block(job);
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {
         view.until = options.until;

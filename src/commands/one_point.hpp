@@ -21,6 +21,13 @@ inline Point only_point_of(const Job& job)
     return Coordinates(job.problem.scene, job.problem.grid).points().front();
 }
 
+/// alpha of the only block of a job; nullopt if it has two sides [rad].
+inline std::optional<double> slenderness_of_only_block(const Job& job)
+{
+    return job.problem.grid.has_two_sides() ? std::nullopt
+                                            : std::optional(only_point_of(job).block.slenderness);
+}
+
 /// Throws Error if the motion overflows; a spectrum flags such a point instead.
 inline void expect_finite(const History& history, const Grid& grid)
 {
@@ -61,13 +68,15 @@ inline double peak_of_only_point(const Job& job)
     return std::get<std::vector<double>>(fields.values[0])[0];
 }
 
-inline std::string peak_text(double peak, double slenderness)
+/// slenderness: nullopt if the block has two of them.
+inline std::string peak_text(double peak, const std::optional<double>& slenderness)
 {
     return std::isnan(peak)   ? "undecided"
            : std::isinf(peak) ? "the block overturns"
            : peak == 0        ? "0: the block is not lifted and stays at rest"
-                              : fmt::format("{:.4g} degrees, {:.3g} % of alpha",
-                                            in_degrees(peak * slenderness), 100 * peak);
+           : slenderness      ? fmt::format("{:.4g} degrees, {:.3g} % of alpha",
+                                            in_degrees(peak * *slenderness), 100 * peak)
+                              : fmt::format("{:.3g} % of alpha of its side", 100 * peak);
 }
 
 } // namespace overturn

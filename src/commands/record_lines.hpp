@@ -58,7 +58,9 @@ inline std::vector<std::string> record_lines(const Job& job)
         const Accelerogram& record = *job.problem.scene.records[i];
         const std::string component =
             (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
-            (motion.vertical.empty() ? "" : fmt::format(", vertical {}", motion.vertical));
+            (motion.vertical.empty() ? ""
+                                     : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
+                                                   record.upwards_peak()));
         lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
                                               motion.file, component, record.samples(),
                                               double(record.samples() - 1) * record.time_step(),

@@ -27,7 +27,7 @@ std::string text_of(const BoundaryLines& lines)
     add(lines.undecided, "with undecided amplitudes or more flips than are stored");
     if (lines.has_shares && lines.computed > 0) {
         parts.push_back(
-            fmt::format("overturning in {:.3g} % of the scanned interval, undecided in {:.2g} %",
+            fmt::format("overturning in {:.3g} % of the scanned interval, undecided in {:.3g} %",
                         100 * lines.unsafe_share, 100 * lines.undecided_share));
         parts.emplace_back("strips narrower than the steps of the scan are missed");
     }

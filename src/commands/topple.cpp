@@ -55,7 +55,14 @@ std::string job_text(const ToppleOptions& options)
     text += options.restitution ? fmt::format("restitution = {}\n", *options.restitution)
                                 : fmt::format("restitution_of_maximum = {}\n",
                                               options.restitution_of_maximum.value_or(1));
-    return text + fmt::format("[block]\nwidth = {}\nheight = {}\n", options.width, options.height);
+    if (options.direction) {
+        text += fmt::format("direction = {}\n", *options.direction);
+    }
+    text += "[block]\n";
+    for (const auto& [name, value] : options.block) {
+        text += fmt::format("{} = {}\n", name, value);
+    }
+    return text;
 }
 
 void expect_consistent(const ToppleOptions& options)
@@ -112,9 +119,9 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
     Answer answer;
     const Scene& scene = job.problem.scene;
     const Point point = only_point_of(job);
-    const double alpha = point.slenderness;
     const double unit = pga_of_unit(scene, point);
-    answer.pga = options.pga ? *options.pga : point.amplitude * unit;
+    const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
+    answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;
     if (options.pga || options.scale) {
         answer.peak = peak_of_only_point(job);
         answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
@@ -122,8 +129,8 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
                                                    : Verdict::safe;
     }
     answer.lifting_pga = lifting_pga(scene, point);
-    const double requested = point.restitution;
-    const auto r_max = r_max_of(alpha);
+    const double requested = point.block.restitution;
+    const auto r_max = r_max_of_only_block(job);
     std::vector<double> ratios{requested};
     if (r_max) {
         for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
@@ -141,8 +148,8 @@ Answer answer_of(const Job& job, const ToppleOptions& options)
             answer.by_restitution.push_back(answer.by_restitution.front());
             continue;
         }
-        const BoundaryLine line{
-            .slenderness = alpha, .restitution = ratio, .frequency = point.frequency, .unit = unit};
+        BoundaryLine line{.point = point, .unit = of_direction * unit};
+        line.point.block.restitution = ratio;
         answer.by_restitution.push_back(
             {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
              verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
@@ -159,18 +166,40 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
     return most;
 }
 
+/// The numbers that complete a pulse, each after a comma.
+std::string shape_text(const Scene& scene)
+{
+    std::string text;
+    for (const auto& [name, number] : shape_numbers) {
+        if (has_number(scene.pulse, number)) {
+            text += fmt::format(", {} {}", name, scene.shape.*number);
+        }
+    }
+    return text;
+}
+
 void print_answer(const Job& job, const ToppleOptions& options, const Answer& answer)
 {
-    const double alpha = only_point_of(job).slenderness;
+    const auto alpha = slenderness_of_only_block(job);
     const RestitutionAnswer& requested = answer.by_restitution.front();
     const Scene& scene = job.problem.scene;
     const bool is_recorded = scene.is_recorded();
     const int decimals = requested.ranges.decimals(answer.pga);
-    print_row("block",
-              fmt::format("{} m x {} m, {}", options.width, options.height, block_line(job)));
-    print_row("motion",
-              is_recorded ? record_lines(job).front()
-                          : fmt::format("{}, period {} s", name_of(scene.pulse), *options.period));
+    const auto sides = [&](const char* name) { return options.block.find(name); };
+    const std::string box =
+        sides("width") == options.block.end() || sides("height") == options.block.end()
+            ? ""
+            : fmt::format("{} m x {} m, ", sides("width")->second, sides("height")->second);
+    print_row("block", box + block_line(job));
+    const std::string motion = is_recorded ? record_lines(job).front()
+                                           : fmt::format("{}, period {} s{}", name_of(scene.pulse),
+                                                         *options.period, shape_text(scene));
+    print_row("motion", options.direction
+                            ? fmt::format("{}; direction {} degrees", motion, *options.direction)
+                            : motion);
+    if (scene.theory != Theory::nonlinear) {
+        print_row("theory", name_of(scene.theory));
+    }
     print_row(
         "restitution",
         std::isnan(requested.share)
@@ -246,8 +275,15 @@ std::string json_of(const RestitutionAnswer& answer)
 std::string json_of_motion(const Job& job, const ToppleOptions& options)
 {
     if (job.motions.empty()) {
-        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}}}",
-                           name_of(job.problem.scene.pulse), *options.period);
+        const Scene& scene = job.problem.scene;
+        std::string shape;
+        for (const auto& [name, number] : shape_numbers) {
+            if (has_number(scene.pulse, number)) {
+                shape += fmt::format(", \"{}\": {}", name, scene.shape.*number);
+            }
+        }
+        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}{}}}", name_of(scene.pulse),
+                           *options.period, shape);
     }
     const Motion& motion = job.motions.front();
     return fmt::format("{{\"record\": {}, \"component\": {}, \"vertical\": {}}}",
@@ -257,7 +293,7 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
 
 void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
 {
-    const double alpha = only_point_of(job).slenderness;
+    const auto alpha = slenderness_of_only_block(job);
     const auto if_requested = [&](double value) {
         return answer.verdict ? json_of(value) : "null";
     };
@@ -266,16 +302,27 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
     };
     const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
     fmt::print("{{\n");
-    member("block",
-           fmt::format("{{\"width\": {}, \"height\": {}}}", options.width, options.height));
+    std::vector<std::string> of_block;
+    for (const auto& [name, value] : options.block) {
+        of_block.push_back(fmt::format("\"{}\": {}", name, value));
+    }
+    member("block", fmt::format("{{{}}}", fmt::join(of_block, ", ")));
     member("motion", json_of_motion(job, options));
+    member("direction", options.direction.value_or(0));
+    member("theory", quoted(std::string(name_of(job.problem.scene.theory))));
     member("topples", answer.verdict == Verdict::topples ? "true"
                       : answer.verdict == Verdict::safe  ? "false"
                                                          : "null");
     member("pga", if_requested(answer.pga));
     member("peak_of_alpha", if_requested(answer.peak));
-    member("peak_degrees", if_requested(in_degrees(answer.peak * alpha)));
-    member("slenderness", alpha);
+    member("peak_degrees",
+           alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
+    if (alpha) {
+        member("slenderness", *alpha);
+    } else {
+        member("slenderness_plus", extent_of(job, "slenderness_plus")->first);
+        member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
+    }
     member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
     member("gravity", job.problem.scene.gravity);
     member("lifting_pga", json_of(answer.lifting_pga));

@@ -83,7 +83,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
     ranges.lifting = lifting;
     if (scene.is_recorded()) {
         const double free_fall =
-            scene.records[std::size_t(line.record)]->free_fall_scale() * line.unit;
+            scene.records[std::size_t(line.point.record)]->free_fall_scale() * std::abs(line.unit);
         // Just below, by more than the roundings of a scale.
         const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
         ranges.ends_in_free_fall = last < end;

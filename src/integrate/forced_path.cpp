@@ -21,12 +21,14 @@ State<double> state_after(const Event<double>& event, const Block<double>& block
                           const Excitation& excitation, double phase)
 {
     const Rocking<double>& from = event.rocking;
-    const double unit = 1 / std::max(1.0, excitation.frequency); // as in TaylorStepper
-    const double phase_per_unit = excitation.frequency * unit;
+    const Block<double> seen = seen_from(from.side, block);
+    const double frequency = excitation.frequency / (block.is_symmetric() ? 1 : seen.pace);
+    const double unit = 1 / std::max(1.0, frequency); // as in TaylorStepper
+    const double phase_per_unit = frequency * unit;
     const auto push = excitation.template series<path_order>(from.side * excitation.acceleration,
                                                              from.phase, phase_per_unit);
     const auto series = rocking_series<theory, path_order>(from.tilt, from.rate * unit,
-                                                           block.slenderness, push, unit);
+                                                           seen.slenderness, push, unit);
     const double time = (phase - from.phase) / phase_per_unit;
     return {.tilt = std::max(0.0, value_of_series(series.tilt, time)),
             .rate = value_of_series(series.rate, time) / unit,

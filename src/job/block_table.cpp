@@ -70,7 +70,9 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
     const auto refuse_name = [&](const std::string& reason) {
         refuse(blocks, {GivenError::no_row, name, reason});
     };
-    if (is_one_of(name, reserved_names) || is_one_of(name, field_names()) ||
+    const Quantity* const quantity_of_name = find_quantity(name);
+    const bool is_derived = quantity_of_name != nullptr && quantity_of_name->role == Role::derived;
+    if (is_derived || is_one_of(name, reserved_names) || is_one_of(name, field_names()) ||
         (is_recorded && is_one_of(name, reserved_under_records))) {
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
@@ -121,8 +123,7 @@ void expect_values(const BlockTable& blocks, const TableColumn& column, const Qu
                 {std::int64_t(row), column.name,
                  std::isnan(value)
                      ? " is empty or not a number. Give a value in every row, or rename the column."
-                     : fmt::format(" = {} is outside {}. {}", value, quantity.interval,
-                                   quantity.reason)});
+                     : quantity.refusal_of(value)});
         }
     }
 }

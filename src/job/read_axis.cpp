@@ -134,7 +134,7 @@ double quantity_of(const Entry& entry, const Quantity& rule)
 {
     const double value = number_of(entry);
     if (!rule.allows(value)) {
-        refuse(entry, " = {} is outside {}. {}", value, rule.interval, rule.reason);
+        refuse(entry, "{}", rule.refusal_of(value));
     }
     return value;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace overturn {
 
@@ -34,33 +35,48 @@ Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> u
     }
 }
 
+double Accelerogram::upwards_mean() const
+{
+    return std::accumulate(upwards_.begin(), upwards_.end(), 0.0) /
+           std::max(1.0, double(upwards_.size()));
+}
+
 double Accelerogram::free_fall_scale() const
 {
     const double deepest = upwards_.empty() ? 0 : later_fall_.front();
     return deepest > 0 ? 1 / deepest : std::numeric_limits<double>::infinity();
 }
 
-double Accelerogram::lifting_scale(double threshold) const
+double Accelerogram::lifting_scale(const UpliftThresholds& thresholds) const
 {
     // scale |a| > (1 + scale v) threshold. Both sides are linear between samples and the left one
     // is convex, so that the least scale is that of a sample.
-    double strongest = 0;
-    for (std::size_t i = 0; i < horizontal_.size(); ++i) {
-        const double upwards = upwards_.empty() ? 0 : upwards_[i];
-        strongest = std::max(strongest, std::abs(horizontal_[i]) - upwards * threshold);
-    }
-    return threshold / strongest;
+    const auto scale_on_side = [&](double threshold, double side) {
+        double strongest = 0;
+        for (std::size_t i = 0; i < horizontal_.size(); ++i) {
+            const double upwards = upwards_.empty() ? 0 : upwards_[i];
+            const double towards = std::max(0.0, -side * horizontal_[i]);
+            strongest = std::max(strongest, towards - upwards * threshold);
+        }
+        return threshold / strongest;
+    };
+    return std::min(scale_on_side(thresholds.plus, 1), scale_on_side(thresholds.minus, -1));
 }
 
-std::int64_t Accelerogram::first_lifting(std::int64_t first, double scale, double threshold) const
+std::int64_t Accelerogram::first_lifting(std::int64_t first, double scale,
+                                         const UpliftThresholds& thresholds) const
 {
+    const double factor = std::abs(scale);
+    const double least = std::min(thresholds.plus, thresholds.minus);
     for (std::int64_t i = first; i < samples(); ++i) {
         const double fall = upwards_.empty() ? 0 : later_fall_[std::size_t(i)];
-        if (!(scale * later_peak_[std::size_t(i)] > (1 - scale * fall) * threshold)) {
+        if (!(factor * later_peak_[std::size_t(i)] > (1 - factor * fall) * least)) {
             break; // no later sample does
         }
         const double upwards = upwards_.empty() ? 0 : upwards_[std::size_t(i)];
-        if (scale * std::abs(horizontal_[std::size_t(i)]) > (1 + scale * upwards) * threshold) {
+        const double push = scale * horizontal_[std::size_t(i)];
+        const double threshold = push < 0 ? thresholds.plus : thresholds.minus;
+        if (std::abs(push) > (1 + factor * upwards) * threshold) {
             return i;
         }
     }

@@ -1,6 +1,7 @@
 #include "overturn/problem/coordinates.hpp"
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/pulse_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -28,32 +29,59 @@ double uplift_threshold(Theory theory, double slenderness)
                        [&]<Theory known>() { return uplift_acceleration<known>(slenderness); });
 }
 
+namespace {
+
+double least_uplift_threshold(const Scene& scene, const Point& point)
+{
+    return uplift_threshold(scene.theory,
+                            std::min(point.block.slenderness, point.block.other.slenderness));
+}
+
+} // namespace
+
 double pga_of_unit(const Scene& scene, const Point& point)
 {
     return scene.is_recorded() ? scene.records[std::size_t(point.record)]->peak()
-                               : uplift_threshold(scene.theory, point.slenderness);
+                               : least_uplift_threshold(scene, point);
 }
 
 double lifting_pga(const Scene& scene, const Point& point)
 {
-    const double threshold = uplift_threshold(scene.theory, point.slenderness);
-    if (!scene.is_recorded()) {
-        return threshold;
+    if (!scene.is_recorded() && point.block.is_symmetric()) {
+        return uplift_threshold(scene.theory, point.block.slenderness);
     }
-    const Accelerogram& record = *scene.records[std::size_t(point.record)];
-    return record.peak() * record.lifting_scale(threshold);
+    const bool is_mirrored = std::signbit(point.amplitude);
+    const Block<double> block = is_mirrored ? point.block.turned() : point.block;
+    const UpliftThresholds thresholds(uplift_threshold(scene.theory, block.slenderness),
+                                      uplift_threshold(scene.theory, block.other.slenderness));
+    if (scene.is_recorded()) {
+        const Accelerogram& record = *scene.records[std::size_t(point.record)];
+        return record.peak() * record.lifting_scale(thresholds);
+    }
+    // A positive acceleration of the ground lifts the block on its side minus.
+    const LobeAmplitudes<double> lobes =
+        largest_lobes(pulse_motion<double>(scene.pulse, scene.shape));
+    return std::min(thresholds.minus / lobes.positive, thresholds.plus / lobes.negative);
 }
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double two_pi = 2 * std::numbers::pi;
 
-/// A coordinate that follows from one or two others, x and y.
+/// The values of the coordinates from which another one follows.
+using Values = std::array<double, 5>;
+
+/// The blocks of a grid.
+enum class Sides { any, equal, two };
+
+/// A coordinate that follows from at most five others; the constant default of a quantity follows
+/// from none.
 struct Derivation {
     std::string_view name;
-    std::array<std::string_view, 2> from;
-    double (*value)(const Scene& scene, double x, double y);
+    std::array<std::string_view, 5> from;
+    double (*value)(const Scene& scene, const Values& of);
     Under motion = Under::any_motion;
+    Sides sides = Sides::any;
 };
 
 const Accelerogram& record_of(const Scene& scene, double motion)
@@ -61,69 +89,186 @@ const Accelerogram& record_of(const Scene& scene, double motion)
     return *scene.records[Scene::record_index(motion)];
 }
 
+/// p of a side: R and the radius of gyration k.
+double frequency_parameter_of(const Scene& scene, const Values& of)
+{
+    const auto [size, gyration, _1, _2, _3] = of;
+    return std::sqrt(scene.gravity * size / (gyration * gyration + size * size));
+}
+
 constexpr Derivation derivations[]{
-    {"half_width", {"width"}, [](const Scene&, double width, double) { return width / 2; }},
-    {"half_height", {"height"}, [](const Scene&, double height, double) { return height / 2; }},
+    {"half_width", {"width"}, [](const Scene&, const Values& of) { return of[0] / 2; }},
+    {"half_height", {"height"}, [](const Scene&, const Values& of) { return of[0] / 2; }},
+
+    // Of symmetric blocks: b and h; alpha, R and p.
     {"slenderness",
      {"half_width", "half_height"},
-     [](const Scene&, double b, double h) { return std::atan(b / h); }},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); },
+     Under::any_motion,
+     Sides::equal},
     {"slenderness",
      {"aspect_ratio"},
-     [](const Scene&, double ratio, double) { return std::atan(1 / ratio); }},
+     [](const Scene&, const Values& of) { return std::atan(1 / of[0]); }},
     {"size",
      {"half_width", "half_height"},
-     [](const Scene&, double b, double h) { return std::hypot(b, h); }},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
+     Under::any_motion,
+     Sides::equal},
     {"size",
      {"frequency_parameter"},
-     [](const Scene& scene, double p, double) { return 3 * scene.gravity / (4 * p * p); }},
+     [](const Scene& scene, const Values& of) { return 3 * scene.gravity / (4 * of[0] * of[0]); },
+     Under::any_motion,
+     Sides::equal},
     {"frequency_parameter",
      {"size"},
-     [](const Scene& scene, double size, double) {
-         return frequency_parameter(size, scene.gravity);
-     }},
+     [](const Scene& scene, const Values& of) { return frequency_parameter(of[0], scene.gravity); },
+     Under::any_motion,
+     Sides::equal},
     {"restitution",
      {"restitution_of_maximum", "slenderness"},
-     [](const Scene&, double share, double alpha) { return share * largest_restitution(alpha); }},
+     [](const Scene&, const Values& of) { return of[0] * largest_restitution(of[1]); },
+     Under::any_motion,
+     Sides::equal},
     {"amplitude",
      {"pga", "slenderness"},
-     [](const Scene& scene, double pga, double alpha) {
-         return pga / uplift_threshold(scene.theory, alpha);
+     [](const Scene& scene, const Values& of) {
+         return of[0] / uplift_threshold(scene.theory, of[1]);
      },
-     Under::pulse},
+     Under::pulse,
+     Sides::equal},
     {"pga",
      {"amplitude", "slenderness"},
-     [](const Scene& scene, double amplitude, double alpha) {
-         return amplitude * uplift_threshold(scene.theory, alpha);
+     [](const Scene& scene, const Values& of) {
+         return of[0] * uplift_threshold(scene.theory, of[1]);
      },
-     Under::pulse},
+     Under::pulse,
+     Sides::equal},
+
+    // Of blocks with two different sides: k, the height of the centre of mass, and the distances of
+    // its foot on the base from the corners; alpha, R, p and r_max.
+    {"center_offset",
+     {},
+     [](const Scene&, const Values&) { return 0.0; },
+     Under::any_motion,
+     Sides::two},
+    {"center_height",
+     {"half_height"},
+     [](const Scene&, const Values& of) { return of[0]; },
+     Under::any_motion,
+     Sides::two},
+    {"radius_of_gyration",
+     {"half_width", "half_height"},
+     [](const Scene&, const Values& of) {
+         return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
+     },
+     Under::any_motion,
+     Sides::two},
+    {"incline", {}, [](const Scene&, const Values&) { return 0.0; }, Under::any_motion, Sides::two},
+    {"base_plus",
+     {"half_width", "center_offset"},
+     [](const Scene&, const Values& of) { return of[0] - of[1]; },
+     Under::any_motion,
+     Sides::two},
+    {"base_minus",
+     {"half_width", "center_offset"},
+     [](const Scene&, const Values& of) { return of[0] + of[1]; },
+     Under::any_motion,
+     Sides::two},
+    {"slenderness_plus",
+     {"base_plus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) - of[2]; },
+     Under::any_motion,
+     Sides::two},
+    {"slenderness_minus",
+     {"base_minus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) + of[2]; },
+     Under::any_motion,
+     Sides::two},
+    {"size_plus",
+     {"base_plus", "center_height"},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
+     Under::any_motion,
+     Sides::two},
+    {"size_minus",
+     {"base_minus", "center_height"},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
+     Under::any_motion,
+     Sides::two},
+    {"frequency_parameter",
+     {"size_plus", "radius_of_gyration"},
+     frequency_parameter_of,
+     Under::any_motion,
+     Sides::two},
+    {"frequency_parameter_minus",
+     {"size_minus", "radius_of_gyration"},
+     frequency_parameter_of,
+     Under::any_motion,
+     Sides::two},
+    {"moment_kept", // J / m: the share of the angular momentum that an impact keeps, over omega
+     {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
+         return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
+     },
+     Under::any_motion,
+     Sides::two},
+    {"largest_restitution",
+     {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [kept, k, plus, minus, _] = of;
+         return kept * kept / ((k * k + plus * plus) * (k * k + minus * minus));
+     },
+     Under::any_motion,
+     Sides::two},
+    {"restitution",
+     {"restitution_of_maximum", "largest_restitution"},
+     [](const Scene&, const Values& of) { return of[0] * of[1]; },
+     Under::any_motion,
+     Sides::two},
+    {"amplitude",
+     {"pga", "slenderness_plus", "slenderness_minus"},
+     [](const Scene& scene, const Values& of) {
+         return of[0] / uplift_threshold(scene.theory, std::min(of[1], of[2]));
+     },
+     Under::pulse,
+     Sides::two},
+
     {"scale",
      {"pga", "record_pga"},
-     [](const Scene&, double pga, double peak) { return pga / peak; },
+     [](const Scene&, const Values& of) { return of[0] / of[1]; },
      Under::record},
     {"pga",
      {"scale", "record_pga"},
-     [](const Scene&, double scale, double peak) { return scale * peak; },
+     [](const Scene&, const Values& of) { return of[0] * of[1]; },
      Under::record},
     {"record_pga",
      {"motion"},
-     [](const Scene& scene, double motion, double) { return record_of(scene, motion).peak(); },
+     [](const Scene& scene, const Values& of) { return record_of(scene, of[0]).peak(); },
      Under::record},
     {"frequency",
      {"pulse_period", "frequency_parameter"},
-     [](const Scene&, double period, double p) { return 2 * pi / (period * p); },
-     Under::pulse},
+     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
+     Under::pulse,
+     Sides::equal},
     {"frequency",
      {"pulse_frequency", "frequency_parameter"},
-     [](const Scene&, double hertz, double p) { return 2 * pi * hertz / p; },
-     Under::pulse},
+     [](const Scene&, const Values& of) { return two_pi * of[0] / of[1]; },
+     Under::pulse,
+     Sides::equal},
     {"pulse_period",
      {"frequency", "frequency_parameter"},
-     [](const Scene&, double frequency, double p) { return 2 * pi / (frequency * p); },
-     Under::pulse},
+     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
+     Under::pulse,
+     Sides::equal},
+    {"pulse_period",
+     {"pulse_frequency"},
+     [](const Scene&, const Values& of) { return 1 / of[0]; },
+     Under::pulse,
+     Sides::two},
     {"samples_per_unit",
      {"motion", "frequency_parameter"},
-     [](const Scene& scene, double motion, double p) {
-         return 1 / (p * record_of(scene, motion).time_step());
+     [](const Scene& scene, const Values& of) {
+         return 1 / (of[1] * record_of(scene, of[0]).time_step());
      },
      Under::record},
 };
@@ -145,6 +290,7 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
         return each.name == name &&
                (each.motion == Under::any_motion ||
                 (each.motion == Under::record) == scene.is_recorded()) &&
+               (each.sides == Sides::any || (each.sides == Sides::two) == grid.has_two_sides()) &&
                std::all_of(each.from.begin(), each.from.end(), is_known);
     };
     const auto* found = std::ranges::find_if(derivations, is_possible);
@@ -228,12 +374,18 @@ const CoordinateValues& Coordinates::of(std::string_view name) const
         result.values = column->values.values(begin, begin + count);
     } else {
         const Derivation& derivation = *derivation_of(name, scene_, grid_);
-        const auto& [one, other] = derivation.from;
-        result.values = along(result.dimensions, one);
-        const std::vector<double> others =
-            other.empty() ? result.values : along(result.dimensions, other);
-        std::ranges::transform(result.values, others, result.values.begin(),
-                               [&](double x, double y) { return derivation.value(scene_, x, y); });
+        std::array<std::vector<double>, std::tuple_size_v<Values>> from;
+        for (std::size_t k = 0; k < from.size() && !derivation.from[k].empty(); ++k) {
+            from[k] = along(result.dimensions, derivation.from[k]);
+        }
+        result.values.resize(std::max<std::size_t>(1, from[0].size()));
+        for (std::size_t i = 0; i < result.values.size(); ++i) {
+            Values of{};
+            for (std::size_t k = 0; k < from.size() && !from[k].empty(); ++k) {
+                of[k] = from[k][i];
+            }
+            result.values[i] = derivation.value(scene_, of);
+        }
     }
     return known_.emplace(name, std::move(result)).first->second;
 }
@@ -268,15 +420,56 @@ std::vector<Point> Coordinates::points() const
                         [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
     };
     const bool is_recorded = scene_.is_recorded();
-    fill("slenderness", [](Point& point, double value) { point.slenderness = value; });
-    fill("restitution", [](Point& point, double value) { point.restitution = value; });
+    if (grid_.has_two_sides()) {
+        using B = BlockSide<double>;
+        const auto fill_side = [&](double B::*member, std::string_view plus, std::string_view minus,
+                                   double Block<double>::*of_plus) {
+            fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
+            fill(minus, [&](Point& point, double value) { point.block.other.*member = value; });
+        };
+        fill_side(&B::slenderness, "slenderness_plus", "slenderness_minus",
+                  &Block<double>::slenderness);
+        fill_side(&B::size, "size_plus", "size_minus", &Block<double>::size);
+        fill_side(&B::pace, "frequency_parameter", "frequency_parameter_minus",
+                  &Block<double>::pace);
+    } else {
+        fill("slenderness", [](Point& point, double value) {
+            point.block.slenderness = value;
+            point.block.other.slenderness = value;
+        });
+    }
+    fill("restitution", [](Point& point, double value) { point.block.restitution = value; });
     fill(is_recorded ? "scale" : "amplitude",
          [](Point& point, double value) { point.amplitude = value; });
-    fill(is_recorded ? "samples_per_unit" : "frequency",
-         [](Point& point, double value) { point.frequency = value; });
+    if (grid_.find("direction") != nullptr) {
+        fill("direction", [](Point& point, double value) {
+            point.amplitude = value == 180 ? -point.amplitude : point.amplitude;
+        });
+    }
+    const auto fill_frequency = [&](std::string_view name, const auto& value_of) {
+        fill(name, [&](Point& point, double value) { point.frequency = value_of(value); });
+    };
+    if (!grid_.has_two_sides()) {
+        fill_frequency(is_recorded ? "samples_per_unit" : "frequency",
+                       [](double value) { return value; });
+    } else if (is_recorded) {
+        fill_frequency("motion",
+                       [&](double motion) { return 1 / record_of(scene_, motion).time_step(); });
+    } else {
+        fill_frequency("pulse_period", [](double period) { return two_pi / period; });
+    }
     if (is_recorded) {
         fill("motion",
              [](Point& point, double value) { point.record = int(Scene::record_index(value)); });
+    }
+    if (grid_.has_two_sides()) {
+        for (Point& point : points) { // equal sides: as a symmetric block
+            Block<double>& block = point.block;
+            if (block.is_symmetric()) {
+                point.frequency /= block.pace;
+                block = {block.slenderness, block.restitution};
+            }
+        }
     }
     return points;
 }

@@ -24,8 +24,8 @@ std::vector<FieldFlag> regions(bool with_no_flip)
 const std::array<FieldTraits, count_of_fields> fields{{
     {"region", FieldType::uint8, "region at the end of the ground motion", "",
      "S: safe within the separatrix; S+, S-: safe due to the loss at the next impact; U0: "
-     "overturns without another impact; U1: overturns after one more impact; F: falls during the "
-     "ground motion",
+     "overturns without another impact; U1, U2: overturns after one or two more impacts; F: falls "
+     "during the ground motion",
      regions(false)},
     {"angle", FieldType::float64, "angle at the end of the ground motion", "rad", "theta"},
     {"velocity", FieldType::float64, "velocity at the end of the ground motion", "rad",

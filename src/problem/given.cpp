@@ -40,6 +40,45 @@ void expect_no_alternatives(const std::vector<Given>& given)
     }
 }
 
+/// What a block with two different sides needs.
+template <class Expect>
+void expect_two_sides(const Scene& scene, const Grid& grid, const Expect& expect)
+{
+    constexpr std::string_view angles[]{"slenderness_plus", "slenderness_minus", "size_plus",
+                                        "size_minus"};
+    if (std::ranges::any_of(angles, [&](auto name) { return grid.find(name) != nullptr; })) {
+        for (const std::string_view name : angles) {
+            expect(name, name,
+                   "A block that is not a box has slenderness_plus and slenderness_minus [rad], "
+                   "size_plus and size_minus [m].");
+        }
+        expect("radius_of_gyration", "radius_of_gyration",
+               "Give that about the centre of mass, in metres.");
+    } else {
+        constexpr std::string_view advice = "Give width and height, or their halves, in metres.";
+        expect("half_width", "width", advice);
+        expect("half_height", "height", advice);
+    }
+    expect("restitution", "restitution",
+           "Give restitution, the energy ratio r, or restitution_of_maximum, its share of r_max.");
+    constexpr std::string_view reason =
+        " has no meaning for a block with two different sides, which have two slendernesses and "
+        "two frequency parameters. Give {} instead.";
+    for (const auto& [name, other] :
+         {std::pair("amplitude", "pga [g]"),
+          std::pair("frequency", "pulse_period [s] or pulse_frequency [Hz]")}) {
+        if (grid.find(name) != nullptr) {
+            refuse(name, fmt::format(fmt::runtime(reason), other));
+        }
+    }
+    if (scene.is_recorded()) {
+        expect("scale", "scale", "Give scale, a factor on the record, or pga [g].");
+    } else {
+        expect("pga", "pga", "Give the peak ground acceleration over g.");
+        expect("pulse_period", "pulse_period", "Give it in s, or pulse_frequency in Hz.");
+    }
+}
+
 /// What a block needs, in the order in which it is asked for.
 void expect_complete(const Scene& scene, const Grid& grid)
 {
@@ -51,6 +90,10 @@ void expect_complete(const Scene& scene, const Grid& grid)
             refuse(name, fmt::format(" is missing. {}", advice));
         }
     };
+    if (grid.has_two_sides()) {
+        expect_two_sides(scene, grid, expect);
+        return;
+    }
     const bool has_side = has("half_width") || has("half_height");
     if (has_side) {
         constexpr std::string_view advice = "Give width and height, or their halves, in metres.";
@@ -133,8 +176,21 @@ void expect_slenderness(const Coordinates& coordinates, const Grid& corners)
 /// maximum for a block on a flat base, not a physical limit.
 void expect_restitution(const Coordinates& coordinates, const Grid& corners)
 {
+    const bool grid_has_two_sides = corners.has_two_sides();
     constexpr std::string_view name = "restitution_of_maximum";
     if (corners.find(name) == nullptr) {
+        return;
+    }
+    if (grid_has_two_sides) {
+        const double largest = extent_of(coordinates.of(name)).last;
+        if (largest > 1) {
+            refuse(
+                name,
+                fmt::format(
+                    " = {}: r_max of a block with two different sides is reached if no energy is "
+                    "lost that an impact keeps. Give at most 1, or restitution, r itself.",
+                    largest));
+        }
         return;
     }
     constexpr std::array<std::string_view, 3> names{"restitution", name, "slenderness"};
@@ -154,6 +210,58 @@ void expect_restitution(const Coordinates& coordinates, const Grid& corners)
                                  "rad. {}",
                                  share, r, rule.interval, alpha, rule.reason);
     });
+}
+
+/// A block with two different sides must stand on its base and rock on after an impact.
+void expect_standing(const Coordinates& coordinates, const Grid& corners)
+{
+    const auto given = [&](std::string_view name) { return corners.find(name) != nullptr; };
+    const std::string_view at = given("incline")         ? "incline"
+                                : given("center_offset") ? "center_offset"
+                                : given("size_plus")     ? "size_plus"
+                                : given("width")         ? "width"
+                                                         : "half_width";
+    const Quantity& rule = quantity("slenderness");
+    const auto degrees = [](double angle) { return angle * 180 / std::numbers::pi; };
+    refuse_where(
+        coordinates, corners, at,
+        std::array<std::string_view, 3>{"moment_kept", "slenderness_plus", "slenderness_minus"},
+        [&](double kept, double plus, double minus) -> std::string {
+            for (const auto& [alpha, side] : {std::pair(plus, "plus"), std::pair(minus, "minus")}) {
+                if (!rule.allows(alpha)) {
+                    return fmt::format(
+                        ": the block does not stand: its slenderness is {:.6g} rad ({:.4g} "
+                        "degrees) on the "
+                        "side {}. The centre of mass must be above the base, between both corners. "
+                        "Lower the incline or the offset.",
+                        alpha, degrees(alpha), side);
+                }
+            }
+            return kept > 0
+                       ? ""
+                       : fmt::format(
+                             ": the block does not rock on after an impact: J/m = {:.6g} m2 is "
+                             "not positive. It must be more slender, or have a larger radius "
+                             "of gyration.",
+                             kept);
+        });
+}
+
+/// With one component of motion, only the motion itself and its mirror image have a direction.
+void expect_directions(const Grid& grid)
+{
+    if (const Column* directions = grid.find("direction")) {
+        for (const double value : directions->values.values()) {
+            if (value != 0 && value != 180) {
+                refuse(
+                    "direction",
+                    fmt::format(
+                        " = {} needs two horizontal components. With one, give 0, the motion as it "
+                        "stands, or 180, its mirror image.",
+                        value));
+            }
+        }
+    }
 }
 
 /// The factor on a record, and the scaled vertical motion, must not overflow.
@@ -219,10 +327,12 @@ bool applies_to(const Quantity& quantity, bool is_recorded)
 {
     switch (quantity.role) {
     case Role::motion: return is_recorded;
+    case Role::direction:
     case Role::block:
     case Role::loss: return true;
     case Role::strength: return quantity.name == "pga" || (quantity.name == "scale") == is_recorded;
     case Role::rate: return !is_recorded;
+    case Role::derived:
     case Role::setting: break;
     }
     return false;
@@ -259,7 +369,12 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     expect_complete(scene, grid);
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
-    expect_slenderness(coordinates, corners);
+    expect_directions(grid);
+    if (grid.has_two_sides()) {
+        expect_standing(coordinates, corners);
+    } else {
+        expect_slenderness(coordinates, corners);
+    }
     expect_restitution(coordinates, corners);
     if (is_recorded) {
         expect_finite_scales(scene, coordinates, corners);
@@ -273,9 +388,19 @@ Grid corners_of(const Grid& grid)
     Grid corners = grid;
     for (Dimension& dimension : corners.dimensions) {
         Column& column = dimension.columns.front();
-        if (dimension.name != table_dimension && dimension.name != "motion" &&
-            column.values.size() > 2) {
-            column.values = Axis(AxisList{column.values.first(), column.values.last()});
+        if (dimension.name == table_dimension || dimension.name == "motion") {
+            continue;
+        }
+        // What follows from the shape of a block with two different sides is not monotonic.
+        constexpr std::int64_t most_of_shape = 17;
+        const std::int64_t most =
+            grid.has_two_sides() && column.quantity->role == Role::block ? most_of_shape : 2;
+        if (column.values.size() > most) {
+            AxisList values;
+            for (std::int64_t i = 0; i < most; ++i) {
+                values.push_back(column.values[i * (column.values.size() - 1) / (most - 1)]);
+            }
+            column.values = Axis(values);
         }
     }
     return corners;

@@ -68,6 +68,13 @@ const Column* Grid::axis_or_number(Role role) const
                : &dimensions[*dimension].columns.front();
 }
 
+bool Grid::has_two_sides() const
+{
+    return std::ranges::any_of(all_quantities(), [&](const Quantity& quantity) {
+        return describes_two_sides(quantity.name) && find(quantity.name) != nullptr;
+    });
+}
+
 const Dimension* Grid::table() const
 {
     const auto found = std::ranges::find(dimensions, table_dimension, &Dimension::name);

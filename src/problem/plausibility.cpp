@@ -37,6 +37,9 @@ constexpr PlausibleRange peak{"the peak of a record", " g", 0.001, 5,
                               "state its unit if the file does not"};
 constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
                                    "times are in seconds"};
+constexpr PlausibleRange vertical_mean{
+    "the mean of a vertical record", " g", -100, 0.3,
+    "remove gravity from the record of a sensor that measures it"};
 constexpr PlausibleRange gravity{"gravity", " m/s2", 1, 30, "it is g in m/s2"};
 
 /// What is implausible about these values, as one text; empty if nothing is. one_is_enough: whether
@@ -71,6 +74,13 @@ std::string finding_about_restitution(double restitution, double alpha)
 /// Every row of a table is judged; of a plane, the largest r at the smallest slenderness.
 std::string finding_about_restitutions(const Coordinates& coordinates, bool has_table)
 {
+    if (!coordinates.has("slenderness")) { // r_max of two different sides
+        const double largest = extent_of(coordinates.of("largest_restitution")).last;
+        const double r = extent_of(coordinates.of("restitution")).last;
+        return r > largest * (1 + 1e-9)
+                   ? fmt::format("r = {:.4g} is above r_max = {:.4g}", r, largest)
+                   : "";
+    }
     const CoordinateValues& restitution = coordinates.of("restitution");
     const CoordinateValues& alphas = coordinates.of("slenderness");
     if (!has_table) {
@@ -104,16 +114,22 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
                                                  !grid.has_table_column(dimensionless)));
         }
     };
-    judge(slenderness, "slenderness", "", std::numbers::pi / 180);
-    judge(size, "size");
+    for (const std::string_view name : {"slenderness", "slenderness_plus", "slenderness_minus"}) {
+        judge(slenderness, name, "", std::numbers::pi / 180);
+    }
+    for (const std::string_view name : {"size", "size_plus", "size_minus"}) {
+        judge(size, name);
+    }
     judge(period, "pulse_period", "frequency");
     judge(acceleration, "pga", scene.is_recorded() ? "scale" : "amplitude");
     if (scene.is_recorded()) {
-        CoordinateValues peaks, time_steps;
+        CoordinateValues peaks, time_steps, means;
         for (const auto& record : scene.records) {
+            means.values.push_back(record->upwards_mean());
             peaks.values.push_back(record->peak());
             time_steps.values.push_back(record->time_step());
         }
+        findings.push_back(finding_about(vertical_mean, extent_of(means)));
         findings.push_back(finding_about(peak, extent_of(peaks)));
         findings.push_back(finding_about(time_step, extent_of(time_steps)));
     }

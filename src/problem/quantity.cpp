@@ -2,6 +2,8 @@
 
 #include "overturn/mechanics/pulse_kind.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -20,6 +22,21 @@ bool is_positive(double value)
 bool is_not_negative(double value)
 {
     return value >= 0 && std::isfinite(value);
+}
+
+bool is_finite(double value)
+{
+    return std::isfinite(value);
+}
+
+bool is_direction(double value)
+{
+    return value >= 0 && value < 360;
+}
+
+bool is_incline(double value)
+{
+    return std::abs(value) < std::numbers::pi / 2;
 }
 
 bool is_energy_ratio(double value)
@@ -77,18 +94,41 @@ bool is_tolerance(double value)
 constexpr std::string_view positive = "(0, inf)";
 constexpr std::string_view not_negative = "[0, inf)";
 constexpr std::string_view of_length = "It is a length in metres.";
+constexpr std::string_view of_angle = "It is the angle between gravity and the line from the "
+                                      "corner to the centre of mass, in radians.";
 
 // Axes have this order, slowest first; under records, the size is the fastest. Filling requires
 // that the strength and the rate are the last two.
 constexpr std::array quantities{
     Quantity{"motion", "1", Role::motion, "number of the ground motion in the job", positive,
              is_positive, "It is the number of a record."},
+    Quantity{"direction", "degree", Role::direction, "direction of the motion", "[0, 360)",
+             is_direction,
+             "It is an angle in degrees: 0 is the motion as it stands, 180 its mirror image."},
     Quantity{"width", "m", Role::block, "width of the block", positive, is_positive, of_length},
     Quantity{"half_width", "m", Role::block, "half width of the block, b", positive, is_positive,
              of_length},
     Quantity{"height", "m", Role::block, "height of the block", positive, is_positive, of_length},
     Quantity{"half_height", "m", Role::block, "half height of the block, h", positive, is_positive,
              of_length},
+    Quantity{"center_offset", "m", Role::block, "offset of the centre of mass", "(-inf, inf)",
+             is_finite,
+             "It is the distance of the centre of mass from the middle of the base in "
+             "metres, positive towards the side plus."},
+    Quantity{"center_height", "m", Role::block, "height of the centre of mass", positive,
+             is_positive, of_length},
+    Quantity{"slenderness_plus", "rad", Role::block, "slenderness of the side plus",
+             "[1e-100, pi/2)", is_slenderness, of_angle},
+    Quantity{"slenderness_minus", "rad", Role::block, "slenderness of the side minus",
+             "[1e-100, pi/2)", is_slenderness, of_angle},
+    Quantity{"size_plus", "m", Role::block, "centre of mass to corner plus, R+", positive,
+             is_positive, of_length},
+    Quantity{"size_minus", "m", Role::block, "centre of mass to corner minus, R-", positive,
+             is_positive, of_length},
+    Quantity{"radius_of_gyration", "m", Role::block, "radius of gyration", positive, is_positive,
+             "It is that about the centre of mass in metres."},
+    Quantity{"incline", "rad", Role::block, "incline of the base", "(-pi/2, pi/2)", is_incline,
+             "It is the angle of the base in radians, positive if the side plus is downhill."},
     Quantity{"slenderness", "rad", Role::block, "slenderness of the block, arctan(b/h)",
              "[1e-100, pi/2)", is_slenderness,
              "It is arctan(width / height) in radians; a degree is 0.01745."},
@@ -114,6 +154,10 @@ constexpr std::array quantities{
              "It is the period of the pulse in seconds."},
     Quantity{"pulse_frequency", "s-1", Role::rate, "frequency of the pulse", positive, is_positive,
              "It is the frequency of the pulse in Hz."},
+    Quantity{"frequency_parameter_minus", "s-1", Role::derived,
+             "frequency parameter of the side minus", positive, is_positive, ""},
+    Quantity{"largest_restitution", "1", Role::derived, "largest energy ratio, r_max", "[0, 1]",
+             is_share, ""},
     Quantity{"window", "1", Role::setting, "half width of the window", "(0, 8]", is_window,
              "It is the half width in pulse periods."},
     Quantity{"cycles", "1", Role::setting, "duration of the pulse", "{0.5, 1, 1.5, ..., 10}",
@@ -149,9 +193,17 @@ const Names equivalents[] = {{"width", "half_width"},
                              {"amplitude", "scale", "pga"},
                              {"frequency", "pulse_period", "pulse_frequency"}};
 
-/// Two ways to describe a block.
-const Names sides{"width", "half_width", "height", "half_height"};
-const Names angle_and_size{"slenderness", "aspect_ratio", "size", "frequency_parameter"};
+/// The ways to describe a block.
+const Names ways[] = {
+    {"slenderness", "aspect_ratio", "size", "frequency_parameter"},
+    {"width", "half_width", "height", "half_height", "center_offset", "center_height",
+     "radius_of_gyration", "incline"},
+    {"slenderness_plus", "slenderness_minus", "size_plus", "size_minus", "radius_of_gyration"}};
+
+/// What the blocks of the first way, and boxes, lack.
+const Names of_two_sides{"center_offset", "center_height",    "radius_of_gyration",
+                         "incline",       "slenderness_plus", "slenderness_minus",
+                         "size_plus",     "size_minus"};
 
 } // namespace
 
@@ -181,10 +233,29 @@ bool are_equivalent(std::string_view one, std::string_view other)
                        [&](const Names& names) { return has(names, one) && has(names, other); });
 }
 
+bool describes_two_sides(std::string_view name)
+{
+    return has(of_two_sides, name);
+}
+
 bool exclude_each_other(std::string_view one, std::string_view other)
 {
-    return are_equivalent(one, other) || (has(sides, one) && has(angle_and_size, other)) ||
-           (has(sides, other) && has(angle_and_size, one));
+    const auto is_in_a_way = [](const auto&... names) {
+        return std::any_of(std::begin(ways), std::end(ways),
+                           [&](const Names& way) { return (has(way, names) && ...); });
+    };
+    return are_equivalent(one, other) ||
+           (is_in_a_way(one) && is_in_a_way(other) && !is_in_a_way(one, other));
+}
+
+std::string Quantity::refusal_of(double value) const
+{
+    std::string text = fmt::format(" = {} is outside {}. {}", value, interval, reason);
+    const double in_radians = value * std::numbers::pi / 180;
+    if (units == "rad" && allows(in_radians)) {
+        text += fmt::format(" {} degrees are {:.4g} rad.", value, in_radians);
+    }
+    return text;
 }
 
 } // namespace overturn

@@ -43,9 +43,7 @@ std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double
                            : fmt::format(" is missing. Give a number in {}. {}", rule.interval,
                                          rule.reason);
     }
-    return rule.allows(*value)
-               ? ""
-               : fmt::format(" = {} is outside {}. {}", *value, rule.interval, rule.reason);
+    return rule.allows(*value) ? "" : rule.refusal_of(*value);
 }
 
 } // namespace overturn

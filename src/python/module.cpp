@@ -49,8 +49,7 @@ double allowed(const char* name, double value)
 {
     const Quantity& rule = quantity(name);
     if (!rule.allows(value)) {
-        throw std::invalid_argument(
-            fmt::format("{} = {} is outside {}. {}", name, value, rule.interval, rule.reason));
+        throw std::invalid_argument(name + rule.refusal_of(value));
     }
     return value;
 }
@@ -147,9 +146,7 @@ Grid grid_of_columns(const Scene& scene, const Columns& columns)
         const std::vector<double> rows = vector_of(values);
         for (std::size_t row = 0; row < rows.size(); ++row) {
             if (!quantity.allows(rows[row])) {
-                throw GivenError(std::int64_t(row), name,
-                                 fmt::format(" = {} is outside {}. {}", rows[row],
-                                             quantity.interval, quantity.reason));
+                throw GivenError(std::int64_t(row), name, quantity.refusal_of(rows[row]));
             }
         }
         given.push_back({&quantity, name, Axis(rows), GivenAs::column});

@@ -7,6 +7,7 @@
 #include "overturn/sweep/fill.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -40,11 +41,26 @@ std::vector<double> with_sign(const std::vector<double>& values, const Outcomes&
     });
 }
 
+/// The rates in units of p of the side plus.
+std::vector<double> rates_of(const PointRun& points, const Outcomes& outcomes)
+{
+    std::vector<double> rates = outcomes.rate;
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+        const Block<double>& block = points.point(int(i)).block;
+        if (!block.is_symmetric()) {
+            rates[i] *= points.block_at_end(i, outcomes).pace / block.pace;
+        }
+    }
+    return rates;
+}
+
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
     switch (field) {
     case Field::angle: return with_sign(outcomes.tilt, outcomes);
-    case Field::velocity: return with_sign(outcomes.rate, outcomes);
+    case Field::velocity:
+        return points.are_symmetric() ? with_sign(outcomes.rate, outcomes)
+                                      : with_sign(rates_of(points, outcomes), outcomes);
     case Field::peak: return points.peaks(outcomes);
     case Field::fall_time: return points.fall_times(outcomes);
     case Field::impacts:
@@ -93,7 +109,8 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
     const auto wanted = [&fields = fields](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested);
+    const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
+                          !grid.has_two_sides());
     Outcomes outcomes = outcomes_of(
         points, numerics,
         {.impacts = wanted(Field::impacts),
@@ -134,13 +151,10 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
     FlipSearch search = flip_search(scene);
     search.most_flips = std::size_t(tile.points());
     search.drop_requested = drop_requested;
-    const Boundary boundary = boundary_on(scene,
-                                          {.slenderness = point.slenderness,
-                                           .restitution = point.restitution,
-                                           .frequency = point.frequency,
-                                           .record = point.record,
-                                           .unit = is_pga ? unit : 1},
-                                          strengths.values.values(), kernel, search);
+    const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
+    const Boundary boundary =
+        boundary_on(scene, {.point = point, .unit = of_direction * (is_pga ? unit : 1)},
+                    strengths.values.values(), kernel, search);
     std::vector<double> amplitude(search.most_flips, std::numeric_limits<double>::quiet_NaN());
     std::vector<double> pga = amplitude;
     std::vector<std::uint8_t> below(search.most_flips, no_flip);

@@ -106,13 +106,12 @@ public:
            const FillRule& rule)
         : theory_(problem.scene.theory), numerics_(problem.numerics), rule_(rule),
           coordinates_(problem.scene, problem.grid, tile),
-          slenderness_(coordinates_.of("slenderness").first()),
-          restitution_(coordinates_.of("restitution").first()),
+          block_{coordinates_.of("slenderness").first(), coordinates_.of("restitution").first()},
           amplitudes_(coordinates_.of("amplitude").values),
           frequencies_(coordinates_.of("frequency").values),
           longest_{longest_cell(problem.grid, Role::strength),
                    longest_cell(problem.grid, Role::rate)},
-          run_(problem.scene, {}, kernel, std::move(drop_requested)),
+          run_(problem.scene, {}, kernel, std::move(drop_requested), true),
           node_at_(new int[std::size_t(tile.points())])
     {
         const bool with_impacts = std::ranges::count(problem.fields, Field::impacts) > 0;
@@ -238,8 +237,7 @@ private:
         std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
-            points.push_back({slenderness_, restitution_,
-                              amplitudes_[std::size_t(place / columns())],
+            points.push_back({block_, amplitudes_[std::size_t(place / columns())],
                               frequencies_[std::size_t(place % columns())]});
         }
         PointRun run = run_.with_points(std::move(points));
@@ -327,8 +325,7 @@ private:
     const Numerics numerics_;
     const FillRule rule_;
     const Coordinates coordinates_;
-    const double slenderness_;
-    const double restitution_;
+    const Block<double> block_;
     const std::vector<double>& amplitudes_;  // of the rows
     const std::vector<double>& frequencies_; // of the columns
     const std::array<int, 2> longest_;       // side of a cell along rows and columns [points]

@@ -13,14 +13,14 @@ Node node_of(const PointRun& run, const Outcomes& outcomes, int point)
 {
     const auto i = std::size_t(point);
     const Point& at = run.point(point);
-    const Block<double> block{at.slenderness, at.restitution};
+    const Block<double> block = run.block_at_end(i, outcomes);
     const SafeRates<double> safe = safe_rates<theory>(outcomes.tilt[i], block);
     const double u = outcomes.rate[i];
     Node node{outcomes.region[i],
               outcomes.flags[i],
               0,
               outcomes.impacts[i],
-              outcomes.peak[i] / at.slenderness * std::exp(pi<double>() / at.frequency),
+              outcomes.peak[i] / at.block.slenderness * std::exp(pi<double>() / at.frequency),
               {}};
     const PerLobe<double>& uplifts = run.pulse_of(point).uplifts;
     for (int lobe = 0; lobe < uplifts.count; ++lobe) {
@@ -28,16 +28,16 @@ Node node_of(const PointRun& run, const Outcomes& outcomes, int point)
     }
     const auto put = [&](Switch f, double value) { node.values[std::size_t(f)] = value; };
     put(Switch::outward, safe.outward - u);
-    put(Switch::inward, u + safe.inward);
+    put(Switch::inward, safe.inward().distance(u));
     put(Switch::impact, u + safe.outward);
     put(Switch::end_tilt, outcomes.tilt[i]);
     put(Switch::room, pi<double>() / 2 - outcomes.tilt[i]);
     put(Switch::time_left, run.end_of_pulse() - outcomes.phase[i]);
     put(Switch::fall_speed, u);
-    put(Switch::turn, std::min(outcomes.lowest_turn[i], at.slenderness));
+    put(Switch::turn, std::min(outcomes.lowest_turn[i], block.slenderness));
     put(Switch::softest, outcomes.softest_impact[i]);
     put(Switch::last, outcomes.last_impact[i]);
-    put(Switch::rebound, std::sqrt(at.restitution) * safe.outward - u);
+    put(Switch::rebound, std::sqrt(block.restitution) * safe.outward - u);
     return node;
 }
 

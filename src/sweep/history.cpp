@@ -62,7 +62,7 @@ template <Theory theory, class Excitation>
 class HistoryBuilder {
 public:
     HistoryBuilder(const Point& point, const Excitation& excitation)
-        : block_{point.slenderness, point.restitution}, excitation_(excitation),
+        : block_(point.block), excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
     {}
@@ -80,17 +80,32 @@ public:
         history.end_of_pulse = time_at(excitation_.motion.end);
         history.time_of_rest = time_of_rest_;
         history.time_of_fall = time_of_fall_;
-        history.region = region_of<theory>(path_.end, block_);
-        history.margin = margin_of<theory>(path_.end, block_);
+        const Block<double> seen = seen_from(path_.end.state.side, block_);
+        history.region = region_of<theory>(path_.end, seen);
+        history.margin = margin_of<theory>(path_.end, seen);
         history.error = path_.end.error;
         history.shortened = shortened;
         return std::move(history);
     }
 
 private:
+    // Times are in 1/p of the side plus; those of FreeRocking and of the frequency are in the unit
+    // of 1 / Block::pace.
     double time_at(double phase) const
     {
-        return (phase - excitation_.motion.begin) / excitation_.frequency;
+        return (phase - excitation_.motion.begin) / excitation_.frequency * block_.pace;
+    }
+    double phase_at(double time) const
+    {
+        return excitation_.motion.begin + time / block_.pace * excitation_.frequency;
+    }
+    double impact_time(const FreeRocking<theory, double>& rocking) const
+    {
+        return end_of_path_ + rocking.impact_time() * block_.pace;
+    }
+    double fall_time(const FreeRocking<theory, double>& rocking) const
+    {
+        return end_of_path_ + rocking.fall_time() * block_.pace;
     }
 
     /// Whether there is a free stage.
@@ -110,7 +125,9 @@ private:
         if (path_.events.empty() || path_.events.back().kind == EventKind::rest) {
             return path_.events.empty() ? 0 : time_at(path_.events.back().rocking.phase);
         }
-        return end_of_path_ + overturn::time_of_rest<theory>(path_.end.state, block_);
+        return end_of_path_ + overturn::time_of_rest<theory>(
+                                  path_.end.state, seen_from(path_.end.state.side, block_)) *
+                                  block_.pace;
     }
 
     double time_of_fall() const
@@ -118,11 +135,15 @@ private:
         if (!is_free()) {
             return path_.end.fell ? end_of_path_ : unknown;
         }
+        // A symmetric block can fall only before or after the first impact, others also after the
+        // second one.
         FreeRocking<theory, double> rocking = free_rocking();
-        if (std::isfinite(rocking.impact_time())) {
-            rocking.strike(); // the block can fall only before or after the first impact
+        for (int impacts = block_.is_symmetric() ? 1 : 2; impacts > 0; --impacts) {
+            if (std::isfinite(rocking.impact_time())) {
+                rocking.strike();
+            }
         }
-        return end_of_path_ + rocking.fall_time();
+        return fall_time(rocking);
     }
 
     double time_worth_showing() const
@@ -136,20 +157,22 @@ private:
 
     FreeRocking<theory, double> free_rocking() const
     {
-        return {path_.end.state, block_.slenderness, {block_.restitution}};
+        return {path_.end.state, seen_from(path_.end.state.side, block_)};
     }
 
     /// ground: of the excitation, or 0.0 after it.
     template <class Ground>
     HistorySample sample(double time, const State<double>& state, const Ground& ground) const
     {
+        const Block<double> seen = seen_from(state.side, block_);
+        const double pace = seen.pace / block_.pace;
         const double pull =
-            rocking_acceleration<theory>(state.tilt, block_.slenderness, state.side * ground);
+            rocking_acceleration<theory>(state.tilt, seen.slenderness, state.side * ground);
         return {.time = time,
                 .angle = state.side * state.tilt + 0.0, // no -0
-                .velocity = state.side * state.rate + 0.0,
-                .acceleration = state.side * pull,
-                .q = double(conserved_q<theory>(state, block_.slenderness)),
+                .velocity = state.side * state.rate * pace + 0.0,
+                .acceleration = state.side * pull * (pace * pace),
+                .q = double(conserved_q<theory>(state, seen.slenderness)),
                 .ground = horizontal_of(ground)};
     }
 
@@ -165,8 +188,7 @@ private:
     {
         const Event<double>* latest = nullptr; // null: at rest
         const auto at = [&](double time) {
-            const double phase = std::min(excitation_.motion.begin + time * excitation_.frequency,
-                                          excitation_.motion.end);
+            const double phase = std::min(phase_at(time), excitation_.motion.end);
             const auto ground = excitation_.ground(phase);
             if (latest == nullptr) {
                 return resting(time, ground);
@@ -199,17 +221,17 @@ private:
         FreeRocking<theory, double> rocking = free_rocking();
         // The remainder of a series that is shorter than this is not visible.
         const double last_impact = time_of_rest_ - 1e-3 * spacing;
-        while (end_of_path_ + rocking.begin() < last_impact) {
+        while (end_of_path_ + rocking.begin() * block_.pace < last_impact) {
             if (rocking.impacts() == most_impacts_shown) {
                 return false;
             }
-            const double impact = end_of_path_ + rocking.impact_time();
-            const double fall = end_of_path_ + rocking.fall_time();
+            const double impact = impact_time(rocking);
+            const double fall = fall_time(rocking);
             const RockingArc<theory, double>& arc = rocking.arc();
             const auto at = [&](double time) {
-                const double since = std::max(0.0, time - end_of_path_ - rocking.begin());
                 const State<double> striking{0, -arc.impact_speed(), arc.side()};
-                return sample(time, time == impact ? striking : arc.at(since), 0.0);
+                const double since = (time - end_of_path_) / block_.pace;
+                return sample(time, time == impact ? striking : rocking.at(since), 0.0);
             };
             recorder.follow(std::min(impact, fall), at);
             if (recorder.is_over(std::min(impact, fall))) {
@@ -250,11 +272,11 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
                 .build(view);
         };
         if (scene.is_recorded()) {
-            return build(record_excitation<theory>(*scene.records.front(), point.slenderness,
+            return build(record_excitation<theory>(*scene.records.front(), point.block,
                                                    point.amplitude, point.frequency));
         }
         return build(pulse_excitation<theory>(pulse_motion<double>(scene.pulse, scene.shape),
-                                              point.slenderness, point.amplitude, point.frequency));
+                                              point.block, point.amplitude, point.frequency));
     });
 }
 

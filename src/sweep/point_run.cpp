@@ -55,14 +55,19 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
     : of_point(points.size())
 {
     const auto are_equal = [](const Point& one, const Point& other) {
-        return one.amplitude == other.amplitude && one.slenderness == other.slenderness;
+        return one.amplitude == other.amplitude &&
+               one.block.slenderness == other.block.slenderness &&
+               one.block.other.slenderness == other.block.other.slenderness;
     };
     const PerLobe<FlankInPulse<double>> flanks = flanks_of(motion);
     for (std::size_t first = 0; first < points.size();) {
-        const double threshold = uplift_threshold(theory, points[first].slenderness);
         const auto number = int(pulses.size());
-        const double amplitude = points[first].amplitude;
-        pulses.push_back({amplitude * threshold, uplift_phases(motion, flanks, amplitude)});
+        const auto& [block, amplitude, frequency, record] = points[first];
+        pulses.push_back(
+            with_theory(theory, [&, &block = block, &amplitude = amplitude]<Theory known>() {
+                return scaled_pulse<known>(motion, flanks, block.slenderness,
+                                           block.other.slenderness, amplitude);
+            }));
         std::size_t next = first;
         for (; next < points.size() && are_equal(points[first], points[next]); ++next) {
             of_point[next] = number;
@@ -72,10 +77,11 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
 }
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-                   DropRequested drop_requested)
+                   DropRequested drop_requested, bool are_symmetric)
     : scene_(scene), pulse_(pulse_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
-      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_))
+      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_)),
+      are_symmetric_(are_symmetric)
 {}
 
 PointRun PointRun::with_points(std::vector<Point> points) const
@@ -96,23 +102,24 @@ std::vector<int> PointRun::all() const
 bool PointRun::falls_freely(int point) const
 {
     const Accelerogram* record = record_of(point);
-    return record != nullptr && !(this->point(point).amplitude < record->free_fall_scale());
+    return record != nullptr &&
+           !(std::abs(this->point(point).amplitude) < record->free_fall_scale());
 }
 
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const auto& [slenderness, restitution, amplitude, frequency, index] = this->point(point);
+    const auto& [block, amplitude, frequency, index] = this->point(point);
     if (const Accelerogram* record = record_of(point)) {
         return visit(
-            record_excitation<theory>(*record, T(slenderness), T(amplitude), T(frequency)));
+            record_excitation<theory>(*record, block_in<T>(block), T(amplitude), T(frequency)));
     }
     if constexpr (std::same_as<T, double>) {
-        const ScaledPulse& pulse = pulse_of(point);
+        const ScaledPulse<double>& pulse = pulse_of(point);
         return visit(PulseExcitation<double>{pulse_, pulse.acceleration, frequency, pulse.uplifts});
     } else {
         return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape),
-                                              T(slenderness), T(amplitude), T(frequency)));
+                                              block_in<T>(block), T(amplitude), T(frequency)));
     }
 }
 
@@ -134,6 +141,7 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
         const KernelTask task{.pulse = pulse_,
                               .record = record,
                               .points = points_.data(),
+                              .are_symmetric = are_symmetric_,
                               .pulse_of_point = pulses_.of_point.data(),
                               .pulses = pulses_.pulses.data(),
                               .tolerance = numerics.tolerance,
@@ -177,11 +185,12 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
     }
     with_theory(scene_.theory, [&]<Theory theory>() {
         const Point& at = this->point(point);
-        const Block<T> block{T(at.slenderness), T(at.restitution)};
+        const Block<T> given = block_in<T>(at.block);
         const ForcedEnd<T> end = with_excitation<T, theory>(point, [&](const auto& excitation) {
-            return overturn::run_in_more_digits<T, theory>(block, excitation, drop_requested_);
+            return overturn::run_in_more_digits<T, theory>(given, excitation, drop_requested_);
         });
         throw_if_dropped();
+        const Block<T> block = seen_from(end.state.side, given);
         const double margin = double(margin_of<theory>(end, block));
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
@@ -207,21 +216,48 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
 template void PointRun::run_in_more_digits<long double>(int, Outcomes&) const;
 template void PointRun::run_in_more_digits<Digits50>(int, Outcomes&) const;
 
+namespace {
+
+struct MarginAndError {
+    double margin;
+    double error;
+};
+
+/// The margin of a block at rest, and by how much that of a block with these bounds may differ.
+template <Theory theory>
+MarginAndError margin_of_low_bounces(const Block<double>& block, const LowBounces& bounds)
+{
+    const auto margin_of = [&](double side, double tilt, double rate) {
+        return margin_after_pulse<theory>(State<double>{tilt, rate, side}, seen_from(side, block));
+    };
+    if (block.is_symmetric()) {
+        // The distances to the limits of the rate change by no more than the tilt plus the rate.
+        return {1, (bounds.tilt + bounds.rate) / separatrix_rate<theory>(0.0, block.slenderness)};
+    }
+    const auto [least, most] = std::minmax({margin_of(1, 0, 0), margin_of(-1, 0, 0)});
+    double smallest = least;
+    for (const double side : {1.0, -1.0}) {
+        for (const double rate : {bounds.rate, -bounds.rate}) {
+            smallest = std::min(smallest, margin_of(side, bounds.tilt, rate));
+        }
+    }
+    return {least, std::max(least - smallest, most - least)};
+}
+
+} // namespace
+
 bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
 {
     const auto i = std::size_t(point);
-    const Point& block = points_[i];
-    // The margin is that of a block at rest, 1, up to this error: the distances to the limits of
-    // the rate change by no more than the tilt plus the rate.
-    const double error = with_theory(scene_.theory, [&]<Theory theory>() {
+    const Block<double>& block = points_[i].block;
+    // The margin is that of a block at rest, up to this error.
+    const auto [margin, error] = with_theory(scene_.theory, [&]<Theory theory>() {
         const auto bounds = with_excitation<double, theory>(point, [&](const auto& excitation) {
-            return bound_of_low_bounces<theory>(block.slenderness, excitation);
+            return bound_of_low_bounces<theory>(block, excitation);
         });
-        return bounds
-                   ? (bounds->tilt + bounds->rate) / separatrix_rate<theory>(0.0, block.slenderness)
-                   : 1.0;
+        return bounds ? margin_of_low_bounces<theory>(block, *bounds) : MarginAndError{1, 1};
     });
-    if (!(error < 1)) {
+    if (!(error < margin)) {
         return false;
     }
     if (outcomes.flags[i] & outcome_flag::capped) {
@@ -232,7 +268,7 @@ bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
     outcomes.error[i] = error;
     put(outcomes.region, point, std::uint8_t(Region::S));
     if (!(outcomes.flags[i] & outcome_flag::without_end)) {
-        put(outcomes.margin, point, 1);
+        put(outcomes.margin, point, margin);
     }
     return true;
 }
@@ -246,8 +282,7 @@ std::vector<double> PointRun::after_the_pulse(const Outcomes& outcomes,
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (Region(outcomes.region[i]) != Region::undecided) {
                 const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
-                const Block<double> block{points_[i].slenderness, points_[i].restitution};
-                values[i] = of_point.template operator()<theory>(i, end, block);
+                values[i] = of_point.template operator()<theory>(i, end, block_at_end(i, outcomes));
             }
         }
     });
@@ -259,8 +294,8 @@ std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
     const auto peak = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
         return is_unsafe(Region(outcomes.region[i]))
                    ? infinity
-                   : std::max(outcomes.peak[i], largest_free_tilt<theory>(end, block)) /
-                         block.slenderness;
+                   : std::max(outcomes.peak[i] / points_[i].block.slenderness,
+                              largest_free_tilt<theory>(end, block));
     };
     return after_the_pulse(outcomes, peak);
 }
@@ -276,9 +311,10 @@ std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
                 return excitation.next_uplift(true, excitation.motion.begin, -infinity);
             });
         const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
-        return outcomes.flags[i] & outcome_flag::fell
-                   ? forced
-                   : forced + time_to_lie_flat<theory>(end, block);
+        const double time = outcomes.flags[i] & outcome_flag::fell
+                                ? forced
+                                : forced + time_to_lie_flat<theory>(end, block);
+        return time * points_[i].block.pace;
     };
     return after_the_pulse(outcomes, fall_time);
 }

@@ -50,25 +50,27 @@ struct ScaledPulses {
     ScaledPulses(const PulseMotion<double>& motion, Theory theory,
                  const std::vector<Point>& points);
 
-    const ScaledPulse& operator[](int point) const
+    const ScaledPulse<double>& operator[](int point) const
     {
         return pulses[std::size_t(of_point[std::size_t(point)])];
     }
 
-    std::vector<ScaledPulse> pulses;
+    std::vector<ScaledPulse<double>> pulses;
     std::vector<int> of_point;
 };
 
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
 class PointRun {
 public:
+    /// are_symmetric: whether all blocks are known to be; then a kernel reads less of each.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
-             DropRequested drop_requested = nullptr);
+             DropRequested drop_requested = nullptr, bool are_symmetric = false);
 
     /// The same scene and kernel with other points; only under a pulse.
     PointRun with_points(std::vector<Point> points) const;
 
     const Scene& scene() const { return scene_; }
+    bool are_symmetric() const { return are_symmetric_; }
     int size() const { return int(points_.size()); }
     const Point& point(int i) const { return points_[std::size_t(i)]; }
 
@@ -85,8 +87,14 @@ public:
                                     : nullptr;
     }
 
+    /// The block of a point as seen from the side on which it ended.
+    Block<double> block_at_end(std::size_t point, const Outcomes& outcomes) const
+    {
+        return seen_from(outcomes.side[point], points_[point].block);
+    }
+
     /// The scaled pulse of a point.
-    const ScaledPulse& pulse_of(int point) const { return pulses_[point]; }
+    const ScaledPulse<double>& pulse_of(int point) const { return pulses_[point]; }
 
     /// Integrates the chosen points, which must be in ascending order. Points where the ground
     /// falls as fast as the block are not integrated and get outcome_flag::free_fall.
@@ -129,6 +137,7 @@ private:
     DropRequested drop_requested_;
     std::vector<Point> points_;
     ScaledPulses pulses_; // only under a pulse
+    bool are_symmetric_;
 };
 
 /// Integrates again, with more and more digits, the points whose verdict is in doubt; those that

@@ -102,8 +102,22 @@ struct PackPoints {
 
     Block<T> blocks() const
     {
-        return {gathered([&](int i) { return task.points[i].slenderness; }),
-                gathered([&](int i) { return task.points[i].restitution; })};
+        const auto of_block = [&](const auto& value) -> T {
+            return gathered([&](int i) { return value(task.points[i].block); });
+        };
+        using B = Block<double>;
+        const T slenderness = of_block([](const B& block) { return block.slenderness; });
+        const T restitution = of_block([](const B& block) { return block.restitution; });
+        if (task.are_symmetric) {
+            return {slenderness, restitution};
+        }
+        return {slenderness,
+                restitution,
+                of_block([](const B& block) { return block.size; }),
+                of_block([](const B& block) { return block.pace; }),
+                {of_block([](const B& block) { return block.other.slenderness; }),
+                 of_block([](const B& block) { return block.other.size; }),
+                 of_block([](const B& block) { return block.other.pace; })}};
     }
 
     /// The ground never lifts the blocks in spare lanes, so a pack without points ends immediately.
@@ -115,15 +129,16 @@ struct PackPoints {
                     select<T>(load<T>(spare) == T(0.0),
                               gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
                 .frequency = gathered([&](int i) { return task.points[i].frequency; }),
-                .threshold = uplift_acceleration<theory>(blocks.slenderness)};
+                .to_plus = uplift_acceleration<theory>(blocks.slenderness),
+                .to_minus = uplift_acceleration<theory>(blocks.other.slenderness)};
     }
 
     PulseExcitation<T> pulse_excitation() const
     {
-        const auto pulse_of = [&](int i) -> const ScaledPulse& {
+        const auto pulse_of = [&](int i) -> const ScaledPulse<double>& {
             return task.pulses[task.pulse_of_point[i]];
         };
-        const ScaledPulse& first = pulse_of(point[0]);
+        const ScaledPulse<double>& first = pulse_of(point[0]);
         const bool share_pulse = &first == &pulse_of(point[lanes - 1]); // then all lanes do
         const auto of_pulse = [&](const auto& value) -> T {
             return share_pulse ? T(value(first))
@@ -131,13 +146,14 @@ struct PackPoints {
         };
         PulseExcitation<T> excitation{
             .motion = task.pulse,
-            .acceleration = of_pulse([](const ScaledPulse& pulse) { return pulse.acceleration; }),
+            .acceleration =
+                of_pulse([](const ScaledPulse<double>& pulse) { return pulse.acceleration; }),
             .frequency = gathered([&](int i) { return task.points[i].frequency; }),
             .uplifts = {}};
         const T never_in_spare = load<T>(spare);
         for (int lobe = 0; lobe < first.uplifts.count; ++lobe) {
-            const T uplift =
-                of_pulse([&](const ScaledPulse& pulse) { return pulse.uplifts.values[lobe]; });
+            const T uplift = of_pulse(
+                [&](const ScaledPulse<double>& pulse) { return pulse.uplifts.values[lobe]; });
             excitation.uplifts.push_back(uplift + never_in_spare);
         }
         return excitation;
@@ -155,7 +171,9 @@ constexpr int turns_between_checks = 4096;
 template <Theory theory, Outputs outputs, Directions directions = Directions::horizontal>
 void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 {
-    const auto stage_from = [&](int first) {
+    // Inlined, so that what depends on the tolerance alone is computed once.
+    const auto stage_from = [&](int first) __attribute__((always_inline))
+    {
         const PackPoints points(task, first);
         const Block<T> blocks = points.blocks();
         const auto excitation = [&] {

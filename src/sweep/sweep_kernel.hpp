@@ -3,8 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/outputs.hpp"
-#include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
@@ -14,19 +13,14 @@
 
 namespace overturn {
 
-/// A pulse at one amplitude, as it excites blocks of one slenderness.
-struct ScaledPulse {
-    double acceleration;     ///< a_p / g [1]
-    PerLobe<double> uplifts; ///< [rad]
-};
-
 /// The input of a kernel.
 struct KernelTask {
     const PulseMotion<double>& pulse; ///< unless there is a record
     const Accelerogram* record;
     const Point* points;
+    bool are_symmetric;        ///< all blocks
     const int* pulse_of_point; ///< index into `pulses`, ascending; only under a pulse
-    const ScaledPulse* pulses;
+    const ScaledPulse<double>* pulses;
     double tolerance; ///< see Numerics
     Outputs outputs;
     UncertainImpact uncertain_impact;

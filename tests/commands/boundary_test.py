@@ -1,5 +1,6 @@
 """overturn boundary: on one rank and on several, when resumed, and in conflict with other files."""
 
+import textwrap
 import unittest
 
 import h5py
@@ -120,7 +121,8 @@ class ABoundary(Scratch):
         self.assert_exit(self.overturn("info", "slow.h5"), 0, f"lines {words}")
         with h5py.File(self.folder / "slow.h5") as file:
             column = (0, 0, slice(None), 0)
-            self.assertEqual(file["flip_amplitude"][column][0], 1.2)
+            # Halfway between 1.000001 and 1.2: steps wider than an eighth of the amplitude are divided.
+            self.assertAlmostEqual(file["flip_amplitude"][column][0], 1.1000005, places=12)
             self.assertEqual(file["region_below"][column][0], CODE_OF_UNDECIDED)
             self.assertIn(file["region_above"][column][0], range(3, 9))
         self.assertIn(">undecided, or more flips<", self.drawn("slow.h5"))
@@ -147,13 +149,17 @@ class ABoundary(Scratch):
         self.assertEqual(result.returncode, 0, result.stderr)
         return (self.folder / "picture.svg").read_text()
 
+    def inside(self, name):
+        """Returns the pixels of a picture that are well within the axes."""
+        pixels = pyplot.imread(self.folder / name)[:, :, :3]
+        height, width = pixels.shape[:2]
+        return pixels[height // 4:-height // 8, width // 8:-width // 16]
+
     def shades(self, *arguments):
         """Returns those of the three shades that occur in the picture."""
         result = self.tool("plot_boundary", *arguments, "-o", "picture.png")
         self.assertEqual(result.returncode, 0, result.stderr)
-        pixels = pyplot.imread(self.folder / "picture.png")[:, :, :3]
-        height, width = pixels.shape[:2]
-        inside = pixels[height // 4:-height // 8, width // 8:-width // 16]
+        inside = self.inside("picture.png")
         return {shade for shade in (UNSAFE, SAFE, UNDECIDED)
                 if np.isclose(inside, to_rgb(shade), atol=1 / 255).all(axis=2).mean() > 0.01}
 
@@ -170,6 +176,35 @@ class ABoundary(Scratch):
         picture = self.drawn("boundary.h5", "--restitution", "1")
         for words in ("minimum overturning amplitude", "other flips", "overturns", "safe"):
             self.assertIn(f">{words}<", picture)
+
+    def test_is_not_shaded_beyond_the_scanned_amplitudes(self):
+        # Two amplitudes, safe or not: half of the axis is beyond them, and only that is white.
+        for last in ("1.1", "2"):
+            self.assert_exit(self.overturn("boundary", "small.toml", "-o", f"few_{last}.h5",
+                                           "--set", f"plane.amplitude={{ values = [1.0, {last}] }}",
+                                           "--set", "plane.frequency.count=5", "--set", "plane.slenderness=0.2"), 0)
+            self.assertGreater(len(self.shades(f"few_{last}.h5", "--restitution", "0")), 0)
+            white = (self.inside("picture.png") == 1).all(axis=2).mean()
+            self.assertGreater(white, 0.35)
+            self.assertLess(white, 0.65)
+
+    def test_finds_wide_ranges_between_two_amplitudes(self):
+        # Blocks and pulses under which ranges of up to 1.4 g were missed.
+        job = """
+            scene.pulse = "symmetric_ricker"
+            block = { width = 0.6, height = 2.4 }
+            [plane]
+            pga = { values = [0.2, 2.0] }
+            pulse_period = { first = 1.2, last = 1.4, count = 6 }
+            restitution_of_maximum = 0.85
+            """
+        (self.folder / "two.toml").write_text(textwrap.dedent(job))
+        self.assert_exit(self.overturn("boundary", "two.toml", "-o", "two.h5"), 0)
+        self.assert_exit(self.overturn("boundary", "two.toml", "-o", "many.h5", "--set",
+                                       "plane.pga={ first = 0.2, last = 2.0, count = 400 }"), 0)
+        with xarray.open_dataset(self.folder / "two.h5") as two, xarray.open_dataset(self.folder / "many.h5") as many:
+            self.assertTrue((np.isfinite(two.flip_pga.values[0])).all())  # each of these blocks overturns
+            np.testing.assert_allclose(two.flip_pga, many.flip_pga, rtol=1e-11)
 
     def test_of_several_blocks_is_a_sheet(self):
         self.have_boundary()

@@ -51,7 +51,9 @@ class AnEarlierFormat(Scratch):
             with h5py.File(self.folder / f"old_{name}.h5") as old, \
                     h5py.File(self.folder / f"new_{name}.h5") as new:
                 for field in fields:
-                    np.testing.assert_array_equal(old[field][:].squeeze(), new[field][:].squeeze())
+                    # A flip is known to 1e-12; the scan of the earlier program had fewer amplitudes.
+                    width = 1e-12 if field == "flip_amplitude" else 0
+                    np.testing.assert_allclose(old[field][:].squeeze(), new[field][:].squeeze(), rtol=width)
             for version in ("old", "new"):
                 drawn = self.tool(f"plot_{name}", f"{version}_{name}.h5")
                 self.assertEqual(drawn.returncode, 0, drawn.stderr)

@@ -62,7 +62,7 @@ class AHistory(Scratch):
 
     def test_refuses_an_unknown_or_invalid_coordinate(self):
         for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
-            self.assert_exit(self.history("--at", words), 2, "where AXIS is one of width")
+            self.assert_exit(self.history("--at", words), 2, "where AXIS is one of direction, width")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "--at frequency=-3: ", "outside (0, inf)")
         self.assert_exit(self.history("--at", "frequency=3,amplitude=1,frequency=4"), 2,
                          "--at frequency=4: frequency=3 gives the same quantity. Give one value.")

@@ -259,7 +259,10 @@ class Toppling(Scratch):
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
                 ((*PULSE, "--history", "a.h5"), "Give --pga or --scale"),
                 ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
-                ((*PULSE, "--width", "0"), "0 is not a positive, finite number"),
+                (("--width", "0", "--height", "1.8", "--period", "0.5"), "width = 0 is outside (0, inf)"),
+                ((*PULSE, "--width", "1"), "--width: At Most 1 required but received 2"),
+                ((*STATUE, "--incline", "4", "--period", "0.5"), "4 degrees are 0.06981 rad"),
+                ((*STATUE, "--incline", "x", "--period", "0.5"), "x is not a number"),
                 ((*PULSE, "--pga-max", "nan"), "nan is not a positive, finite number"),
                 ((*PULSE, "--pga-max", "inf"), "inf is not a positive, finite number"),
                 ((*PULSE, "--pga-max", "1e4"), "1e4 is above 1000 g.")):

@@ -62,10 +62,9 @@ TEST(VerdictRanges, CoverTheSearchAndAgreeWithSingleVerdicts)
     for (int i = 0; i < 5; ++i) {
         const double alpha = 0.15 + 0.2 * uniform(generator);
         const double threshold = std::tan(alpha);
-        const BoundaryLine line{.slenderness = alpha,
-                                .restitution = 0.7 + 0.2 * uniform(generator),
-                                .frequency = 1 + 5 * uniform(generator),
-                                .unit = threshold};
+        const double restitution = 0.7 + 0.2 * uniform(generator);
+        const double frequency = 1 + 5 * uniform(generator);
+        const BoundaryLine line{.point = {{alpha, restitution}, 1, frequency}, .unit = threshold};
         const double asked = threshold * (1 + 10 * uniform(generator));
         const VerdictRanges ranges = verdict_ranges({}, line, threshold, 4, asked, nullptr);
         EXPECT_EQ(ranges.all.front().first, 0);

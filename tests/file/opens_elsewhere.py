@@ -118,7 +118,7 @@ class TestXarray(Sample):
             region = dict(zip(dataset.region.attrs["flag_meanings"].split(),
                               dataset.region.attrs["flag_values"]))
             self.assertEqual(region, {"S": 0, "S+": 1, "S-": 2, "U0+": 3, "U0-": 4, "U1+": 5, "U1-": 6, "F+": 7,
-                                      "F-": 8, "undecided": 254, "not_computed": 255})
+                                      "F-": 8, "U2+": 9, "U2-": 10, "undecided": 254, "not_computed": 255})
             status = dict(zip(dataset.status.attrs["flag_meanings"].split(),
                               dataset.status.attrs["flag_masks"]))
             self.assertEqual(status, {"came_to_rest": 1, "cap_was_hit": 2, "not_finite": 4,

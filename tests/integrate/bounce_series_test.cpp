@@ -158,7 +158,8 @@ random_impact(const Accelerogram& record, double slenderness, std::mt19937_64& g
     const double restitution = 0.01 + 0.9 * uniform(generator);
     const double lasts = std::pow(10, -2 + 2 * uniform(generator)) / frequency;
     return {{slenderness, restitution},
-            {record_motion<double>(record), 1, frequency, uplift_acceleration<theory>(slenderness)},
+            {record_motion<double>(record), 1, frequency, uplift_acceleration<theory>(slenderness),
+             uplift_acceleration<theory>(slenderness)},
             uniform(generator),
             0.5 * lasts * slenderness * uniform(generator) * (1 - std::sqrt(restitution)),
             uniform(generator) < 0.5 ? -1.0 : 1.0};

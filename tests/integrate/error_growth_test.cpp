@@ -141,8 +141,8 @@ bool is_doubtful_after(const Rocking<double>& start, double end_tilt, double end
                        double turning_tilt)
 {
     const Block<double> block{0.2, 0.9};
-    const auto excitation =
-        pulse_excitation<Theory::linear>(pulse_motion<double>(PulseKind::one_sine), 0.2, 2.0, 3.0);
+    const auto excitation = pulse_excitation<Theory::linear>(
+        pulse_motion<double>(PulseKind::one_sine), Block<double>{0.2, 1}, 2.0, 3.0);
     StepEndWithErrors<double> step{};
     step.phase = start.phase + 1;
     step.tilt = end_tilt;

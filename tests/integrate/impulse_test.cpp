@@ -62,7 +62,7 @@ double critical_double_impulse(const Block<double>& block, int intervals)
     const double alpha = block.slenderness;
     const auto overturns = [&](double velocity) {
         const State<double> pushed{0, velocity * std::sin(alpha), 1};
-        const FreeRocking<Theory::nonlinear, double> free(pushed, alpha, {block.restitution});
+        const FreeRocking<Theory::nonlinear, double> free(pushed, block);
         const double interval = free.impact_time() / intervals; // [1/p]
         std::vector<double> samples(intervals + 8, 0);          // [g]
         samples[1] = velocity * std::tan(alpha) / interval;

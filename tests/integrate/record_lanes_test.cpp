@@ -43,15 +43,19 @@ Lanes packed(const Points& points, const Member& member)
     return load<Lanes>(numbers.data());
 }
 
+double uplift_of(const RecordPoint& point)
+{
+    return uplift_acceleration<Theory::nonlinear>(point.block.slenderness);
+}
+
 template <Directions directions>
 RecordExcitation<Lanes, directions> excitation_of(const Points& points)
 {
     return {.motion = record_motion<double>(points[0].record),
             .acceleration = packed(points, [](const RecordPoint& p) { return p.scale; }),
             .frequency = packed(points, [](const RecordPoint& p) { return p.frequency; }),
-            .threshold = packed(points, [](const RecordPoint& p) {
-                return uplift_acceleration<Theory::nonlinear>(p.block.slenderness);
-            })};
+            .to_plus = packed(points, uplift_of),
+            .to_minus = packed(points, uplift_of)};
 }
 
 template <Directions directions>

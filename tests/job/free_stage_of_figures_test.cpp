@@ -15,7 +15,7 @@ namespace {
 /// Integrates a block impact by impact until it overturns or can no longer overturn.
 Region region_of_free_stage(const State<double>& state, const Block<double>& block)
 {
-    FreeRocking<Theory::nonlinear, double> rocking(state, block.slenderness, {block.restitution});
+    FreeRocking<Theory::nonlinear, double> rocking(state, block);
     while (rocking.impacts() < 2 && std::isfinite(rocking.impact_time())) {
         rocking.strike();
     }

@@ -154,12 +154,20 @@ TEST(TheKeysOfAJob, CanBeOverridden)
             settings = {fmt::format("scene.record='{}'", folder / "record.AT2"), "plane.size=1"};
         } else if (quantity(name).role == Role::rate) {
             settings = {"plane.size=1"};
+        } else if (name.ends_with("_plus") || name.ends_with("_minus")) {
+            settings = {"plane.slenderness_plus=0.3", "plane.slenderness_minus=0.3",
+                        "plane.size_plus=1",          "plane.size_minus=1",
+                        "plane.radius_of_gyration=1", "plane.pga=1",
+                        "plane.pulse_period=1"};
+        } else if (describes_two_sides(name)) {
+            settings = {"plane.width=2", "plane.height=3", "plane.pga=1", "plane.pulse_period=1"};
         }
-        settings.push_back(key + "=0.5");
-        EXPECT_EQ(axis(job_of(sound_job, settings), name).values(), AxisList{0.5}) << key;
+        const AxisList values = name == "direction" ? AxisList{0, 180} : AxisList{0.25, 0.5};
+        settings.push_back(fmt::format("{}={}", key, values[1]));
+        EXPECT_EQ(axis(job_of(sound_job, settings), name).values(), AxisList{values[1]}) << key;
         EXPECT_TRUE(has(key + ".values"));
-        settings.back() = key + ".values=[0.25, 0.5]";
-        EXPECT_EQ(axis(job_of(sound_job, settings), name).values(), (AxisList{0.25, 0.5})) << key;
+        settings.back() = fmt::format("{}.values=[{}, {}]", key, values[0], values[1]);
+        EXPECT_EQ(axis(job_of(sound_job, settings), name).values(), values) << key;
     }
     for (const std::string key : {"title", "scene.pulse", "block.half_height.count", "blocks.table",
                                   "plane.restitution.of", "output.fields"}) {

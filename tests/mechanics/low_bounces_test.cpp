@@ -12,7 +12,7 @@ namespace {
 template <Theory theory>
 std::optional<LowBounces> bounds_of(PulseKind pulse, const PulsePoint<double>& point)
 {
-    return bound_of_low_bounces<theory>(point.slenderness, excitation_of<theory>(pulse, point));
+    return bound_of_low_bounces<theory>(point.block(), excitation_of<theory>(pulse, point));
 }
 
 TEST(LowBounces, BoundTheMotionAtAnyMoment)
@@ -31,7 +31,7 @@ TEST(LowBounces, BoundTheMotionAtAnyMoment)
             const PulseMotion<double>& motion = excitation.motion;
             excitation.motion =
                 cut_at(motion.begin + uniform(generator) * (motion.end - motion.begin), motion);
-            const auto bounds = bound_of_low_bounces<theory>(slenderness, excitation);
+            const auto bounds = bound_of_low_bounces<theory>(point.block(), excitation);
             if (!bounds) {
                 continue;
             }

@@ -55,9 +55,9 @@ double excess(const RecordExcitation<double, directions>& excitation, double pha
 {
     const auto ground = excitation.ground(phase);
     if constexpr (directions == Directions::both) {
-        return std::abs(ground.horizontal) - excitation.threshold * ground.gravity;
+        return std::abs(ground.horizontal) - excitation.to_plus * ground.gravity;
     } else {
-        return std::abs(ground) - excitation.threshold;
+        return std::abs(ground) - excitation.to_plus;
     }
 }
 
@@ -87,7 +87,8 @@ RecordExcitation<double, directions> random_excitation(const RecordPoint& point,
                                                        std::mt19937_64& generator)
 {
     auto excitation = excitation_of<Theory::nonlinear, directions>(point);
-    excitation.threshold = random_threshold(generator, point.record, point.scale);
+    excitation.to_plus = random_threshold(generator, point.record, point.scale);
+    excitation.to_minus = excitation.to_plus;
     return excitation;
 }
 
@@ -117,7 +118,7 @@ void expect_uplifts_by_halving()
         }
         // Accelerations are rounded to a few units of the last place, which moves the crossing by
         // that over their slope; 1e-3 bounds the slope where the crossing is not lost anyway.
-        const double most = excitation.largest_acceleration() + 2 * excitation.threshold;
+        const double most = excitation.largest_acceleration() + 2 * excitation.to_plus;
         const double slope = std::abs(excess(excitation, std::ceil(expected)) -
                                       excess(excitation, std::ceil(expected) - 1));
         const double tolerance = 8 * epsilon * (end + most / std::max(slope, 1e-3 * most));

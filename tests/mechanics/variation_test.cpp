@@ -156,7 +156,8 @@ TEST(VariationOverAnImpact, IsThatOfTwoParabolas)
     const auto [x, v] = state_later(0, -speed);
     const auto [x_tilt, v_tilt] = state_later(small, -speed);
     const auto [x_rate, v_rate] = state_later(0, -speed + small);
-    const Variation<double> found = variation_over_impact(sqrt_restitution, speed, before, after);
+    const Variation<double> found =
+        variation_over_impact(sqrt_restitution, 1.0, speed, before, after);
     // A parabola maps a change of (tilt, rate) to (tilt + rate, rate) in a unit of time. The
     // differences have errors of small times second derivatives, of order 1 / speed^3.
     EXPECT_NEAR((x_tilt - x) / small - (v_tilt - v) / small, found.tilt_by_tilt, 1e-4);

@@ -5,6 +5,7 @@
 #include "overturn/mechanics/block.hpp"
 #include "support/given_values.hpp"
 #include "support/short_records.hpp"
+#include "support/two_sides.hpp"
 
 #include <gtest/gtest.h>
 
@@ -186,8 +187,8 @@ TEST(Coordinates, OfAFrequencyParameterUnderAPulseGiveTheFrequency)
 
 void expect_equal(const Point& one, const Point& other)
 {
-    EXPECT_EQ(one.slenderness, other.slenderness);
-    EXPECT_EQ(one.restitution, other.restitution);
+    EXPECT_EQ(one.block.slenderness, other.block.slenderness);
+    EXPECT_EQ(one.block.restitution, other.block.restitution);
     EXPECT_EQ(one.amplitude, other.amplitude);
     EXPECT_EQ(one.frequency, other.frequency);
     EXPECT_EQ(one.record, other.record);
@@ -241,10 +242,106 @@ TEST(Coordinates, OfAScalarGridAreOnePoint)
     const Scene scene;
     const std::vector<Point> points = Coordinates(scene, grid).points();
     ASSERT_EQ(points.size(), 1u);
-    expect_equal(points[0], {.slenderness = std::atan((width / 2) / (height / 2)),
-                             .restitution = 0.7,
+    expect_equal(points[0], {.block = {std::atan((width / 2) / (height / 2)), 0.7},
                              .amplitude = points[0].amplitude,
                              .frequency = points[0].frequency});
+}
+
+/// The block of the only point under a pulse of 0.5 s and 0.6 g.
+Point point_of(std::vector<Given> given)
+{
+    given.push_back(number("pulse_period", 0.5));
+    given.push_back(number("pga", 0.6));
+    const Grid grid = grid_of({}, given);
+    return Coordinates({}, grid).points().at(0);
+}
+
+void expect_block(const Block<double>& found, const Block<double>& expected)
+{
+    // Some roundings each.
+    EXPECT_NEAR(found.slenderness, expected.slenderness, 1e-15);
+    EXPECT_NEAR(found.restitution, expected.restitution, 4e-15);
+    EXPECT_NEAR(found.size, expected.size, 1e-15);
+    EXPECT_NEAR(found.pace, expected.pace, 4e-15);
+    EXPECT_NEAR(found.other.slenderness, expected.other.slenderness, 1e-15);
+    EXPECT_NEAR(found.other.size, expected.other.size, 1e-15);
+    EXPECT_NEAR(found.other.pace, expected.other.pace, 4e-15);
+}
+
+TEST(TwoSides, AreThoseOfTheShapeAndTheMassOfTheBlock)
+{
+    std::mt19937_64 generator(61);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const Body body = random_body(generator);
+        const double share = 0.5 + 0.5 * uniform(generator);
+        const Block<double> expected = body.block(share * body.largest_restitution());
+        const Point as_shape = point_of(
+            {number("width", body.plus + body.minus), number("height", 2.0),
+             number("center_offset", (body.minus - body.plus) / 2),
+             number("center_height", body.height), number("radius_of_gyration", body.gyration),
+             number("incline", body.incline), number("restitution_of_maximum", share)});
+        expect_block(as_shape.block, expected);
+        EXPECT_DOUBLE_EQ(as_shape.frequency, 4 * std::numbers::pi);
+        const double least = std::min(expected.slenderness, expected.other.slenderness);
+        EXPECT_NEAR(as_shape.amplitude, 0.6 / std::tan(least), 1e-13 * as_shape.amplitude);
+        const Point as_surveyed = point_of(
+            {number("slenderness_plus", expected.slenderness),
+             number("slenderness_minus", expected.other.slenderness),
+             number("size_plus", expected.size), number("size_minus", expected.other.size),
+             number("radius_of_gyration", body.gyration), number("restitution_of_maximum", share)});
+        expect_block(as_surveyed.block, expected);
+    }
+}
+
+TEST(TwoSides, ThatAreEqualGiveTheSymmetricBlock)
+{
+    const std::vector<Given> box{number("width", 0.5), number("height", 2.0),
+                                 number("restitution_of_maximum", 1)};
+    const Point symmetric = point_of(box);
+    std::vector<Given> level = box;
+    level.push_back(number("incline", 0));
+    const Point general = point_of(level);
+    EXPECT_TRUE(general.block.is_symmetric());
+    EXPECT_EQ(general.block.slenderness, symmetric.block.slenderness);
+    EXPECT_EQ(general.block.pace, 1);
+    // By other formulas, with a few roundings.
+    EXPECT_NEAR(general.block.restitution, symmetric.block.restitution, 1e-15);
+    EXPECT_NEAR(general.frequency, symmetric.frequency, 1e-14);
+    EXPECT_EQ(general.amplitude, symmetric.amplitude);
+}
+
+TEST(TwoSides, OfARockingFrameAreThoseOfAnEquivalentBlock)
+{
+    // Columns of the half diagonal R under a beam of gamma times their mass, tan alpha = 1/6,
+    // gamma = 10: p of the frame over that of a column, and r_max, seven digits each.
+    const double angle = std::atan(1.0 / 6);
+    const double column = 1.5;
+    const double gamma = 10;
+    const double radius = column * (1 + 4 * gamma) / (1 + 2 * gamma);
+    const Point frame =
+        point_of({number("slenderness_plus", angle), number("slenderness_minus", angle),
+                  number("size_plus", radius), number("size_minus", radius),
+                  number("radius_of_gyration", radius / std::sqrt(3 + 12 * gamma)),
+                  number("restitution_of_maximum", 1)});
+    EXPECT_TRUE(frame.block.is_symmetric());
+    EXPECT_NEAR(frame.block.restitution, 0.8956386, 5e-8);
+    EXPECT_NEAR(4 * std::numbers::pi / frame.frequency / frequency_parameter(column, 9.81),
+                0.8230549, 5e-8);
+}
+
+TEST(Direction, OfTheMirrorImageMirrorsTheMotion)
+{
+    const Grid grid =
+        grid_of({}, {number("width", 0.5), number("height", 2.0), number("incline", 0.02),
+                     number("restitution", 0.7), number("pulse_period", 0.5),
+                     axis("direction", {0, 180}), axis("pga", {0, 0.3, 0.6})});
+    const std::vector<Point> points = Coordinates({}, grid).points();
+    ASSERT_EQ(points.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(points[3 + i].amplitude, -points[i].amplitude);
+        EXPECT_TRUE(std::signbit(points[3 + i].amplitude));
+    }
 }
 
 TEST(LargestRestitution, ExistsBelowTheSlendernessAtWhichItIsZero)
@@ -257,7 +354,7 @@ TEST(LargestRestitution, ExistsBelowTheSlendernessAtWhichItIsZero)
 
 TEST(LiftingPga, LiftsTheBlockOfThisSlenderness)
 {
-    Point point{.slenderness = 0.2, .restitution = 1, .amplitude = 1, .frequency = 1};
+    Point point{.block = {0.2, 1}, .amplitude = 1, .frequency = 1};
     EXPECT_DOUBLE_EQ(lifting_pga({}, point), std::tan(0.2));
     EXPECT_DOUBLE_EQ(lifting_pga({.theory = Theory::linear}, point), 0.2);
     // Without vertical motion, the peak of any record lifts the block at the same acceleration.

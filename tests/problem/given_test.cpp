@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
 namespace overturn {
 namespace {
@@ -253,6 +254,69 @@ TEST(GridOf, RefusesStrengthsAtAllOfWhichTheVerticalMotionCancelsGravity)
     grid_of(scene, given(number("motion", 2), {2, 3}));
     grid_of(scene, given(axis("motion", {1, 2}), {2, 3}));
     expect_refused(scene, given(axis("motion", {1, 2}), {4}), "scale", "= 4: the vertical motion");
+}
+
+TEST(GridOf, RefusesABlockWithTwoSidesThatDoesNotStand)
+{
+    std::mt19937_64 generator(38);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 100; ++i) {
+        const double alpha = std::atan(0.6 / 1.8);
+        const double incline = 0.5 * uniform(generator);
+        const Quantities given = block + loss + pulse + Quantities{number("incline", incline)};
+        if (incline < alpha) {
+            EXPECT_NO_THROW(grid_of({}, given));
+        } else {
+            expect_refused({}, given, "incline", "the block does not stand");
+        }
+        const double offset = 0.6 * uniform(generator);
+        const Quantities eccentric =
+            block + loss + pulse + Quantities{number("center_offset", offset)};
+        if (offset < 0.3) {
+            EXPECT_NO_THROW(grid_of({}, eccentric));
+        } else {
+            expect_refused({}, eccentric, "center_offset", "on the side plus");
+        }
+    }
+    expect_refused({}, block + loss + pulse + Quantities{axis("incline", {0, 0.2, 0.4})}, "incline",
+                   "-0.0782");
+}
+
+TEST(GridOf, RefusesABlockWithTwoSidesThatDoesNotRockOn)
+{
+    // J/m = k^2 + h^2 - b^2, of a plate without height.
+    const Quantities plate{number("width", 2), number("height", 0.2),
+                           number("radius_of_gyration", 0.5)};
+    expect_refused({}, plate + loss + pulse, "width", "does not rock on");
+}
+
+TEST(GridOf, RefusesDimensionlessMotionsOfABlockWithTwoSides)
+{
+    const Quantities leaning = block + loss + Quantities{number("incline", 0.05)};
+    expect_refused({}, leaning + Quantities{number("amplitude", 2), pulse[1]}, "amplitude",
+                   "Give pga [g] instead");
+    expect_refused({}, leaning + Quantities{pulse[0], number("frequency", 3)}, "frequency",
+                   "Give pulse_period [s] or pulse_frequency [Hz] instead");
+    expect_refused({}, leaning + Quantities{pulse[0]}, "pulse_period", " is missing");
+    expect_refused({}, leaning + Quantities{pulse[1]}, "pga", " is missing");
+    expect_refused({}, block + pulse + Quantities{number("incline", 0.05)}, "restitution",
+                   " is missing");
+    expect_refused({},
+                   block + pulse +
+                       Quantities{number("incline", 0.05), number("restitution_of_maximum", 1.05)},
+                   "restitution_of_maximum", "Give at most 1");
+    expect_refused({}, loss + pulse + Quantities{number("slenderness_plus", 0.2)},
+                   "slenderness_minus", " is missing");
+}
+
+TEST(GridOf, RefusesDirectionsOtherThanTheMotionAndItsMirrorImage)
+{
+    for (const double degrees : {0.0, 180.0}) {
+        EXPECT_NO_THROW(
+            grid_of({}, block + loss + pulse + Quantities{number("direction", degrees)}));
+    }
+    expect_refused({}, block + loss + pulse + Quantities{number("direction", 90)}, "direction",
+                   "needs two horizontal components");
 }
 
 TEST(ScalesOf, EveryRecordAreItsSmallestAndLargestFactor)

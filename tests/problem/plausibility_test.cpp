@@ -1,6 +1,7 @@
 #include "overturn/problem/plausibility.hpp"
 
 #include "support/given_values.hpp"
+#include "support/random_record.hpp"
 
 #include <gmock/gmock.h>
 
@@ -160,6 +161,33 @@ TEST(Plausibility, OfAxesWithUnitsNeedsAllValues)
     EXPECT_THAT(found_of_statue(in_other_units, hertz), HasSubstr("= 1 to 10 g is above 5 g"));
     const Given millihertz = axis("pulse_frequency", AxisRange{5, 5000, 10});
     EXPECT_THAT(found_of_statue(pga, millihertz), HasSubstr("the period of the pulse = 0.0002"));
+}
+
+TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
+{
+    std::mt19937_64 generator(36);
+    for (int i = 0; i < 50; ++i) {
+        Scene scene;
+        std::uniform_real_distribution<double> uniform(0, 1);
+        std::vector<double> horizontal = random_samples(generator, 200);
+        std::vector<double> upwards;
+        for (const double value : random_samples(generator, 200)) {
+            upwards.push_back(0.1 * value);
+        }
+        const auto found = [&](double offset) {
+            std::vector<double> measured = upwards;
+            for (double& value : measured) {
+                value += offset;
+            }
+            scene.records = {std::make_shared<const Accelerogram>(horizontal, measured, 0.01)};
+            return found_in(
+                {{"width", {0.4}}, {"height", {1.8}}, {"scale", {0.5}}, {"restitution", {0.7}}},
+                scene);
+        };
+        EXPECT_THAT(found(0), IsEmpty());
+        EXPECT_THAT(found(0.9 + 0.2 * uniform(generator)),
+                    HasSubstr("the mean of a vertical record"));
+    }
 }
 
 } // namespace

@@ -33,6 +33,35 @@ class WithTheSameBits(unittest.TestCase):
         self.assertGreaterEqual(len(np.unique(outcome["region"])), kinds)
 
 
+class BlocksWithTwoSides(WithTheSameBits):
+    LEANING = {"width": 0.5, "height": 2.0, "incline": 4 * np.pi / 180}
+
+    def test_have_the_bits_of_a_plane(self):
+        for direction in (0, 180):
+            spectrum = overturn.run({
+                "scene": {"pulse": "one_sine"}, "block": self.LEANING, "numerics": {"method": "taylor"},
+                "output": {"fields": FIELDS},
+                "plane": {"pulse_period": {"first": 0.3, "last": 2, "count": 12}, "direction": direction,
+                          "pga": {"first": 0.1, "last": 2, "count": 11}, "restitution_of_maximum": 1}})
+            outcome = overturn.evaluate(
+                **self.LEANING, direction=direction, restitution_of_maximum=1, pulse="one_sine",
+                pga=spectrum.pga.values[:, None], pulse_period=spectrum.pulse_period.values)
+            self.assert_same(outcome, spectrum, kinds=4)
+
+    def test_flip_where_an_independent_program_says(self):
+        for direction, flips in ((0, [0.407515258023]), (180, [0.620924782649, 0.891748873204, 1.173623183158])):
+            pga = np.sort([flip + step for flip in flips for step in (-1e-11, 1e-11)])
+            outcome = overturn.evaluate(**self.LEANING, direction=direction, restitution_of_maximum=1,
+                                        pulse_period=0.5, pga=pga, resolve=True)
+            np.testing.assert_array_equal(outcome["verdict"], [i % 4 in (1, 2) for i in range(len(pga))])
+
+    def test_are_refused_if_they_do_not_stand(self):
+        with self.assertRaisesRegex(ValueError, "does not stand"):
+            overturn.evaluate(width=0.5, height=2, incline=[0.1, 0.3], restitution=0.8, pulse_period=0.5, pga=0.3)
+        with self.assertRaisesRegex(ValueError, "4.0 degrees are 0.06981 rad|4 degrees are 0.06981 rad"):
+            overturn.evaluate(width=0.5, height=2, incline=4, restitution=0.8, pulse_period=0.5, pga=0.3)
+
+
 class TheBitsOfAPlane(WithTheSameBits):
     def test_without_units(self):
         for scene, numerics in (({"pulse": "one_sine"}, {"tolerance": 1e-9}),

@@ -21,13 +21,12 @@ struct FreeOutcome {
 };
 
 /// Classical Runge-Kutta on |theta|'' = -sin(alpha - |theta|) with steps of a hundredth of 1/p,
-/// until the block is overturned, or has lost so much energy at impacts that it cannot reach the
-/// top.
-inline FreeOutcome watch_free_stage(State<double> state, const Block<double>& block)
+/// until the block is overturned, or has lost so much energy at impacts that it cannot reach either
+/// top. block: as seen from the side of the state.
+inline FreeOutcome watch_free_stage(State<double> state, Block<double> block)
 {
-    const double alpha = block.slenderness;
     const double h = 0.01;
-    const auto pull = [alpha](double tilt) { return -std::sin(alpha - tilt); };
+    const auto pull = [&](double tilt) { return -std::sin(block.slenderness - tilt); };
     FreeOutcome outcome;
     while (state.tilt < std::acos(0.0)) {
         const double k1 = pull(state.tilt);
@@ -41,12 +40,18 @@ inline FreeOutcome watch_free_stage(State<double> state, const Block<double>& bl
             continue;
         }
         // The velocity at the impact from the energy, conserved since the last impact (Eq. 5).
+        const double alpha = block.slenderness;
         const double below = std::cos(alpha - state.tilt) - std::cos(alpha);
         const double speed = std::sqrt(state.rate * state.rate + 2 * below);
-        state = {0, std::sqrt(block.restitution) * speed, -state.side};
+        state = {0, block.rate_ratio() * speed, -state.side};
+        block = block.turned();
         ++outcome.impacts;
-        const double top = 1 - std::cos(alpha);
-        if (state.rate * state.rate / 2 < top) {
+        const double energy = block.size * state.rate * state.rate / 2; // over m g
+        const auto barrier = [](double size, double alpha_of_side) {
+            return size * (1 - std::cos(alpha_of_side));
+        };
+        if (energy < barrier(block.size, block.slenderness) &&
+            energy < barrier(block.other.size, block.other.slenderness)) {
             return outcome;
         }
         if (outcome.impacts > 10) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/problem/given.hpp"
+#include "overturn/problem/point.hpp"
 
 #include <initializer_list>
 #include <string>
@@ -43,13 +44,20 @@ inline Given column(const std::string& name, AxisList values)
     return {&quantity(name), name, Axis(std::move(values)), GivenAs::column};
 }
 
-/// The grid of a single point under a pulse. Point: Point, PulsePoint<double> or HardCase.
-template <class Point>
-Grid grid_of_point(const Point& point)
+/// The grid of a single point under a pulse. Described: PulsePoint<double> or HardCase.
+template <class Described>
+Grid grid_of_point(const Described& point)
 {
     return grid_of(
         {}, {number("slenderness", point.slenderness), number("restitution", point.restitution),
              number("amplitude", point.amplitude), number("frequency", point.frequency)});
+}
+inline Grid grid_of_point(const Point& point)
+{
+    return grid_of({},
+                   {number("slenderness", point.block.slenderness),
+                    number("restitution", point.block.restitution),
+                    number("amplitude", point.amplitude), number("frequency", point.frequency)});
 }
 
 } // namespace overturn

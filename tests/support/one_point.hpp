@@ -20,8 +20,8 @@ template <Theory theory, class S>
 PulseExcitation<S> excitation_of(PulseKind pulse, const PulsePoint<S>& point,
                                  const PulseShape& shape = {})
 {
-    return pulse_excitation<theory>(pulse_motion<S>(pulse, shape), point.slenderness,
-                                    point.amplitude, point.frequency);
+    return pulse_excitation<theory>(pulse_motion<S>(pulse, shape), point.block(), point.amplitude,
+                                    point.frequency);
 }
 
 /// The motion as if it ended at an earlier phase [rad].

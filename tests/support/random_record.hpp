@@ -28,7 +28,8 @@ RecordExcitation<S, directions> excitation_of(const RecordPoint& point)
     return {.motion = record_motion<S>(point.record),
             .acceleration = S(point.scale),
             .frequency = S(point.frequency),
-            .threshold = uplift_acceleration<theory>(S(point.block.slenderness))};
+            .to_plus = uplift_acceleration<theory>(S(point.block.slenderness)),
+            .to_minus = uplift_acceleration<theory>(S(point.block.other.slenderness))};
 }
 
 /// From none of the samples to most of them lift a block with this threshold.

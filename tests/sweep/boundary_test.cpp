@@ -23,6 +23,11 @@ const FlipSearch default_search = flip_search({});
 const double paper_alpha = std::atan(1 / 5.67);
 const double paper_r_max = largest_restitution(paper_alpha);
 
+BoundaryLine line_of(double slenderness, double restitution, double frequency)
+{
+    return {.point = {{slenderness, restitution}, 1, frequency}};
+}
+
 void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplitudes,
                      double tolerance)
 {
@@ -41,17 +46,18 @@ TEST(Boundary, OfThePapersBlockAgreesWithPublishedValues)
     // Six digits each, from an integration that includes the free stage.
     const std::vector<double> scan = evenly(0.5, 16, 156);
     const Scene one_sine;
-    expect_flips_at(boundary_on(one_sine, {paper_alpha, paper_r_max, 3}, scan, widest_kernel()),
-                    {1.382896, 3.590936, 3.647522}, 6e-7);
     expect_flips_at(
-        boundary_on(one_sine, {paper_alpha, 0.7 * paper_r_max, 3}, scan, widest_kernel()),
+        boundary_on(one_sine, line_of(paper_alpha, paper_r_max, 3), scan, widest_kernel()),
+        {1.382896, 3.590936, 3.647522}, 6e-7);
+    expect_flips_at(
+        boundary_on(one_sine, line_of(paper_alpha, 0.7 * paper_r_max, 3), scan, widest_kernel()),
         {1.458920, 3.276686, 3.647522}, 6e-7);
-    expect_flips_at(
-        boundary_on({PulseKind::one_cosine}, {paper_alpha, paper_r_max, 3}, scan, widest_kernel()),
-        {1.801257, 6.848654, 11.139644}, 6e-7);
-    expect_flips_at(
-        boundary_on({PulseKind::one_sine, Theory::linear}, {0.25, 0.81, 5}, scan, widest_kernel()),
-        {3.018600, 6.318071, 7.168129}, 6e-7);
+    expect_flips_at(boundary_on({PulseKind::one_cosine}, line_of(paper_alpha, paper_r_max, 3), scan,
+                                widest_kernel()),
+                    {1.801257, 6.848654, 11.139644}, 6e-7);
+    expect_flips_at(boundary_on({PulseKind::one_sine, Theory::linear}, line_of(0.25, 0.81, 5), scan,
+                                widest_kernel()),
+                    {3.018600, 6.318071, 7.168129}, 6e-7);
 }
 
 TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
@@ -60,7 +66,7 @@ TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
     // that is not overturned by the pulse is never lifted again.
     for (const double frequency : {0.7, 2.0, 5.0}) {
         const Boundary boundary =
-            boundary_on({PulseKind::rectangular, Theory::linear}, {0.2, 0.8, frequency},
+            boundary_on({PulseKind::rectangular, Theory::linear}, line_of(0.2, 0.8, frequency),
                         evenly(0.9, 8, 30), widest_kernel());
         expect_flips_at(boundary, {-1 / std::expm1(-pi<double>() / frequency)}, 1e-11);
         EXPECT_EQ(boundary.flips[0].region_below, Region::S);
@@ -82,7 +88,7 @@ TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsThatOfMakrisAndRoussos)
             (excess((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
         }
         const Boundary boundary =
-            boundary_on({PulseKind::half_sine, Theory::linear}, {0.2, 0.8, frequency},
+            boundary_on({PulseKind::half_sine, Theory::linear}, line_of(0.2, 0.8, frequency),
                         evenly(0.9, 12, 40), widest_kernel());
         ASSERT_FALSE(boundary.flips.empty());
         EXPECT_NEAR(boundary.flips[0].amplitude(), 1 / std::sin(low), 1e-11 / std::sin(low));
@@ -93,7 +99,7 @@ TEST(Boundary, FindsSafeStripsThatAreNarrowerThanAStepOfTheScan)
 {
     // Above 3.65 the block overturns to the other side; the strip between is 0.057 wide.
     const Boundary coarse =
-        boundary_on({}, {paper_alpha, paper_r_max, 3}, {0.5, 2, 3.5, 5}, widest_kernel());
+        boundary_on({}, line_of(paper_alpha, paper_r_max, 3), {0.5, 2, 3.5, 5}, widest_kernel());
     expect_flips_at(coarse, {1.382896, 3.590936, 3.647522}, 6e-7);
     EXPECT_EQ(coarse.flips[1].region_below, Region::U1_plus);
     EXPECT_EQ(coarse.flips[1].region_above, Region::S_plus);
@@ -104,7 +110,7 @@ TEST(Boundary, FindsIslandsThatAreNarrowerThanAStepOfTheScan)
 {
     // Just below the frequency at which the region of one impact ends, it is a narrow island.
     const auto boundary = [](double frequency, int count) {
-        return boundary_on({}, {paper_alpha, paper_r_max, frequency}, evenly(1, 40, count),
+        return boundary_on({}, line_of(paper_alpha, paper_r_max, frequency), evenly(1, 40, count),
                            widest_kernel());
     };
     double with = 3;
@@ -167,8 +173,8 @@ Comparison compare_scans(const std::vector<Scene>& scenes, double lowest_frequen
             const double alpha = 0.08 + 0.3 * uniform(generator);
             const double r = largest_restitution(alpha) * (0.6 + 0.4 * uniform(generator));
             const double share = uniform(generator);
-            const BoundaryLine line{
-                alpha, r, lowest_frequency + share * (highest_frequency - lowest_frequency)};
+            const BoundaryLine line = line_of(
+                alpha, r, lowest_frequency + share * (highest_frequency - lowest_frequency));
             compare(boundary_on(scene, line, evenly(1, 12, 111), widest_kernel()),
                     boundary_on(scene, line, evenly(1, 12, 1101), widest_kernel()), comparison);
         }
@@ -203,7 +209,7 @@ TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreNarrow)
 
 TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
 {
-    const BoundaryLine line{paper_alpha, paper_r_max, 0.6};
+    const BoundaryLine line = line_of(paper_alpha, paper_r_max, 0.6);
     const std::vector<double> scan = evenly(0.5, 12.5, 121);
     const Scene scene{PulseKind::one_cosine};
     const Boundary all = boundary_on(scene, line, scan, widest_kernel());
@@ -254,7 +260,7 @@ void expect_whole_and_true(const Boundary& boundary, const BoundaryLine& line)
 TEST(Boundary, IsUndecidedOnlyWhereVerdictsCannotBeSettled)
 {
     // Without loss the block bounces half a million times under a slow pulse.
-    const BoundaryLine line{0.17, 1, 0.02};
+    const BoundaryLine line = line_of(0.17, 1, 0.02);
     const Boundary boundary =
         boundary_on({}, line, {0.9, 1.00001, 1.0001, 1.001, 1.01, 1.5, 2}, widest_kernel());
     EXPECT_FALSE(boundary.complete);
@@ -268,11 +274,13 @@ TEST(Boundary, IsUndecidedOnlyWhereVerdictsCannotBeSettled)
 
 TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
 {
-    const BoundaryLine line{0.17, 1, 0.003};
+    const BoundaryLine line = line_of(0.17, 1, 0.003);
     const Boundary below = boundary_on({}, line, {1.000001, 2}, widest_kernel());
     EXPECT_EQ(below.region_at_first, Region::undecided);
-    ASSERT_EQ(below.flips.size(), 1u);
-    EXPECT_EQ(below.flips[0].amplitude(), 2);
+    ASSERT_GE(below.flips.size(), 1u);
+    EXPECT_EQ(below.flips[0].region_below, Region::undecided);
+    // The step is divided in four.
+    EXPECT_EQ(below.flips[0].amplitude(), 1.000001 + (2 - 1.000001) / 4);
     expect_whole_and_true(below, line);
     const Boundary above = boundary_on({}, line, {0.9, 1.000001}, widest_kernel());
     EXPECT_EQ(above.region_at_first, Region::S);
@@ -283,7 +291,7 @@ TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
 
 TEST(Boundary, ReportsWhetherTheBlockOverturnsAtTheFirstAmplitude)
 {
-    const BoundaryLine line{paper_alpha, paper_r_max, 3};
+    const BoundaryLine line = line_of(paper_alpha, paper_r_max, 3);
     const Boundary all = boundary_on({}, line, {6, 12}, widest_kernel());
     EXPECT_TRUE(all.flips.empty());
     EXPECT_EQ(all.region_at_first, Region::U0_minus);
@@ -297,7 +305,7 @@ TEST(Boundary, HasAtLeastTheSameFlipsWithMoreAmplitudes)
 {
     for (const double frequency : {0.6, 1.3, 3.0}) {
         std::vector<double> scan = evenly(0.5, 12.5, 121);
-        const BoundaryLine line{paper_alpha, paper_r_max, frequency};
+        const BoundaryLine line = line_of(paper_alpha, paper_r_max, frequency);
         const Scene scene{PulseKind::one_cosine};
         const std::size_t flips = boundary_on(scene, line, scan, widest_kernel()).flips.size();
         scan.insert(scan.begin() + 1, 0.500001); // one step that is much finer than the others
@@ -307,8 +315,9 @@ TEST(Boundary, HasAtLeastTheSameFlipsWithMoreAmplitudes)
 
 TEST(Boundary, IsEmptyWhereNothingFlips)
 {
-    EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, evenly(0, 1, 11), widest_kernel()).flips.empty());
-    EXPECT_TRUE(boundary_on({}, {0.2, 0.8, 3}, {5}, widest_kernel()).flips.empty());
+    EXPECT_TRUE(
+        boundary_on({}, line_of(0.2, 0.8, 3), evenly(0, 1, 11), widest_kernel()).flips.empty());
+    EXPECT_TRUE(boundary_on({}, line_of(0.2, 0.8, 3), {5}, widest_kernel()).flips.empty());
 }
 
 TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
@@ -319,7 +328,7 @@ TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
     const std::vector<double> scan = evenly(1, 3, 21);
     int lines_with_missed_flips = 0;
     for (int i = 0; i < 4; ++i) {
-        const BoundaryLine line{0.25, 0.9, uniform(generator)};
+        const BoundaryLine line = line_of(0.25, 0.9, uniform(generator));
         FlipSearch limited = default_search;
         limited.most_amplitudes = 60;
         const Boundary all = boundary_on({}, line, scan, widest_kernel());
@@ -348,7 +357,7 @@ TEST(Boundary, WithoutFiftyDigitsIsUndecidedWhereTheyAreNeeded)
 {
     // A block without loss that bounces under many cycles, just above the uplift threshold.
     const Scene scene{.pulse = PulseKind::sine, .shape = {.cycles = 3}};
-    const BoundaryLine line{0.165, 1.0, 7.37};
+    const BoundaryLine line = line_of(0.165, 1.0, 7.37);
     FlipSearch limited = default_search;
     limited.most_amplitudes = 100;
     limited.most_in_50_digits = 0;
@@ -373,7 +382,7 @@ TEST(BoundaryTile, HasTheFlipsOfALine)
     const Problem problem = boundary_of_blocks({axis("slenderness", {paper_alpha, 0.2}),
                                                 axis("restitution_of_maximum", {0.7, 1}),
                                                 axis("frequency", {1, 2, 3, 20})});
-    const Boundary boundary = boundary_on({}, {paper_alpha, paper_r_max, 3},
+    const Boundary boundary = boundary_on({}, line_of(paper_alpha, paper_r_max, 3),
                                           Axis(scan_of_tile).values(), widest_kernel());
     ASSERT_EQ(boundary.flips.size(), 3u);
     for (const std::int64_t column : {2, 3}) { // the second one has no flip

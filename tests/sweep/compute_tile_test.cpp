@@ -171,8 +171,7 @@ TEST(ComputeTile, IsAbandonedOnRequest)
 
 TEST(ComputeTile, IsAbandonedDuringABlockThatBouncesAMillionTimes)
 {
-    const Point point{
-        .slenderness = 0.2, .restitution = 1, .amplitude = 1.000002, .frequency = 0.003};
+    const Point point{.block = {0.2, 1}, .amplitude = 1.000002, .frequency = 0.003};
     for (const Numerics& numerics : all_numerics) {
         const Problem problem{
             .grid = grid_of_point(point), .numerics = numerics, .fields = {Field::region}};
@@ -199,7 +198,7 @@ TEST(ComputeTile, FieldsAreThoseOfTheForcedStageAndItsRegion)
     const auto& steps = std::get<std::vector<std::uint32_t>>(fields.values[6]);
     const auto& status = std::get<std::vector<std::uint8_t>>(fields.values[7]);
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const PulsePoint<double> point{points[k].slenderness, points[k].restitution,
+        const PulsePoint<double> point{points[k].block.slenderness, points[k].block.restitution,
                                        points[k].frequency, points[k].amplitude};
         const auto end = forced_end<Theory::nonlinear, RungeKutta, true>(PulseKind::one_sine, point,
                                                                          Numerics{}.tolerance);

@@ -12,8 +12,7 @@
 namespace overturn {
 namespace {
 
-const Point safe_point{
-    .slenderness = 0.1745716, .restitution = 0.9, .amplitude = 1.3, .frequency = 3};
+const Point safe_point{.block = {0.1745716, 0.9}, .amplitude = 1.3, .frequency = 3};
 
 /// The fields of one point.
 TileFields fields_of(const Scene& scene, const Point& point, const Numerics& numerics,
@@ -32,8 +31,7 @@ void for_random_points(const Check& check)
     for (const Scene& scene : every_scene()) {
         for (int i = 0; i < 12; ++i) {
             const PulsePoint<double> point = random_point(generator);
-            check(scene,
-                  Point{point.slenderness, point.restitution, point.amplitude, point.frequency});
+            check(scene, Point{point.block(), point.amplitude, point.frequency});
         }
     }
 }
@@ -75,7 +73,7 @@ TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
         const History history = history_of(scene, point, view);
         double peak = 0;
         for (const HistorySample& sample : history.samples) {
-            peak = std::max(peak, std::abs(sample.angle) / point.slenderness);
+            peak = std::max(peak, std::abs(sample.angle) / point.block.slenderness);
         }
         for (const Numerics& numerics :
              {Numerics{Method::rk45, 1e-9}, {Method::taylor, 1e-9}, {Method::rk45, 1e-9, true}}) {
@@ -143,7 +141,7 @@ TEST(History, LosesSpeedOnlyAtImpacts)
             EXPECT_NEAR(event.before.angle, event.after.angle, 1e-15);
             if (event.kind == EventKind::impact) {
                 EXPECT_NEAR(event.after.velocity,
-                            std::sqrt(point.restitution) * event.before.velocity,
+                            std::sqrt(point.block.restitution) * event.before.velocity,
                             1e-13 * std::abs(event.before.velocity) + 1e-15);
                 EXPECT_GE(event.after.q, event.before.q);
             } else if (event.kind != EventKind::rest) {
@@ -213,7 +211,7 @@ TEST(History, ContainsRestAndAnotherUplift)
     Point point = safe_point;
     point.frequency = 0.05;
     point.amplitude = 1.00001;
-    point.restitution = 0.3;
+    point.block.restitution = 0.3;
     const History history = history_of({PulseKind::one_sine, Theory::nonlinear, 1}, point);
     EXPECT_EQ(count(history, EventKind::uplift, history.end_of_pulse), 2);
     EXPECT_EQ(count(history, EventKind::rest, history.end_of_pulse), 2);
@@ -224,7 +222,7 @@ TEST(History, ContainsRestAndAnotherUplift)
 TEST(History, OfABlockWithoutLossTerminates)
 {
     Point point = safe_point;
-    point.restitution = 1;
+    point.block.restitution = 1;
     const History history = history_of({}, point);
     EXPECT_TRUE(std::isinf(history.time_of_rest));
     EXPECT_TRUE(std::isinf(history.time_of_fall));

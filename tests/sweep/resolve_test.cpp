@@ -135,7 +135,7 @@ TEST(ResolvedVerdicts, AreThoseOfAtMost32PointsUnderARecordIn50Digits)
     Scene scene;
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
     const auto resolved = [&](std::size_t count) {
-        const Point block{point.block.slenderness, 1, point.scale, point.frequency};
+        const Point block{{point.block.slenderness, 1}, point.scale, point.frequency};
         const std::vector<Point> points(count, block);
         return outcomes_of(PointRun(scene, points, widest_kernel()), resolved_taylor,
                            {.region = true});

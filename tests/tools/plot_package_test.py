@@ -75,7 +75,7 @@ class TestPicturesFromPython(InOneFolder):
             attributes = file["region"].attrs
             names = dict(zip(attributes["flag_values"].tolist(), attributes["flag_meanings"].decode().split()))
         self.assertEqual({**names, **{code: name for name, code in CODES.items()}}, names)
-        self.assertEqual(sorted(CODES.values()), list(range(9)))
+        self.assertEqual(sorted(CODES.values()), list(range(11)))
 
     def test_of_another_kind_of_file_are_refused(self):
         with self.assertRaisesRegex(overturn.ToolError, "is not a spectrum"):

@@ -10,8 +10,9 @@ import numpy as np
 from matplotlib import colors
 from tool import InAFolder  # first: adds the package to the path
 from overturn.regions import REGIONS
-from overturn.spectrum_file import Axis
+from overturn.spectrum_file import Axis, Plane, open_spectrum
 from overturn.ticks import log_ticks
+from overturn.units import axes_of_plane
 
 S, S_PLUS, U0_PLUS, U0_MINUS, F_MINUS, UNDECIDED, NOT_COMPUTED = 0, 1, 3, 4, 8, 254, 255
 
@@ -108,16 +109,49 @@ class TestTheMap(Picture):
         self.assertGreater(middle[S][0], middle[U0_PLUS][0] + 100)  # rows are counted downward
         self.assertLess(middle[S][1], middle[F_MINUS][1] - 100)
 
-    def test_more_cells_than_pixels_keep_pure_colours_and_shares(self):
+    def test_more_cells_than_pixels_keep_pure_colours(self):
         codes = np.full((3000, 2500), S)
         codes[:, ::7] = F_MINUS
         self.spectrum(codes)
         picture = self.picture()
-        # Mixed colours would change both.
-        np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [6 / 7, 1 / 7],
+        # A pixel is 2.5 cells wide and shows F- if one of them overturns. Mixed colours would change both.
+        np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [4.5 / 7, 2.5 / 7],
                                    atol=self.TOLERANCE)
         pure = np.count_nonzero(where(picture, S) | where(picture, F_MINUS))
         self.assertGreater(pure, 0.98 * 1000 * 1000)
+
+    def test_no_point_that_is_not_safe_is_hidden_by_others_in_its_pixel(self):
+        generator = np.random.default_rng(36)
+        for code in (F_MINUS, U0_PLUS, UNDECIDED):
+            codes = np.full((2800, 2300), S)
+            for _ in range(5):
+                codes[generator.integers(2800), generator.integers(2300)] = code
+            self.spectrum(codes)
+            visible = np.count_nonzero(where(self.picture(), code))
+            self.assertGreaterEqual(visible, 5, code)
+
+    def test_a_pixel_shows_what_is_unknown_before_what_overturns_before_what_is_safe(self):
+        generator = np.random.default_rng(37)
+        for _ in range(200):
+            sizes = generator.integers(1, 60, 2)
+            pixels = int(generator.integers(1, 40))
+            codes = generator.choice([S, S_PLUS, F_MINUS, UNDECIDED, NOT_COMPUTED], sizes, p=(.5, .3, .1, .05, .05))
+            self.spectrum(codes)
+            with open_spectrum(self.folder / "spectrum.h5") as file:
+                plane = Plane(file, {"slenderness": 0, "restitution_of_maximum": 0}, "frequency", "amplitude")
+                across, up = axes_of_plane(plane)
+                shown = plane.read_regions(up, across, pixels)
+                middle = plane.read_cells("region", up.cells(pixels), across.cells(pixels))
+            kinds = np.array([{S: 0, S_PLUS: 0, F_MINUS: 1, UNDECIDED: 2, NOT_COMPUTED: 3}.get(code, 9)
+                              for code in range(256)])
+            self.assertTrue((shown == middle)[kinds[shown] == kinds[middle]].all())
+            if max(sizes) <= pixels:
+                continue
+            # Axes are linear: the middle of cell i is at (i + 1/2) / size.
+            rows, columns = ((np.arange(size) + 0.5) / size * pixels // 1 for size in sizes)
+            for i, j in np.ndindex(pixels, pixels):
+                under = kinds[codes[np.ix_(rows == i, columns == j)]]
+                self.assertEqual(kinds[shown[i, j]], max(under.max(initial=0), kinds[middle[i, j]]))
 
     def test_the_kinds_of_region_differ_in_lightness(self):
         def lightness(code):  # CIE L*

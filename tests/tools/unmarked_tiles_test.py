@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib import colors
 from plot_spectrum_test import Picture
 from tool import InAFolder  # first: adds the package to the path
+import overturn
 from overturn.fields import read_field
 from overturn.regions import NOT_COMPUTED, REGIONS
 from overturn.result_file import open_result
@@ -115,6 +116,21 @@ class TestAFileWhoseTilesDoNotMatch(Picture):
         self.spectrum(np.zeros((2, 2)))
         self.change(lambda file: file["run/checksum"].attrs.update({"tile_shape": [1, 1, 2, 1]}))
         self.refuses(74, "is damaged: it has 4 checksums", "spectrum.h5")
+
+    def test_is_damaged_without_usable_marks(self):
+        def replace(marks):
+            def change(file):
+                file.attrs["program_version"] = "2"
+                del file["run/checksum"]
+                if marks is not None:
+                    file["run/checksum"] = marks
+            return change
+        for marks in (None, np.zeros((2, 2), np.uint64), np.zeros(4), "1111"):
+            self.spectrum(np.zeros((2, 2)))
+            self.change(replace(marks))
+            self.refuses(74, "lacks run/checksum", "spectrum.h5")
+            with self.assertRaisesRegex(OSError, "lacks run/checksum"):
+                overturn.open(self.folder / "spectrum.h5")
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 std::string(name_of(scene.theory)).c_str(),
                 std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
                 numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-                scene.shape.gamma, scene.shape.nu, point.slenderness, point.restitution,
+                scene.shape.gamma, scene.shape.nu, point.block.slenderness, point.block.restitution,
                 point.frequency, point.amplitude, found, bound, truth.margin[number],
                 std::abs(found - truth.margin[number]));
 }

@@ -78,6 +78,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
     const KernelTask task{.pulse = motion,
                           .record = nullptr,
                           .points = points.data(),
+                          .are_symmetric = true,
                           .pulse_of_point = pulses.of_point.data(),
                           .pulses = pulses.pulses.data(),
                           .tolerance = numerics.tolerance,

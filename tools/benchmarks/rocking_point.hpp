@@ -193,16 +193,17 @@ PeerEnd<S> run_point(const Block<S>& block, const Excitation& excitation, Fly&& 
 template <class S, class Visitor>
 auto with_excitation(const Scene& scene, const Point& point, const Visitor& visit)
 {
-    const S slenderness(point.slenderness);
+    const Block<S> block = block_in<S>(point.block);
     if (scene.is_recorded()) {
         return visit(RecordExcitation<S, Directions::horizontal>{
             .motion = record_motion<S>(*scene.records.front()),
             .acceleration = S(point.amplitude),
             .frequency = S(point.frequency),
-            .threshold = uplift_acceleration<Theory::nonlinear>(slenderness)});
+            .to_plus = uplift_acceleration<Theory::nonlinear>(block.slenderness),
+            .to_minus = uplift_acceleration<Theory::nonlinear>(block.slenderness)});
     }
-    return visit(pulse_excitation<Theory::nonlinear>(
-        pulse_motion<S>(PulseKind::one_sine), slenderness, S(point.amplitude), S(point.frequency)));
+    return visit(pulse_excitation<Theory::nonlinear>(pulse_motion<S>(PulseKind::one_sine), block,
+                                                     S(point.amplitude), S(point.frequency)));
 }
 
 /// The forced stage of every point; see run_point().
@@ -212,7 +213,7 @@ std::vector<PeerEnd<S>> run_points(const PeerProblem& problem, Fly&& fly)
     std::vector<PeerEnd<S>> ends;
     ends.reserve(problem.points.size());
     for (const Point& point : problem.points) {
-        const Block<S> block{S(point.slenderness), S(point.restitution)};
+        const Block<S> block = block_in<S>(point.block);
         ends.push_back(with_excitation<S>(problem.scene, point, [&](const auto& excitation) {
             return run_point<S, sines>(block, excitation, fly);
         }));

@@ -43,12 +43,16 @@ _VERDICT_OF_REGION[list(core.unsafe_regions.values())] = Verdict.OVERTURNS
 
 def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              half_width: ArrayLike | None = None, half_height: ArrayLike | None = None,
+             center_offset: ArrayLike | None = None, center_height: ArrayLike | None = None,
+             radius_of_gyration: ArrayLike | None = None, incline: ArrayLike | None = None,
+             slenderness_plus: ArrayLike | None = None, slenderness_minus: ArrayLike | None = None,
+             size_plus: ArrayLike | None = None, size_minus: ArrayLike | None = None,
              slenderness: ArrayLike | None = None, size: ArrayLike | None = None,
              frequency_parameter: ArrayLike | None = None,
              restitution: ArrayLike | None = None, restitution_of_maximum: ArrayLike | None = None,
              pulse_period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
              frequency: ArrayLike | None = None,
-             pga: ArrayLike | None = None, amplitude: ArrayLike | None = None,
+             pga: ArrayLike | None = None, amplitude: ArrayLike | None = None, direction: ArrayLike | None = None,
              pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
              record: ArrayLike | None = None, vertical: ArrayLike | None = None,
@@ -65,12 +69,16 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         width*, height*: of the whole block [m]; or half_width*, half_height* [m]; or slenderness*
             [rad] with size* (half diagonal R [m]) or frequency_parameter* (p [1/s]); or slenderness*
             alone under a pulse given by frequency.
+        center_offset*, center_height*, radius_of_gyration* [m], incline* [rad]: of a block with two different
+            sides, beside width and height; or, of one that is not a box, slenderness_plus*, slenderness_minus*
+            [rad], size_plus*, size_minus* and radius_of_gyration* [m]; see docs/two_sides.md.
         restitution*: energy ratio r at an impact [1]; or restitution_of_maximum*, r / r_max [1].
     A pulse:
         pulse_period* [s], or pulse_frequency* [Hz], or frequency*, Omega = omega_p / p [1].
         pga*: peak ground acceleration over g [1]; or amplitude*, over the acceleration that lifts the block [1].
         pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
             docs/jobs.md.
+        direction*: 0, the motion as it stands, or 180, its mirror image [degree]; also of a record.
     Or a record:
         record: horizontal accelerations over g [1], one-dimensional, linear between samples.
         vertical: vertical accelerations over g [1] at the same times, positive upwards.
@@ -88,6 +96,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     TypeError and a ValueError, if arguments are missing or contradict each other.
     """
     columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
+                     center_offset=center_offset, center_height=center_height, radius_of_gyration=radius_of_gyration,
+                     incline=incline, slenderness_plus=slenderness_plus, slenderness_minus=slenderness_minus,
+                     size_plus=size_plus, size_minus=size_minus, direction=direction,
                      slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
                      restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
     of_pulse = _given(pulse_period=pulse_period, pulse_frequency=pulse_frequency, frequency=frequency,

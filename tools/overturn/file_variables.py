@@ -42,6 +42,9 @@ class Variable:
         return self.data.fillvalue
 
 
+WITH_TILES = ("overturning spectrum", "overturning boundary")  # kinds of files
+
+
 class Result(Mapping):
     """The variables of the root group, by name, and the attributes. Owns the file."""
 
@@ -52,8 +55,10 @@ class Result(Mapping):
         named = dict.fromkeys(word for data in file.values() for word in text_of(data, "coordinates").split())
         self.coordinates = [*named, *(name for name, each in self.items() if each.dimensions == (name,))]
         self.dimensions, self.tile = (), ()  # of the fields of a spectrum or a boundary
-        if "checksum" in self.run:
-            checksums = self.run["checksum"]
+        if text_of(file, "kind") in WITH_TILES:
+            checksums = self.run.get("checksum")
+            if getattr(checksums, "dtype", None) != "uint64" or checksums.ndim != 1:
+                raise OSError(f"\"{file.filename}\" lacks run/checksum, which marks the computed tiles")
             self.dimensions = tuple(text_of(checksums, "dimensions").split())
             self.tile = tuple(int(side) for side in checksums.attrs.get("tile_shape", ()))
         if self.attrs.get("format_version") == 3:

@@ -5,14 +5,14 @@ import numpy as np
 from matplotlib import colors
 from matplotlib.patches import Patch
 from overturn.captions import spectrum_words
-from overturn.regions import LAST_SAFE
+from overturn.regions import SAFE
 
 COLOUR = "#1f5fe0"
 
 
 def came_back(region, peak):
     """Whether a block is safe although it passed alpha; peak is the largest |theta| / alpha."""
-    return (region <= LAST_SAFE) & (peak >= 1)
+    return np.isin(region, SAFE) & (peak >= 1)
 
 
 def count(plane):
@@ -21,7 +21,7 @@ def count(plane):
     for rows in plane.tiles("region"):
         region, peak = (plane.read(name, rows) for name in ("region", "peak"))
         wrong += np.count_nonzero(came_back(region, peak))
-        safe += np.count_nonzero(region <= LAST_SAFE)
+        safe += np.count_nonzero(np.isin(region, SAFE))
     return wrong, safe
 
 

@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 # The paper's colours. Each kind has its own lightness, CIE L* from U0 (96, 90) through S (75), U1
 # (65, 58) and F (49, 40) to S+- (31, 21), so that the map is readable in greyscale and for colour-blind
 # readers. The minus of a pair is the darker one. Of F, the main structure under records, the minus is the paper's grey,
-# and the plus differs in hue, too.
+# and the plus differs in hue, too. U2, of blocks with two different sides, differs by its hue.
 UNDECIDED, NOT_COMPUTED = 254, 255
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
@@ -19,11 +19,28 @@ REGIONS = {
     6: ("U1−", "overturns, one more impact", "#b6801e"),
     7: ("F+", "falls during the pulse", "#7d6fa5"),
     8: ("F−", "falls during the pulse", "#5e5e66"),
+    9: ("U2+", "overturns, two more impacts", "#d0603f"),
+    10: ("U2−", "overturns, two more impacts", "#b8472a"),
     UNDECIDED: ("", "undecided: see field status", "#e6007e"),
 }
 CODES = {name.replace("−", "-"): code for code, (name, _, _) in REGIONS.items() if name}
-LAST_SAFE = 2  # the largest code of a safe block
-LEFT_STANDING = 6  # the largest code of a block that does not fall during the ground motion
+SAFE = [code for name, code in CODES.items() if name.startswith("S")]
+FALLEN = [code for name, code in CODES.items() if name.startswith("F")]
+UNSAFE = [code for code in CODES.values() if code not in SAFE]
+LEFT_STANDING = [code for code in CODES.values() if code not in FALLEN]
+# What a pixel must not hide: the kinds of codes, the last one first.
+_KINDS = np.full(256, 2)
+_KINDS[SAFE], _KINDS[UNSAFE], _KINDS[NOT_COMPUTED] = 0, 1, 3
+
+
+def ranks(codes):
+    """Returns numbers that order codes by what a pixel must not hide: not computed, undecided, overturning, safe."""
+    return (_KINDS[codes] << 8 | codes).astype(np.uint16)
+
+
+def worst(middle, rank):
+    """Returns the code in the middle of each pixel, or that of the highest rank under it if it is of another kind."""
+    return np.where(rank >> 8 > _KINDS[middle], rank & 255, middle).astype(np.uint8)
 
 
 def coloured(codes):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from overturn.fields import read_field
+from overturn.regions import ranks, worst
 from overturn.result_file import open_result
 from overturn.tool import USAGE, ToolError
 
@@ -52,6 +53,23 @@ class Plane:
             if wanted.any():
                 values[wanted] = self.read(name, tiles)[np.ix_(rows[wanted] - tiles.start, columns)]
         return values
+
+    def read_regions(self, up, across, pixels):
+        """Reads the regions for a picture. Where a pixel covers several points, it shows the one in its middle, unless
+        another one is not computed, undecided or overturns and that one is not."""
+        middle = self.read_cells("region", up.cells(pixels), across.cells(pixels))
+        if max(up.size, across.size) <= pixels:
+            return middle
+        of_row, of_column = up.pixels_of_cells(pixels), across.pixels_of_cells(pixels)
+        columns = np.flatnonzero(np.diff(of_column, prepend=-1))  # the first one of each pixel
+        highest = np.zeros(middle.shape, np.uint16)
+        for tiles in self.tiles("region"):
+            rank = np.maximum.reduceat(ranks(self.read("region", tiles)), columns, axis=1)
+            of_tile = of_row[tiles]
+            rows = np.flatnonzero(np.diff(of_tile, prepend=-1))
+            place = np.ix_(of_tile[rows], of_column[columns])
+            highest[place] = np.maximum(highest[place], np.maximum.reduceat(rank, rows, axis=0))
+        return worst(middle, highest)
 
     def knows(self, name, along=()):
         """Whether a coordinate is stored and varies in this plane along the given dimensions at most."""
@@ -117,6 +135,8 @@ class Axis:
         else:
             first, last = 2 * shown[0] - inner[0], 2 * shown[-1] - inner[-1]
         self.edges = np.concatenate([[first], inner, [last]])
+        self.size = len(values)
+        self.first, self.last = shown[0], shown[-1]  # values on the scale of the axis
 
     def shown(self, values):
         return np.log(values) if self.scale == "log" else values
@@ -135,3 +155,10 @@ class Axis:
         middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
         cells = np.searchsorted(self.edges[1:-1], middles)
         return len(self.edges) - 2 - cells if self.descends else cells
+
+    def pixels_of_cells(self, pixels):
+        """Returns the pixel under the middle of each cell, in the order of the file."""
+        middles = (self.edges[1:] + self.edges[:-1]) / 2
+        shares = (middles - self.edges[0]) / (self.edges[-1] - self.edges[0])
+        of_cell = np.minimum((shares * pixels).astype(int), pixels - 1)
+        return of_cell[::-1] if self.descends else of_cell

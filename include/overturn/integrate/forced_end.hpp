@@ -21,7 +21,7 @@ struct ForcedEnd {
     /// Only if they are outputs:
     T error;            ///< bound on the error of the margin, to first order; infinite if unknown
     mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
-    T peak;             ///< the largest tilt [rad]
+    T peak;             ///< the largest tilt; on the side minus, times alpha+ / alpha- [rad]
     T softest_impact;   ///< the smallest speed of the impacts that would not occur at a smaller
                         ///< speed, because the block accelerates outward; with the peak
                         ///< under a pulse [rad]

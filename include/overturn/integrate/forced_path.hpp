@@ -16,7 +16,8 @@ struct ForcedPath {
     ForcedEnd<double> end;
 };
 
-/// excitation: PulseExcitation<double> or RecordExcitation<double, Directions::both>.
+/// block, excitation: as seen from the side plus; excitation: PulseExcitation<double> or
+/// RecordExcitation<double, Directions::both>.
 template <Theory theory, class Excitation>
 ForcedPath forced_path(const Block<double>& block, const Excitation& excitation);
 

@@ -10,6 +10,7 @@
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -45,10 +46,9 @@ public:
           stepper_(block, excitation, tolerance),
           now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
           lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
+          is_two_sided_(any<T>(!block.is_symmetric())), rate_ratio_(rate_ratio()),
           uncertain_impact_(uncertain_impact)
     {
-        using std::sqrt;
-        sqrt_restitution_ = sqrt(block.restitution);
         const Mask none = !active_;
         end_of_run_ = {.state = {zero_, zero_, T(S(1))},
                        .fell = none,
@@ -64,12 +64,16 @@ public:
                        .softest_impact = T(std::numeric_limits<S>::infinity()),
                        .last_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
+        if (is_two_sided_) {
+            prepare_sides();
+        }
         wait_for_uplift(active_);
     }
 
     /// The events so far, in order; only if they are an output.
     const auto& events() const { return events_; }
 
+    /// As seen from the side on which it rocks, or rocked at the end.
     const Block<T>& block() const { return block_; }
 
     /// Whether any lane is still active.
@@ -113,6 +117,11 @@ public:
     ForcedEnd<T> end() const
     {
         ForcedEnd<T> end = end_of_run_;
+        if constexpr (outputs.peak) {
+            if (is_two_sided_) {
+                end.peak = end.peak * (sides_->plus.slenderness / block_.slenderness);
+            }
+        }
         if constexpr (outputs.error) {
             end = margin_error_.at_end(block_, excitation_, now_, end);
         }
@@ -134,15 +143,67 @@ private:
     {
         const T next = excitation_.next_uplift(lanes, now_.phase, lifted_);
         const Mask lifted = lanes && next < end_;
+        if (is_two_sided_) {
+            now_.side = select<T>(lanes, sides_->at_rest, now_.side);
+        }
         now_.tilt = select<T>(lanes, zero_, now_.tilt);
         now_.rate = select<T>(lanes, zero_, now_.rate);
         now_.phase = select<T>(lifted, next, now_.phase);
         lifted_ = select<T>(lifted, next, lifted_);
         const Mask pushed_to_plus = horizontal_of(excitation_.ground(now_.phase)) < zero_;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
+        see_sides();
         record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
+    }
+
+    T rate_ratio() const
+    {
+        using std::sqrt;
+        return is_two_sided_ ? block_.rate_ratio() : T(sqrt(block_.restitution));
+    }
+
+    /// Sees the blocks from the sides on which they rock now. The peak remains the largest share of
+    /// alpha, times the alpha of the side.
+    void see_sides()
+    {
+        if (is_two_sided_) {
+            change_sides();
+        }
+    }
+
+    // Not inlined: these would change what the compiler does with symmetric blocks.
+    [[gnu::noinline, gnu::cold]] void prepare_sides()
+    {
+        const T barriers =
+            barrier_ratio<theory>(separatrix_rate<theory>(zero_, block_.slenderness), block_);
+        sides_ = Sides{.frequency = excitation_.frequency,
+                       .plus = block_,
+                       .minus = block_.turned(),
+                       .at_rest = select<T>(barriers > T(S(1)), T(S(-1)), T(S(1)))};
+    }
+
+    [[gnu::noinline, gnu::cold]] void change_sides()
+    {
+        const Sides& sides = *sides_;
+        [[maybe_unused]] const T before = block_.slenderness;
+        const Mask plus = now_.side > zero_;
+        const auto seen = [&](auto Block<T>::*member) -> T {
+            return select<T>(plus, sides.plus.*member, sides.minus.*member);
+        };
+        block_ = {seen(&Block<T>::slenderness), block_.restitution, seen(&Block<T>::size),
+                  seen(&Block<T>::pace)};
+        block_.other = {select<T>(plus, sides.minus.slenderness, sides.plus.slenderness),
+                        select<T>(plus, sides.minus.size, sides.plus.size),
+                        select<T>(plus, sides.minus.pace, sides.plus.pace)};
+        if constexpr (outputs.peak) {
+            T& peak = end_of_run_.peak;
+            peak = peak * (block_.slenderness / before);
+        }
+        rate_ratio_ = rate_ratio();
+        excitation_.frequency = sides.frequency / block_.pace;
+        stepper_.see_side(block_, excitation_.frequency);
     }
 
     /// Freezes the lanes in their current state.
@@ -171,14 +232,17 @@ private:
     /// Handles the impact of these lanes.
     void strike(const Mask& lanes)
     {
-        const State<T> after =
-            state_after_impact<T>({zero_, now_.rate, now_.side}, sqrt_restitution_);
-        Mask rests = lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, after.rate);
+        using std::sqrt;
+        const State<T> after = state_after_impact<T>({zero_, now_.rate, now_.side}, rate_ratio_);
+        // As measured on the side from which the block strikes, see bounces_die_out().
+        const T rate = is_two_sided_ ? T(sqrt(block_.restitution) * -now_.rate) : after.rate;
+        Mask rests =
+            lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, rate, now_.side);
         if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
         if constexpr (outputs.error) {
-            margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
+            margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, lanes, rests);
         }
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {
@@ -197,6 +261,7 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + T(S(1)), impacts);
         }
+        see_sides();
         record(EventKind::impact, lanes);
         record(EventKind::rest, rests);
         end_of_run_.rested = end_of_run_.rested || rests;
@@ -214,12 +279,19 @@ private:
         }
     }
 
-    const Block<T> block_;
-    const Excitation excitation_;
+    /// What see_sides() needs, if any lane has a block with two different sides.
+    struct Sides {
+        T frequency; ///< of the motion, in the unit of Block::pace
+        Block<T> plus;
+        Block<T> minus;
+        T at_rest; ///< the side of the higher barrier: the margin is smaller there
+    };
+
+    Block<T> block_;
+    Excitation excitation_;
     const T end_;
     const T zero_;
     const T step_limit_;
-    T sqrt_restitution_;
 
     typename Method::template Stepper<
         theory, T, Outputs{.error = outputs.error, .peak = outputs.peak}, Excitation>
@@ -228,6 +300,9 @@ private:
     T lifted_; // phase of the latest uplift; the flank of a lobe lifts a block only once
     Mask active_;
     ForcedEnd<T> end_of_run_;
+    const bool is_two_sided_;
+    std::optional<Sides> sides_;
+    T rate_ratio_; // of an impact on the side on which the block rocks
 
     struct NoError {};
     struct NoEvents {};

@@ -57,13 +57,14 @@ public:
     /// below 1/64 where a series of bounces dies out. A block that stood on its edge for a long
     /// time before it came back may also have overturned: its distance from the top has grown since
     /// then, as has its error, which must still be small compared with alpha.
-    void pass_impact(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
-                     const Mask& lanes, const Mask& rests)
+    /// block: as seen from the side of `now`, before the impact.
+    void pass_impact(const Block<T>& block, const T& rate_ratio, const auto& excitation,
+                     const Rocking<T>& now, const Mask& lanes, const Mask& rests)
     {
-        using std::sqrt;
         const auto push = now.side * excitation.ground(now.phase);
         const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
-        const T after = rocking_acceleration<theory>(zero_, block.slenderness, mirrored(push));
+        const T after =
+            rocking_acceleration<theory>(zero_, block.other.slenderness, mirrored(push));
         const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
         const T square_error = growth_.bound(T(before + before), T(speed + speed));
         const T share = select<T>(rests, T(S(64)), T(S(4)));
@@ -72,8 +73,8 @@ public:
             share * square_error < speed * speed && T(S(4)) * radius < block.slenderness;
         doubtful_ = doubtful_ || (lanes && !(known && now.rate < zero_));
         growth_.forget(doubtful_); // it would only grow until it overflows
-        growth_.pass(variation_over_impact<T>(sqrt(block.restitution), speed, before, after),
-                     lanes);
+        const T pace = block.other.pace / block.pace;
+        growth_.pass(variation_over_impact<T>(rate_ratio, pace, speed, before, after), lanes);
     }
 
     /// The end of the lanes, at `now`, with its error and whether its verdict is in doubt.
@@ -87,8 +88,12 @@ public:
         const T radius = growth_.bound(one, zero_);
         const T largest = separatrix_rate<theory>(zero_, block.slenderness);
         const Distance standing = distance_to_separatrix(block, now, radius, largest);
-        // An impact changes the margin by the factor sqrt r.
-        const T jump = abs(standing.margin) * (one / sqrt(block.restitution) - one);
+        // An impact on this side i changes the margin by the factor sqrt(r W_i / W_j), one on the
+        // other side by sqrt(r W_j / W_i).
+        const T ratio = any<T>(!block.is_symmetric()) ? barrier_ratio<theory>(largest, block) : one;
+        const T before_impact = one / sqrt(block.restitution * ratio) - one;
+        const T after_impact = one - sqrt(block.restitution / ratio);
+        const T jump = abs(standing.margin) * greater<T>(abs(before_impact), abs(after_impact));
         const T near_impact = select<T>(now.tilt < radius, jump, zero_);
 
         // For a fall at the speed v with the acceleration a, v^2 changes by
@@ -124,34 +129,73 @@ private:
         T error;
     };
 
-    /// The margin is the smaller of two distances, and either may be overestimated. The lower one
-    /// is convex in c, so its gradient is largest at one end of the range of c.
+    /// The margin is the smaller of two distances, and either may be overestimated.
     Distance distance_to_separatrix(const Block<T>& block, const Rocking<T>& now, const T& radius,
                                     const T& largest) const
     {
-        using arithmetic::fma;
         using std::abs;
-        using std::sqrt;
         const T one(S(1));
         const SafeRates<T> safe = safe_rates<theory>(now.tilt, block);
+        const ImpactLimit<T> inward = safe.inward();
         const T slope = separatrix_slope<theory>(now.tilt, block.slenderness);
         const auto round_off = [&](const T& limit) -> T {
             return roundings() * (abs(now.rate) + abs(limit)) / largest;
         };
-        const auto below_gradient = [&](const T& c) -> T {
-            const T inward = sqrt(fma(c, c, safe.minus_q_min));
-            return c / select<T>(inward > zero_, inward, largest);
-        };
         const T above = (safe.outward - now.rate) / largest;
-        const T below = (now.rate + safe.inward) / largest;
+        const T below = inward.distance(now.rate) / largest;
         const T above_error = growth_.bound(slope, -one) / largest + round_off(safe.outward);
         const T below_error =
-            greater<T>(growth_.bound(T(slope * below_gradient(safe.outward - radius)), one),
-                       growth_.bound(T(slope * below_gradient(safe.outward + radius)), one)) /
-                largest +
-            round_off(safe.inward);
+            error_of_limit(inward, {safe.outward, slope, radius, largest}, now.rate) / largest +
+            round_off(inward.limit);
         const T margin = lesser<T>(above, below);
         return {margin, greater<T>(below_error - (below - margin), above_error - (above - margin))};
+    }
+
+    /// Where the separatrix is, for error_of_limit().
+    struct SeparatrixAt {
+        T c;
+        T slope;   ///< d c / d tilt
+        T radius;  ///< error of the tilt, and of c
+        T largest; ///< sqrt(q_max)
+    };
+
+    /// The error of ImpactLimit::distance(). If q_min <= 0, the limit is convex in c, so that its
+    /// gradient c / limit is largest at one end of the range of c.
+    T error_of_limit(const ImpactLimit<T>& inward, const SeparatrixAt& at, const T& rate) const
+    {
+        const T one(S(1));
+        const auto with_gradient = [&](const T& c) -> T {
+            const T limit = inward.limit_at(c);
+            const T gradient = c / select<T>(limit > zero_, limit, at.largest);
+            return growth_.bound(T(at.slope * gradient), one);
+        };
+        const T error =
+            greater<T>(with_gradient(at.c - at.radius), with_gradient(at.c + at.radius));
+        const Mask inside = inward.minus_q_min < zero_;
+        return any<T>(inside) ? select<T>(inside, error_inside(inward, at, rate), error) : error;
+    }
+
+    /// The same if q_min > 0. The gradient |c| / |limit| grows towards c = sqrt(q_min), where it is
+    /// infinite. Across that, the change of the limit is its error.
+    [[gnu::noinline]] T error_inside(const ImpactLimit<T>& inward, const SeparatrixAt& at,
+                                     const T& rate) const
+    {
+        using std::abs;
+        const T one(S(1));
+        const T low = inward.limit_at(at.c - at.radius);
+        const T high = inward.limit_at(at.c + at.radius);
+        const auto with_gradient = [&](const T& c, const T& limit) -> T {
+            const T gradient = abs(c) / select<T>(limit == zero_, at.largest, T(abs(limit)));
+            const T inwards = growth_.bound(T(at.slope * gradient), one);
+            const T outwards = growth_.bound(T(at.slope * gradient), -one);
+            const T of_rate = growth_.bound(zero_, one);
+            return select<T>(rate > of_rate, outwards,
+                             select<T>(rate < -of_rate, inwards, greater<T>(inwards, outwards)));
+        };
+        const T regular =
+            greater<T>(with_gradient(at.c - at.radius, low), with_gradient(at.c + at.radius, high));
+        const Mask is_regular = (low > zero_ && high > zero_) || (low < zero_ && high < zero_);
+        return select<T>(is_regular, regular, (high - low) + growth_.bound(zero_, one));
     }
 
     T zero_ = T(S(0));

@@ -30,22 +30,29 @@ public:
           tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
           towards_fall_(zero_), ends_at_event_(zero_ != zero_)
     {
-        const T frequency = excitation.frequency;
-        using std::abs;
-        const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
-        first_step_ = step_error_power(T(tolerance)) / fastest;
+        see_side(block, excitation.frequency);
         step_size_ = first_step_;
-        if (is_wavelet_) {
-            longest_seen_ = T(S(longest_angle)) / frequency;
-            const T negligible = T(tolerance) * T(S(1) / 128) * block.slenderness;
-            tail_end_ = end_of_tail(
-                excitation.motion.pulse,
-                T(rough_log2(negligible) - rough_log2(T(abs(excitation.acceleration)))));
-        }
         if constexpr (outputs.error) {
             embedded_share_ =
                 T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
             sample_ = {zero_, zero_, zero_};
+        }
+    }
+
+    /// The blocks rock on other sides, of which these are the properties, before lift() or turn().
+    void see_side(const Block<T>& block, const T& frequency)
+    {
+        using std::abs;
+        block_ = block;
+        excitation_.frequency = frequency;
+        const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
+        first_step_ = step_error_power(T(tolerance_)) / fastest;
+        if (is_wavelet_) {
+            longest_seen_ = T(S(longest_angle)) / frequency;
+            const T negligible = T(tolerance_) * T(S(1) / 128) * block.slenderness;
+            tail_end_ = end_of_tail(
+                excitation_.motion.pulse,
+                T(rough_log2(negligible) - rough_log2(T(abs(excitation_.acceleration)))));
         }
     }
 
@@ -323,8 +330,8 @@ private:
         return event;
     }
 
-    const Block<T> block_;
-    const PulseExcitation<T> excitation_;
+    Block<T> block_;
+    PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const S tolerance_;
     const T zero_;

@@ -34,24 +34,11 @@ class TaylorStepper {
 
 public:
     TaylorStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
-        : slenderness_(block.slenderness), excitation_(excitation),
-          is_wavelet_(excitation.motion.is_wavelet())
+        : excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
+          tolerance_(tolerance), log2_tolerance_(rough_log2(tolerance_))
     {
-        using std::abs;
         const T one(S(1));
-        const T frequency = excitation.frequency;
-        fastest_ = select<T>(frequency > one, frequency, one);
-        if constexpr (!std::same_as<Excitation, PulseExcitation<T>>) {
-            // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
-            // change by the same share of epsilon in each of thousands of steps, and the error
-            // would exceed its bound, in which round-off is random.
-            fastest_ = power_of_two_below(fastest_);
-        }
-        unit_ = one / fastest_;
-        phase_per_unit_ = frequency * unit_;
-        tolerance_ = T(tolerance);
-        log2_tolerance_ = rough_log2(tolerance_);
-        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
+        see_side(block, excitation.frequency);
         if constexpr (outputs.error) {
             unrolled<last_terms>([&]<int i>() {
                 constexpr int k = order + 1 - last_terms + i;
@@ -64,14 +51,33 @@ public:
                     [&]<int>() { following_per_[i] = following_per_[i] * ratio; });
             });
         }
+    }
+
+    /// The blocks rock on other sides, of which these are the properties.
+    void see_side(const Block<T>& block, const T& frequency)
+    {
+        using std::abs;
+        const T one(S(1));
+        slenderness_ = block.slenderness;
+        excitation_.frequency = frequency;
+        fastest_ = select<T>(frequency > one, frequency, one);
+        if constexpr (!std::same_as<Excitation, PulseExcitation<T>>) {
+            // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
+            // change by the same share of epsilon in each of thousands of steps, and the error
+            // would exceed its bound, in which round-off is random.
+            fastest_ = power_of_two_below(fastest_);
+        }
+        unit_ = one / fastest_;
+        phase_per_unit_ = frequency * unit_;
+        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
         if constexpr (may_be_wavelet) {
             if (!is_wavelet_) {
                 return;
             }
             const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
-            lost_ =
-                end_of_tail(excitation.motion.pulse,
-                            T(rough_log2(round_off) - rough_log2(T(abs(excitation.acceleration)))));
+            lost_ = end_of_tail(
+                excitation_.motion.pulse,
+                T(rough_log2(round_off) - rough_log2(T(abs(excitation_.acceleration)))));
         }
     }
 
@@ -315,14 +321,14 @@ private:
         return straight_line<T>([&] { return first_event(series, bounds, h, noise, suspect); });
     }
 
-    const T slenderness_;
-    const Excitation excitation_;
+    T slenderness_;
+    Excitation excitation_;
     const bool is_wavelet_;
+    const T tolerance_;
+    const T log2_tolerance_;
     T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
     T fastest_;        // its reciprocal
     T phase_per_unit_; // [rad or samples]
-    T tolerance_;
-    T log2_tolerance_;
     T log2_most_allowed_;
     T lost_ = T(S(0));                                            // see acceleration()
     std::array<T, outputs.error ? last_terms : 0> following_per_; // see truncation_error()

@@ -7,6 +7,15 @@
 
 namespace overturn {
 
+/// The accelerations over g that lift a block at rest on either side without vertical motion [1].
+struct UpliftThresholds {
+    UpliftThresholds(double both) : plus(both), minus(both) {}
+    UpliftThresholds(double to_plus, double to_minus) : plus(to_plus), minus(to_minus) {}
+
+    double plus;
+    double minus;
+};
+
 class Accelerogram {
 public:
     /// Accelerations over g [1], at least two; upwards: of the same number, or empty if there is no
@@ -22,20 +31,24 @@ public:
     double peak() const { return later_peak_.front(); }
     double upwards_peak() const { return upwards_peak_; }
 
+    /// The mean upwards acceleration; 0 without vertical motion [1].
+    double upwards_mean() const;
+
     /// The smallest factor on the record at which gravity vanishes at some time: 1 / -min of the
     /// upwards acceleration; infinite if that is not negative [1].
     double free_fall_scale() const;
 
-    /// The factor on the record above which it lifts a block that the acceleration `threshold` [1]
-    /// lifts without vertical motion; infinite if no factor does [1].
-    double lifting_scale(double threshold) const;
+    /// The factor on the record above which it lifts a block; infinite if no factor does [1].
+    double lifting_scale(const UpliftThresholds& thresholds) const;
 
     /// The first sample, starting at `first`, that lifts the block if the record is multiplied by
-    /// `scale`; samples() if there is none. Without vertical motion, the block is lifted by the
-    /// acceleration `threshold` [1]:
+    /// `scale` (negative: its mirror image); samples() if there is none:
     ///
-    ///     scale |a| > (1 + scale v) threshold
-    std::int64_t first_lifting(std::int64_t first, double scale, double threshold) const;
+    ///     |scale a| > (1 + |scale| v) threshold
+    ///
+    /// with the threshold of the side to which the ground pushes the block: minus if scale a > 0.
+    std::int64_t first_lifting(std::int64_t first, double scale,
+                               const UpliftThresholds& thresholds) const;
 
 private:
     std::vector<double> horizontal_, upwards_;

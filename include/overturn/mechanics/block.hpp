@@ -9,18 +9,71 @@
 
 namespace overturn {
 
+/// A block on one of its two corners. Lengths and frequencies have any unit that both sides share.
+template <Number T>
+struct BlockSide {
+    T slenderness;              ///< alpha: the tilt at which it would balance [rad]
+    T size = T(scalar_t<T>(1)); ///< R: distance from the corner to the centre of mass
+    T pace = T(scalar_t<T>(1)); ///< p: frequency parameter
+};
+
+/// A block as seen from the side on which it rocks. The other side of a symmetric block, which is
+/// the default, is equal, and its size and pace are 1.
 template <Number T>
 struct Block {
-    T slenderness; ///< alpha = arctan(b / h) [rad]
-    T restitution; ///< r: ratio of the energies after and before an impact [1]
+    T slenderness;              ///< alpha of this side; of a symmetric block: arctan(b / h) [rad]
+    T restitution;              ///< r: ratio of the energies after and before an impact [1]
+    T size = T(scalar_t<T>(1)); ///< see BlockSide
+    T pace = T(scalar_t<T>(1));
+    BlockSide<T> other{slenderness, size, pace};
+
+    /// The same block as seen from the other side.
+    Block turned() const
+    {
+        return {other.slenderness, restitution, other.size, other.pace, {slenderness, size, pace}};
+    }
+
+    /// Per lane: whether the sides are equal.
+    mask_t<T> is_symmetric() const
+    {
+        return slenderness == other.slenderness && size == other.size && pace == other.pace;
+    }
+
+    /// The ratio of the rates after and before an impact, each in units of the p of its side:
+    /// sqrt(r R_i / R_j) from this side i to the other side j. The energy, m g R u^2 / 2, changes
+    /// by the factor r.
+    T rate_ratio() const
+    {
+        using std::sqrt;
+        return sqrt(restitution * (size / other.size));
+    }
 };
+
+/// The block, given as seen from its side plus, as seen from a side, +1 or -1.
+template <Number T>
+    requires(lanes_v<T> == 1)
+Block<T> seen_from(const T& side, const Block<T>& block)
+{
+    return side < 0 ? block.turned() : block;
+}
+
+/// The same block in numbers of another type.
+template <Number T>
+Block<T> block_in(const Block<double>& block)
+{
+    return {T(block.slenderness),
+            T(block.restitution),
+            T(block.size),
+            T(block.pace),
+            {T(block.other.slenderness), T(block.other.size), T(block.other.pace)}};
+}
 
 /// The state of a rocking block. The side is stored separately, because theta is 0 at uplift and
 /// after an impact.
 template <Number T>
 struct State {
     T tilt; ///< |theta| [rad]
-    T rate; ///< d|theta| / d tau, positive outward [rad]
+    T rate; ///< d|theta| / d tau, positive outward, tau = p t with the p of the side [rad]
     T side; ///< +1 or -1: the sign of theta
 };
 
@@ -80,13 +133,13 @@ T rocking_acceleration(const T& tilt, const T& slenderness, const Ground<T>& pus
     }
 }
 
-/// Just after an impact: the block pivots about its other corner, its angular velocity is
-/// multiplied by sqrt(r) (Eq. 40). The sign of theta' does not change, so the inward rate becomes
-/// outward.
+/// Just after an impact: the block pivots about its other corner, its rate is multiplied by
+/// Block::rate_ratio(), which is sqrt(r) if the block is symmetric (Eq. 40). The sign of theta'
+/// does not change, so the inward rate becomes outward.
 template <Number T>
-State<T> state_after_impact(const State<T>& before, const T& sqrt_restitution)
+State<T> state_after_impact(const State<T>& before, const T& rate_ratio)
 {
-    return {.tilt = T(0), .rate = -sqrt_restitution * before.rate, .side = -before.side};
+    return {.tilt = T(0), .rate = -rate_ratio * before.rate, .side = -before.side};
 }
 
 } // namespace overturn

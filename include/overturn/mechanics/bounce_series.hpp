@@ -23,9 +23,16 @@ namespace overturn {
 /// constant pulls. With a vertical motion, both pulls may increase, and the flights together last
 /// at most 2 v / (1 - sqrt r) times both growths over the weakest pull. The tilt stays below v^2 /
 /// 2g and changes the pull by less than a twentieth.
+///
+/// Of a block with two different sides, everything is measured as on this side i, from which it
+/// struck: v is sqrt(r) times the rate of the impact. At the rate u_j of the same energy on the
+/// other side j, R_j u_j^2 = R_i v^2, a flight under the pull g_j lasts 2 u_j / (p_j g_j), as long
+/// as one under the pull sqrt(R_j / R_i) p_j / p_i g_j on this side.
+///
+/// side: +1 or -1, that from which the block struck.
 template <Theory theory, Number T>
 mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T& phase,
-                          const T& rate)
+                          const T& rate, const T& side = T(scalar_t<T>(1)))
 {
     using std::abs;
     using std::sqrt;
@@ -39,12 +46,21 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     if (!any<T>(slow)) {
         return slow;
     }
-    const auto pull = [&](const auto& push) -> T {
-        return -rocking_acceleration<theory>(zero, block.slenderness, push);
+    const mask_t<T> from_plus = side > zero;
+    const T pace = block.other.pace / block.pace;
+    const T level = sqrt(block.other.size / block.size) * pace;
+    const auto pull_on = [&](const mask_t<T>& this_side, const auto& push) -> T {
+        const T slenderness = select<T>(this_side, alpha, block.other.slenderness);
+        const T pull = -rocking_acceleration<theory>(zero, slenderness, push);
+        return select<T>(this_side, pull, level * pull);
+    };
+    const auto pull_on_plus = [&](const auto& ground) { return pull_on(from_plus, ground); };
+    const auto pull_on_minus = [&](const auto& ground) {
+        return pull_on(!from_plus, mirrored(ground));
     };
     const auto ground_now = excitation.ground(phase);
-    const T plus = pull(ground_now);
-    const T minus = pull(mirrored(ground_now));
+    const T plus = pull_on_plus(ground_now);
+    const T minus = pull_on_minus(ground_now);
     const T weaker = select<T>(plus < minus, plus, minus);
     // Without loss or pull, no series ends; 1 avoids divisions by zero.
     const T loss = one - T(sqrt(block.restitution));
@@ -57,8 +73,8 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     const mask_t<T> in_time = fades && over >= phase && over <= T(excitation.motion.end) &&
                               excitation.motion.is_monotone(phase, over);
     const auto ground_then = excitation.ground(select<T>(in_time, over, phase));
-    const T plus_then = pull(ground_then);
-    const T minus_then = pull(mirrored(ground_then));
+    const T plus_then = pull_on_plus(ground_then);
+    const T minus_then = pull_on_minus(ground_then);
     const T twice = series + series;
     mask_t<T> short_enough;
     if constexpr (std::same_as<decltype(ground_now), const T>) {
@@ -77,8 +93,10 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
         short_enough =
             twice * growth(plus, plus_then) * growth(minus, minus_then) <= duration * least;
     }
+    // On the other side, the square of the rate is larger by R_i / R_j.
+    const T without_pace = weaker / greater<T>(pace, one);
     const mask_t<T> low =
-        T(S(10)) * rate * rate * largest_stiffness<T>(ground_now) <= weaker * weaker;
+        T(S(10)) * rate * rate * largest_stiffness<T>(ground_now) <= without_pace * without_pace;
     return weaker > zero && ((in_time && short_enough && low) || rate == zero);
 }
 

@@ -22,19 +22,86 @@ T separatrix_rate(const T& tilt, const T& slenderness)
     }
 }
 
-/// The bounds of the libration region at one tilt (Eq. 20): a block is safe if and only if its
-/// outward rate u satisfies -inward <= u <= outward.
+/// The energy at the top of the other side j over that of this side i: W_j / W_i with
+/// W = m g R q_max / 2; 1 if the block is symmetric. largest: sqrt(q_max) of this side.
+template <Theory theory, Number T>
+T barrier_ratio(const T& largest, const Block<T>& block)
+{
+    const T ratio = separatrix_rate<theory>(T(scalar_t<T>(0)), block.other.slenderness) / largest;
+    return block.other.size / block.size * (ratio * ratio);
+}
+
+/// The rates from which a block does not overturn after a certain impact: q0 >= q_min. If q_min is
+/// not positive, only a block that moves inward has an impact before it could overturn: u >= -limit
+/// with limit = sqrt(c^2 - q_min). If it is positive, also a block that moves outward strikes
+/// first, inside the separatrix: |u| <= limit, the signed root of c |c| - q_min.
+template <Number T>
+struct ImpactLimit {
+    T minus_q_min; ///< [rad^2]
+    T limit;       ///< [rad]
+
+    ImpactLimit() = default;
+    ImpactLimit(const T& minus_q, const T& c) : minus_q_min(minus_q), limit(limit_at(c)) {}
+
+    /// The limit at another tilt, where the separatrix is at c.
+    T limit_at(const T& c) const
+    {
+        using arithmetic::fma;
+        using std::abs;
+        using std::sqrt;
+        const T zero(scalar_t<T>(0));
+        const T square = fma(select<T>(minus_q_min < zero, T(abs(c)), c), c, minus_q_min);
+        const T root = sqrt(T(abs(square)));
+        return select<T>(square < zero, T(-root), root);
+    }
+
+    /// The distance of a rate from the limit; negative if the block overturns after the impact.
+    T distance(const T& rate) const
+    {
+        using std::abs;
+        return select<T>(minus_q_min < T(scalar_t<T>(0)), T(-abs(rate)), rate) + limit;
+    }
+};
+
+/// The bounds of the safe states at one tilt (Eq. 20).
 template <Number T>
 struct SafeRates {
     /// c: if u > outward, the block overturns to the side of its tilt, without impact [rad].
     T outward;
-    T inward; ///< sqrt(c^2 - q_min): if u < -inward, to the other side, after one impact [rad]
+    ImpactLimit<T> one; ///< beyond it, the block overturns to the other side, after one impact
+    ImpactLimit<T> two; ///< beyond it, to the side of its tilt, after two; only if not after one
     /// sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16) [rad].
     T largest;
-    T minus_q_min; ///< [rad^2]
+    bool are_symmetric; ///< all blocks: `two` is not needed, and q_min <= 0
+
+    /// Per lane: whether the block overturns after one impact, unless it does so without.
+    mask_t<T> are_beyond_one(const T& rate) const
+    {
+        return are_symmetric ? rate < -one.limit : one.distance(rate) < T(scalar_t<T>(0));
+    }
+
+    /// The limit that a rate reaches first.
+    ImpactLimit<T> inward() const
+    {
+        if (are_symmetric) {
+            return one;
+        }
+        const mask_t<T> is_one = one.minus_q_min <= two.minus_q_min;
+        ImpactLimit<T> first = one;
+        first.minus_q_min = select<T>(is_one, one.minus_q_min, two.minus_q_min);
+        first.limit = select<T>(is_one, one.limit, two.limit);
+        return first;
+    }
 };
 
-///     q_max = 4 sin^2(alpha/2),   q_min = q_max (1 - 1/r)       (Eqs. 16, 18)
+/// With the energy E of the block on its side i, and the energies W at the top of both sides, the
+/// block overturns after one impact if r E > W_j, and after two if r^2 E > W_i:
+///
+///     q_max = 4 sin^2(alpha_i/2),   q_min = q_max (1 - W_j/(r W_i))   for one impact,
+///                                   q_min = q_max (1 - 1/r^2)         for two
+///
+/// For a symmetric block the first one is the larger, that of Eq. 18. Later impacts face the same
+/// energies with less energy.
 template <Theory theory, Number T>
 SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
 {
@@ -43,20 +110,34 @@ SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
     const T c = separatrix_rate<theory>(tilt, block.slenderness);
     const T largest = separatrix_rate<theory>(T(scalar_t<T>(0)), block.slenderness);
     const T one = T(scalar_t<T>(1));
-    const T minus_q_min = largest * largest * ((one - block.restitution) / block.restitution);
-    return {c, sqrt(fma(c, c, minus_q_min)), largest, minus_q_min};
+    const T& r = block.restitution;
+    const T q_max = largest * largest;
+    if (!any<T>(!block.is_symmetric())) { // the same with W_j = W_i
+        ImpactLimit<T> limit;
+        limit.minus_q_min = q_max * ((one - r) / r);
+        limit.limit = sqrt(fma(c, c, limit.minus_q_min));
+        return {c, limit, limit, largest, true};
+    }
+    const T ratio = barrier_ratio<theory>(largest, block);
+    return {c,
+            {T(q_max * ((ratio - r) / r)), c},
+            {T(q_max * ((one - r) * (one + r) / (r * r))), c},
+            largest,
+            false};
 }
 
 /// The margin: distance to a change of the verdict, over sqrt(q_max). Positive if the block is
 /// safe, negative if it overturns, continuous between impacts.
 ///
 ///     margin = min(c - u, u + sqrt(c^2 - q_min)) / sqrt(q_max)
+///
+/// with the larger q_min; see ImpactLimit if it is positive.
 template <Theory theory, Number T>
 T margin_after_pulse(const State<T>& state, const Block<T>& block)
 {
     const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
     const T above = safe.outward - state.rate;
-    const T below = state.rate + safe.inward;
+    const T below = safe.inward().distance(state.rate);
     return select<T>(above < below, above, below) / safe.largest;
 }
 
@@ -87,14 +168,19 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
 {
     const auto code = [](Region region) { return T(scalar_t<T>(int(region))); };
     const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
-    const mask_t<T> plus = state.side > T(scalar_t<T>(0));
+    const T zero(scalar_t<T>(0));
+    const mask_t<T> plus = state.side > zero;
     const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
-    const T beyond_impact = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
+    const T beyond_one = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
     const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
-    // From here on, -inward <= u <= c. Beyond the top, c < 0, so u <= c implies S+ or S-.
-    const T safely = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
-    const T standing = select<T>(state.rate < -safe.inward, beyond_impact, safely);
-    return select<T>(state.rate > safe.outward, beyond_top, standing);
+    // From here on, the block is safe. Beyond the top, c < 0, so u <= c implies S+ or S-.
+    T after_two = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
+    if (!safe.are_symmetric) {
+        const T beyond_two = select<T>(plus, code(Region::U2_plus), code(Region::U2_minus));
+        after_two = select<T>(safe.two.distance(state.rate) < zero, beyond_two, after_two);
+    }
+    const T after_one = select<T>(safe.are_beyond_one(state.rate), beyond_one, after_two);
+    return select<T>(state.rate > safe.outward, beyond_top, after_one);
 }
 
 } // namespace overturn

@@ -43,22 +43,30 @@ MoreExact<T> conserved_q(const State<T>& state, const T& slenderness)
     return (c - rate) * (c + rate);
 }
 
-/// The paper's restitution: the same energy ratio at every impact. Other models may depend on the
-/// number of the impact, starting at 1, and on the side from which the block strikes.
-template <Number T>
-struct ConstantRestitution {
-    T ratio; ///< r [1]
+/// q0 just after an impact, on the other side j, from that before, on this side i. The energy
+/// m g R (q_max - q) / 2 changes by the factor r.
+template <class Q>
+Q q_after_impact(const Q& q, const Q& q_max, const Q& q_max_of_other, const Q& kept)
+{
+    return q_max * (q_max_of_other / q_max - kept) + kept * q;
+}
 
-    T operator()(int, const T&) const { return ratio; }
-};
+/// r R_i / R_j, for q_after_impact().
+template <class Q, class T>
+Q kept_by_impact(const Block<T>& block)
+{
+    return Q(block.restitution) * (Q(block.size) / Q(block.other.size));
+}
 
-/// Free rocking, one arc at a time; times in 1/p since the beginning.
-template <Theory theory, Number T, class Restitution = ConstantRestitution<T>>
+/// Free rocking, one arc at a time; times since the beginning, in the unit of 1 / Block::pace,
+/// which is 1/p if the block is symmetric.
+template <Theory theory, Number T>
 class FreeRocking {
 public:
-    FreeRocking(const State<T>& begin, const T& slenderness, const Restitution& restitution)
-        : slenderness_(slenderness), restitution_(restitution), begin_(0),
-          q_(conserved_q<theory>(begin, slenderness)), arc_(begin, slenderness, T(q_))
+    /// block: as seen from the side on which it rocks at the beginning.
+    FreeRocking(const State<T>& begin, const Block<T>& block)
+        : block_(block), begin_(0), q_(conserved_q<theory>(begin, block.slenderness)),
+          arc_(begin, block.slenderness, T(q_))
     {}
 
     /// The current arc, the time at which it begins, and the number of impacts before it.
@@ -66,36 +74,62 @@ public:
     const T& begin() const { return begin_; }
     int impacts() const { return impacts_; }
 
+    /// As seen from the side of the current arc.
+    const Block<T>& block() const { return block_; }
+
     /// The time at which the arc ends with an impact or with the block flat; infinite if never.
-    T impact_time() const { return begin_ + arc_.time_to_impact(); }
-    T fall_time() const { return begin_ + arc_.time_to_fall(); }
+    T impact_time() const { return begin_ + arc_.time_to_impact() / block_.pace; }
+    T fall_time() const { return begin_ + arc_.time_to_fall() / block_.pace; }
+
+    /// The state of the arc at this time.
+    State<T> at(const T& time) const
+    {
+        const T since = (time - begin_) * block_.pace;
+        return arc_.at(since > 0 ? since : T(0));
+    }
 
     /// Advances to the arc after the impact, which must exist (Eqs. 40, 41).
     void strike()
     {
-        using std::sqrt;
+        using Q = MoreExact<T>;
         begin_ = impact_time();
         ++impacts_;
-        const T r = restitution_(impacts_, arc_.side());
         const State<T> upright{
-            .tilt = T(0), .rate = sqrt(r) * arc_.impact_speed(), .side = -arc_.side()};
-        // q_max - q is multiplied by r.
-        const MoreExact<T> at_rest = conserved_q<theory>({T(0), T(0), T(1)}, slenderness_);
-        q_ = at_rest * (1 - MoreExact<T>(r)) + MoreExact<T>(r) * q_;
-        arc_ = RockingArc<theory, T>(upright, slenderness_, T(q_));
+            .tilt = T(0), .rate = block_.rate_ratio() * arc_.impact_speed(), .side = -arc_.side()};
+        const State<T> at_rest{T(0), T(0), T(1)};
+        q_ = q_after_impact<Q>(q_, conserved_q<theory>(at_rest, block_.slenderness),
+                               conserved_q<theory>(at_rest, block_.other.slenderness),
+                               kept_by_impact<Q>(block_));
+        block_ = block_.turned();
+        arc_ = RockingArc<theory, T>(upright, block_.slenderness, T(q_));
     }
 
 private:
-    T slenderness_;
-    Restitution restitution_;
+    Block<T> block_;
     T begin_;
     int impacts_ = 0;
     MoreExact<T> q_;
     RockingArc<theory, T> arc_;
 };
 
-/// The largest tilt of a block that does not fall, from this state on [rad]: that of its next turn,
-/// before or after an impact. Every later turn is lower.
+/// q_max of the sides of a block.
+template <Theory theory, Number T>
+T q_max_of(const T& slenderness)
+{
+    const T largest = separatrix_rate<theory>(T(0), slenderness);
+    return largest * largest;
+}
+
+/// q0 after an impact on this side, in T.
+template <Theory theory, Number T>
+T q_after_impact_of(const Block<T>& block, const T& q)
+{
+    return q_after_impact<T>(q, q_max_of<theory>(block.slenderness),
+                             q_max_of<theory>(block.other.slenderness), kept_by_impact<T>(block));
+}
+
+/// The largest tilt of a block that does not fall, over alpha of its side, from this state on: that
+/// of its next two turns, before or after an impact. Every later turn is lower.
 template <Theory theory, Number T>
 T largest_free_tilt(const State<T>& state, const Block<T>& block)
 {
@@ -104,35 +138,48 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
     if (state.tilt == 0 && state.rate == 0) {
         return T(0); // without the rounding errors of the formulas below
     }
+    const auto turn = [](const T& slenderness, const T& q) -> T {
+        const T distance = q > 0 ? T(sqrt(q)) : T(0); // from the top, at the turn
+        const T top = theory == Theory::linear ? distance : T(2 * asin(distance / 2));
+        return lesser<T>(greater<T>(slenderness - top, T(0)), slenderness) / slenderness;
+    };
     const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
-    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
     const T q = (c - state.rate) * (c + state.rate);
-    const T r = block.restitution;
-    const T q_at_turn = state.rate > 0 ? q : T(largest * largest * (1 - r) + r * q);
-    const T distance = q_at_turn > 0 ? T(sqrt(q_at_turn)) : T(0); // from the top, at the turn
-    const T top = theory == Theory::linear ? distance : T(2 * asin(distance / 2));
-    return lesser<T>(greater<T>(block.slenderness - top, T(0)), block.slenderness);
+    if (state.rate > 0 && block.is_symmetric()) {
+        return turn(block.slenderness, q);
+    }
+    const T q_on_other = q_after_impact_of<theory>(block, q);
+    const T on_other = turn(block.other.slenderness, q_on_other);
+    if (block.is_symmetric()) {
+        return on_other;
+    }
+    const T next =
+        state.rate > 0 ? q : q_after_impact_of<theory>(block.turned(), q_on_other); // on this side
+    return greater<T>(on_other, turn(block.slenderness, next));
 }
 
-/// The time from this state until a block that overturns lies flat, |theta| = pi/2 [1/p]. Infinite
-/// if the state cannot be distinguished from the boundary in T.
+/// The time from this state until a block that overturns lies flat, |theta| = pi/2, in the unit of
+/// FreeRocking. Infinite if the state cannot be distinguished from the boundary in T.
 template <Theory theory, Number T>
 T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 {
-    using std::sqrt;
+    constexpr int most_impacts = 2; // see safe_rates()
     const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
-    const T q = (c - state.rate) * (c + state.rate);
-    const RockingArc<theory, T> arc(state, block.slenderness, q);
-    const T never = std::numeric_limits<T>::infinity();
-    const T impact = arc.time_to_impact();
-    if (impact == never) {
-        return arc.time_to_fall();
+    T q = (c - state.rate) * (c + state.rate);
+    State<T> begin = state;
+    Block<T> on = block;
+    T time(0);
+    for (int impacts = 0;; ++impacts) {
+        const RockingArc<theory, T> arc(begin, on.slenderness, q);
+        const T impact = arc.time_to_impact();
+        if (impact == std::numeric_limits<T>::infinity() || impacts == most_impacts) {
+            return time + arc.time_to_fall() / on.pace;
+        }
+        time += impact / on.pace;
+        begin = {.tilt = T(0), .rate = on.rate_ratio() * arc.impact_speed(), .side = -begin.side};
+        q = q_after_impact_of<theory>(on, q);
+        on = on.turned();
     }
-    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
-    const T r = block.restitution;
-    const State<T> upright{.tilt = T(0), .rate = sqrt(r) * arc.impact_speed(), .side = -state.side};
-    const T q_after = largest * largest * (1 - r) + r * q;
-    return impact + RockingArc<theory, T>(upright, block.slenderness, q_after).time_to_fall();
 }
 
 /// The duration of rocking of a block that leaves the ground at the rate v, and after each arc at
@@ -207,46 +254,95 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
     return 2 * integral / -log(block.restitution) + half_period(v, T(0)) / 2;
 }
 
-/// The time at which a block comes to rest [1/p]; infinite if it falls, stays on its edge forever,
-/// or rocks forever without energy loss.
+/// q of a block at rest, from conserved_q().
+template <Theory theory, Number T>
+T q_at_rest(const T& slenderness)
+{
+    return T(conserved_q<theory>(State<T>{T(0), T(0), T(1)}, slenderness));
+}
+
+/// A block that leaves the ground, with q accurate as in RockingArc.
+template <Number T>
+struct Leaving {
+    T rate;
+    T q;
+    Block<T> block;
+
+    /// The next one.
+    template <Theory theory>
+    Leaving after_impact() const
+    {
+        return {rate * block.rate_ratio(),
+                q_after_impact<T>(q, q_at_rest<theory>(block.slenderness),
+                                  q_at_rest<theory>(block.other.slenderness),
+                                  kept_by_impact<T>(block)),
+                block.turned()};
+    }
+};
+
+/// The duration of all flights, in the unit of FreeRocking. sum(leaving): that of a symmetric
+/// block. On each of two different sides, the rate falls by r from one flight to the next, as that
+/// of a symmetric block with the restitution r^2.
+template <Theory theory, Number T, class Sum>
+T sum_on_both_sides(const Leaving<T>& leaving, const Sum& sum)
+{
+    const Block<T>& block = leaving.block;
+    if (block.is_symmetric()) {
+        return sum(leaving) / block.pace;
+    }
+    const auto on_one = [&](const Leaving<T>& one) -> T {
+        const Block<T> symmetric{one.block.slenderness, block.restitution * block.restitution};
+        return sum(Leaving<T>{one.rate, one.q, symmetric}) / one.block.pace;
+    };
+    return on_one(leaving) + on_one(leaving.template after_impact<theory>());
+}
+
+/// The time at which a block comes to rest, in the unit of FreeRocking; infinite if it falls, stays
+/// on its edge forever, or rocks forever without energy loss.
 template <Theory theory, Number T>
 T time_of_rest(const State<T>& begin, const Block<T>& block)
 {
     using std::isinf;
-    using std::sqrt;
     const T never = std::numeric_limits<T>::infinity();
     const T r = block.restitution;
-    FreeRocking<theory, T> rocking(begin, block.slenderness, ConstantRestitution<T>{r});
-    if (isinf(rocking.impact_time())) {
-        return never;
+    FreeRocking<theory, T> rocking(begin, block);
+    // A block with two different sides may overturn after two impacts.
+    for (int impacts = block.is_symmetric() ? 1 : 2; impacts > 0; --impacts) {
+        if (isinf(rocking.impact_time())) {
+            return never;
+        }
+        rocking.strike();
     }
-    rocking.strike();
     T time = rocking.begin();
-    T rate = rocking.arc().at(T(0)).rate;
-    T q = rocking.arc().q();
-    if (rate == 0) {
+    Leaving<T> leaving{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block()};
+    if (leaving.rate == 0) {
         return time;
     }
-    if (!(q > 0) || !(r < 1)) {
+    if (!(leaving.q > 0) || !(r < 1)) {
         return never;
     }
     // Each bounce that is followed individually shortens the series. About as many are followed as
     // terms remain, so the work is proportional to 1 / sqrt(1 - r). If that is too much, r is so
     // close to 1 that the sum is an integral over the rate, whose logarithm decreases by half of
     // -log r per bounce.
-    const T at_rest(conserved_q<theory>({T(0), T(0), T(1)}, block.slenderness));
     const int digits = std::numeric_limits<T>::digits;
     constexpr int most_bounces = 200'000;
-    for (int bounces = 0; digits * at_rest > bounces * q; ++bounces) {
+    for (int bounces = 0;
+         digits * q_at_rest<theory>(leaving.block.slenderness) > bounces * leaving.q; ++bounces) {
         if (bounces == most_bounces) {
-            return time + integral_of_half_periods<theory>(rate, q, block);
+            return time + sum_on_both_sides<theory>(leaving, [](const Leaving<T>& one) -> T {
+                       return integral_of_half_periods<theory>(one.rate, one.q, one.block);
+                   });
         }
-        const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
-        time += RockingArc<theory, T>(upright, block.slenderness, q).time_to_impact();
-        rate *= sqrt(r);
-        q = at_rest * (1 - r) + r * q;
+        const State<T> upright{.tilt = T(0), .rate = leaving.rate, .side = T(1)};
+        const RockingArc<theory, T> arc(upright, leaving.block.slenderness, leaving.q);
+        time += arc.time_to_impact() / leaving.block.pace;
+        leaving = leaving.template after_impact<theory>();
     }
-    return time + sum_of_half_periods<theory>(rate, block.slenderness, r);
+    return time + sum_on_both_sides<theory>(leaving, [](const Leaving<T>& one) -> T {
+               return sum_of_half_periods<theory>(one.rate, one.block.slenderness,
+                                                  one.block.restitution);
+           });
 }
 
 } // namespace overturn

@@ -15,7 +15,7 @@
 
 namespace overturn {
 
-/// Upper bounds at the end of a pulse.
+/// Upper bounds at the end of a pulse, of the block on either side.
 struct LowBounces {
     double tilt; ///< of |theta| [rad]
     double rate; ///< of |theta'| [rad]
@@ -27,12 +27,13 @@ struct PullsInStep {
     std::array<double, 2> rise;    ///< the largest increase of the pull
 };
 
-/// A step of bound_of_low_bounces(), in the letters of its equations.
+/// A step of bound_of_low_bounces() on one side, in the letters of its equations.
 struct LowBounceStep {
     double duration; ///< [1/p]
     double highest;  ///< the tilt above which there is no bound [rad]
     double k;
     double tangent; ///< tan(alpha)
+    double size;    ///< R
     double growth = duration < 1 ? k * duration * duration : 1;
 
     /// The largest tilt of a flight of the energy e under the pull g.
@@ -42,53 +43,61 @@ struct LowBounceStep {
         return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
     }
 
-    struct Bounds {
-        double energy;
-        double tilt;
-    };
+    /// The largest tilt at the end of a step of a flight of the energy e that begins at `tilt`: it
+    /// increases by the duration of the step times the bound of x' at the increased x, which is the
+    /// larger root of a quadratic equation.
+    double tilt_after(double e, double tilt, double lifting) const
+    {
+        const double linear = tilt + lifting * duration * duration;
+        const double constant = tilt * tilt - 2 * e * duration * duration;
+        return (linear + std::sqrt(std::max(0.0, linear * linear - (1 - growth) * constant))) /
+               (1 - growth);
+    }
+};
+
+/// The bounds of a block after some steps.
+struct LowBounceBounds {
+    double energy; ///< R e
+    double tilt;
 
     /// An energy that is not exceeded by the growth computed from it, and its largest tilt.
-    std::optional<Bounds> after(const Bounds& before, const PullsInStep& pulls,
-                                double lifting) const
+    std::optional<LowBounceBounds> after(const std::array<LowBounceStep, 2>& sides,
+                                         const PullsInStep& pulls, double lifting) const
     {
-        const auto& [energy, tilt] = before;
-        // x increases by the duration of the step times the bound of x' at the increased x, which
-        // is the larger root of a quadratic equation.
-        const auto after_step = [&, tilt = tilt](double e) -> double {
-            const double linear = tilt + lifting * duration * duration;
-            const double constant = tilt * tilt - 2 * e * duration * duration;
-            return (linear + std::sqrt(std::max(0.0, linear * linear - (1 - growth) * constant))) /
-                   (1 - growth);
-        };
         for (double guess = energy + std::numeric_limits<double>::min();; guess *= 1.01) {
-            const double anywhere = after_step(guess);
             double bound = energy;
             double higher = 0;
             for (const std::size_t i : {0, 1}) {
-                const double here = std::min(anywhere, height(guess, pulls.weakest[i]));
+                const LowBounceStep& side = sides[i];
+                const double e = guess / side.size;
+                const double here =
+                    std::min(side.tilt_after(e, tilt, lifting), side.height(e, pulls.weakest[i]));
+                if (here > side.highest) {
+                    return std::nullopt;
+                }
                 higher = std::max(higher, here);
-                bound = std::max(bound, energy + pulls.rise[i] * here * (1 + here * tangent));
-            }
-            if (higher > highest) {
-                return std::nullopt;
+                bound = std::max(bound, energy + side.size * pulls.rise[i] * here *
+                                                     (1 + here * side.tangent));
             }
             if (bound <= guess) {
-                return Bounds{bound, higher};
+                return LowBounceBounds{bound, higher};
             }
             guess = bound;
         }
     }
 };
 
-/// Bounds for any restitution up to 1; none unless the tilt is at most a quarter of alpha.
+/// Bounds for any restitution up to 1; none unless the tilt is at most a quarter of alpha. block:
+/// as seen from its side plus.
 ///
 /// With the pull towards the ground on one side, g(t, x) = sin(alpha - x) +- A(t) cos(alpha - x) at
 /// the tilt x (alpha - x +- A(t) in the linear theory), the energy of a flight is
 ///
 ///     e = x'^2 / 2 + int_0^x g(t, s) ds,    de/dt <= max(0, dg(t, 0)/dt) x (1 + x tan(alpha))
 ///
-/// Impacts do not increase e, so one bound E is valid for all flights. g(t, x) >= g(t, 0) - k x
-/// with k = sqrt(1 + A^2) (1 in the linear theory) gives bounds of x and x':
+/// Impacts do not increase R e, so one bound of it is valid for all flights, with R = 1 if the
+/// block is symmetric; E is the bound of e on one side. g(t, x) >= g(t, 0) - k x with k = sqrt(1 +
+/// A^2) (1 in the linear theory) gives bounds of x and x':
 ///
 ///     |x'|^2 <= 2 E + 2 max(0, -g) x + k x^2,     and where g > 0    g x - k x^2 / 2 <= E.
 ///
@@ -98,71 +107,80 @@ struct LowBounceStep {
 /// step: of the phase; between: the most by which the ground acceleration exceeds its values at the
 /// ends of a step within a smooth piece.
 template <Theory theory>
-std::optional<LowBounces> bound_of_low_bounces(double slenderness, const auto& excitation,
+std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const auto& excitation,
                                                double step, double between)
 {
     const double most = excitation.largest_acceleration();
-    const LowBounceStep limits{.duration = step / excitation.frequency,
-                               .highest = slenderness / 4,
-                               .k = theory == Theory::linear ? 1 : std::hypot(1, most),
-                               .tangent = theory == Theory::linear ? 0 : std::tan(slenderness)};
-    if (most > 2 * uplift_acceleration<theory>(slenderness) || limits.growth > 0.01) {
-        return std::nullopt; // the push is too strong, or the step too long
+    const std::array<Block<double>, 2> seen{block, block.turned()};
+    const bool is_symmetric = block.is_symmetric();
+    const auto step_on = [&](const Block<double>& side) -> LowBounceStep {
+        const double frequency = excitation.frequency / (is_symmetric ? 1 : side.pace);
+        return {.duration = step / frequency,
+                .highest = side.slenderness / 4,
+                .k = theory == Theory::linear ? 1 : std::hypot(1, most),
+                .tangent = theory == Theory::linear ? 0 : std::tan(side.slenderness),
+                .size = side.size};
+    };
+    const std::array<LowBounceStep, 2> sides{step_on(seen[0]), step_on(seen[1])};
+    for (const std::size_t i : {0, 1}) {
+        if (most > 2 * uplift_acceleration<theory>(seen[i].slenderness) || sides[i].growth > 0.01) {
+            return std::nullopt; // the push is too strong, or the step too long
+        }
     }
 
-    const auto pull = [&](double phase, double side) -> double {
-        const double push = side * horizontal_of(excitation.ground(phase));
-        return -rocking_acceleration<theory>(0.0, slenderness, push);
+    const auto pull = [&](double phase, std::size_t i) -> double {
+        const double push = (i == 0 ? 1 : -1) * horizontal_of(excitation.ground(phase));
+        return -rocking_acceleration<theory>(0.0, seen[i].slenderness, push);
     };
     const auto& motion = excitation.motion;
     double phase =
         excitation.next_uplift(true, motion.begin, -std::numeric_limits<double>::infinity());
-    LowBounceStep::Bounds bounds{0, 0};
+    LowBounceBounds bounds{0, 0};
     double rate = 0;
     while (phase < motion.end) {
         const double next = std::min(phase + step, motion.end_of_piece(phase));
         PullsInStep pulls;
         for (const std::size_t i : {0, 1}) {
-            const double side = i == 0 ? 1 : -1;
-            const double first = pull(phase, side);
-            const double last = pull(next, side);
+            const double first = pull(phase, i);
+            const double last = pull(next, i);
             pulls.weakest[i] = std::min(first, last) - between;
             pulls.rise[i] = std::max(0.0, last - first) + 2 * between;
         }
         const double lifting = std::max(0.0, -std::min(pulls.weakest[0], pulls.weakest[1]));
-        const auto after = limits.after(bounds, pulls, lifting);
+        const auto after = bounds.after(sides, pulls, lifting);
         if (!after) {
             return std::nullopt;
         }
         bounds = *after;
         const double tilt = bounds.tilt;
-        rate = std::sqrt(2 * bounds.energy + 2 * lifting * tilt + limits.k * tilt * tilt);
+        const double energy = bounds.energy / std::min(sides[0].size, sides[1].size);
+        rate = std::sqrt(2 * energy + 2 * lifting * tilt + sides[0].k * tilt * tilt);
         phase = next;
     }
     return LowBounces{bounds.tilt, rate};
 }
 
 template <Theory theory>
-std::optional<LowBounces> bound_of_low_bounces(double slenderness,
+std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block,
                                                const PulseExcitation<double>& excitation)
 {
     constexpr double step = std::numbers::pi / (1 << 12);
     const double between =
         excitation.motion.largest_curvature() / 8 * step * step * excitation.largest_acceleration();
-    return bound_of_low_bounces<theory>(slenderness, excitation, step, between);
+    return bound_of_low_bounces<theory>(block, excitation, step, between);
 }
 
 /// None with a vertical motion.
 template <Theory theory>
 std::optional<LowBounces>
-bound_of_low_bounces(double slenderness,
+bound_of_low_bounces(const Block<double>& block,
                      const RecordExcitation<double, Directions::both>& excitation)
 {
     if (!excitation.motion.record->upwards().empty()) {
         return std::nullopt;
     }
     constexpr double step = 0.125; // [samples]
-    return bound_of_low_bounces<theory>(slenderness, excitation, step, 0.0);
+    return bound_of_low_bounces<theory>(block, excitation, step, 0.0);
 }
 
 } // namespace overturn

@@ -52,16 +52,44 @@ struct PulseExcitation {
     }
 };
 
-/// The excitation of a block of this slenderness [rad]. amplitude: a = a_p / (g tan alpha), linear
-/// theory a_p / (g alpha) [1]; frequency: Omega [1].
+/// A pulse at one amplitude, as it excites blocks with the same slenderness on each side.
+template <class S>
+struct ScaledPulse {
+    S acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
+    PerLobe<S> uplifts; ///< [rad]
+};
+
+/// slenderness: of the sides plus and minus [rad]. amplitude: a = a_p / (g tan alpha), linear
+/// theory a_p / (g alpha) [1], with the smaller alpha; negative: the mirrored pulse.
 template <Theory theory, class S>
-PulseExcitation<S> pulse_excitation(const PulseMotion<S>& motion, const S& slenderness,
+ScaledPulse<S> scaled_pulse(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
+                            const S& plus, const S& minus, const S& amplitude)
+{
+    using std::abs;
+    const S least = uplift_acceleration<theory>(plus < minus ? plus : minus);
+    const S acceleration = amplitude * least;
+    const auto over_uplift = [&](const S& alpha, const S& other) -> S {
+        return alpha > other ? S(abs(acceleration) / uplift_acceleration<theory>(alpha))
+                             : S(abs(amplitude));
+    };
+    const S to_plus = over_uplift(plus, minus);
+    const S to_minus = over_uplift(minus, plus);
+    // A positive acceleration of the ground pushes the block towards minus.
+    const bool is_mirrored = amplitude < 0;
+    return {acceleration,
+            uplift_phases(motion, flanks,
+                          {is_mirrored ? to_plus : to_minus, is_mirrored ? to_minus : to_plus})};
+}
+
+/// The excitation of a block, as seen from its side plus. amplitude: see scaled_pulse(); frequency:
+/// Omega, omega_p in the unit of Block::pace [1].
+template <Theory theory, class S>
+PulseExcitation<S> pulse_excitation(const PulseMotion<S>& motion, const Block<S>& block,
                                     const S& amplitude, const S& frequency)
 {
-    return {.motion = motion,
-            .acceleration = amplitude * uplift_acceleration<theory>(slenderness),
-            .frequency = frequency,
-            .uplifts = uplift_phases(motion, amplitude)};
+    const ScaledPulse<S> scaled = scaled_pulse<theory>(motion, flanks_of(motion), block.slenderness,
+                                                       block.other.slenderness, amplitude);
+    return {motion, scaled.acceleration, frequency, scaled.uplifts};
 }
 
 } // namespace overturn

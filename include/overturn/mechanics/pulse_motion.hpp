@@ -208,14 +208,23 @@ PulseMotion<S> pulse_motion(PulseKind pulse, const PulseShape& shape = {})
     return motion;
 }
 
+/// The amplitudes of the lobes in which f is positive and negative, over the acceleration that
+/// lifts the block on the side to which such a lobe pushes it [1]. Equal if the block is symmetric.
+template <class S>
+struct LobeAmplitudes {
+    S positive;
+    S negative;
+};
+
 /// uplift_phases() of a ModulatedSine, which is monotone between two peaks.
 template <class S>
-PerLobe<S> uplift_phases_by_peaks(const PulseMotion<S>& motion, const S& amplitude)
+PerLobe<S> uplift_phases_by_peaks(const PulseMotion<S>& motion, const LobeAmplitudes<S>& amplitudes)
 {
     PerLobe<S> result;
     S from = motion.begin;
     for (const S& peak : motion.peaks) {
-        const S towards_peak = motion.sine.value(peak) < 0 ? S(-amplitude) : amplitude;
+        const S towards_peak =
+            motion.sine.value(peak) < 0 ? S(-amplitudes.negative) : amplitudes.positive;
         const auto excess = [&](const S& phase) -> S {
             return towards_peak * motion.sine.value(phase) - 1;
         };
@@ -232,8 +241,9 @@ PerLobe<S> uplift_phases_by_peaks(const PulseMotion<S>& motion, const S& amplitu
 template <class S>
 struct FlankInPulse {
     Flank<S> flank;
-    S foot_height = S(0); ///< [1]
-    S peak_height = S(0); ///< 0 if the flank is outside the pulse [1]
+    S foot_height = S(0);     ///< [1]
+    S peak_height = S(0);     ///< 0 if the flank is outside the pulse [1]
+    bool is_negative = false; ///< the sign of f at the peak
 };
 
 /// The flanks of a pulse; none of a ModulatedSine.
@@ -257,6 +267,7 @@ PerLobe<FlankInPulse<S>> flanks_of(const PulseMotion<S>& motion)
             if (part.flank.foot <= part.flank.peak) {
                 part.foot_height = abs(Pulse::value(part.flank.foot));
                 part.peak_height = abs(Pulse::value(part.flank.peak));
+                part.is_negative = Pulse::value(part.flank.peak) < 0;
             }
             result.push_back(part);
         }
@@ -265,16 +276,38 @@ PerLobe<FlankInPulse<S>> flanks_of(const PulseMotion<S>& motion)
     return with_pulse(motion.pulse, within_pulse, [] { return PerLobe<FlankInPulse<S>>(); });
 }
 
+/// The largest values of f and of -f; 0 if they are not positive [1].
+template <class S>
+LobeAmplitudes<S> largest_lobes(const PulseMotion<S>& motion)
+{
+    LobeAmplitudes<S> largest{S(0), S(0)};
+    const auto note = [&](bool is_negative, const S& height) {
+        S& most = is_negative ? largest.negative : largest.positive;
+        most = height > most ? height : most;
+    };
+    for (const FlankInPulse<S>& part : flanks_of(motion)) {
+        note(part.is_negative, part.peak_height);
+    }
+    if (motion.form == PulseForm::modulated) {
+        for (const S& peak : motion.peaks) {
+            const S value = motion.sine.value(peak);
+            note(value < 0, value < 0 ? S(-value) : value);
+        }
+    }
+    return largest;
+}
+
 /// For each lobe of the pulse, the first phase [rad] at which amplitude * |f| exceeds 1 and a block
 /// at rest is lifted; infinite if the lobe stays below, is outside the window, or does not exist.
-/// flanks: flanks_of(motion); amplitude [1].
+/// flanks: flanks_of(motion).
 template <class S>
 PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
-                         const S& amplitude)
+                         const LobeAmplitudes<S>& amplitudes)
 {
     const auto by_flanks = [&]<class Pulse>() {
         PerLobe<S> result;
-        for (const auto& [flank, foot_height, peak_height] : flanks) {
+        for (const auto& [flank, foot_height, peak_height, is_negative] : flanks) {
+            const S& amplitude = is_negative ? amplitudes.negative : amplitudes.positive;
             result.push_back(!(amplitude * peak_height > 1) ? std::numeric_limits<S>::infinity()
                              : amplitude * foot_height > 1
                                  ? flank.foot
@@ -283,12 +316,12 @@ PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const PerLobe<FlankInPuls
         return result;
     };
     return with_pulse(motion.pulse, by_flanks,
-                      [&] { return uplift_phases_by_peaks(motion, amplitude); });
+                      [&] { return uplift_phases_by_peaks(motion, amplitudes); });
 }
 template <class S>
 PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const S& amplitude)
 {
-    return uplift_phases(motion, flanks_of(motion), amplitude);
+    return uplift_phases(motion, flanks_of(motion), {amplitude, amplitude});
 }
 
 } // namespace overturn

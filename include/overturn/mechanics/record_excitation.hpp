@@ -66,7 +66,8 @@ struct RecordExcitation {
     RecordMotion<S> motion;
     T acceleration; ///< the factor on the record [1]; negative: mirrored. Named as that of a pulse
     T frequency;    ///< samples per time unit 1/p: 1 / (p time_step) [1]
-    T threshold;    ///< uplift_acceleration() of the block [1]
+    T to_plus;      ///< uplift_acceleration() of the sides of the block [1]
+    T to_minus;
 
     /// What the ground does at this phase: T, or Ground<T> with a vertical motion.
     auto ground(const T& phase) const
@@ -120,14 +121,16 @@ struct RecordExcitation {
         const T scale = abs(acceleration);
         const auto resting = lanes_of(select<T>(lanes, one, zero));
         const auto first = lanes_of(T(ceil(phase)));
-        const auto scales = lanes_of(scale);
-        const auto thresholds = lanes_of(threshold);
+        const auto factors = lanes_of(acceleration);
+        const auto plus = lanes_of(to_plus);
+        const auto minus = lanes_of(to_minus);
         std::array<S, lanes_v<T>> lifting;
         for (std::size_t i = 0; i < lifting.size(); ++i) {
             lifting[i] = motion.end + S(1);
             if (resting[i] != 0) {
-                lifting[i] = S(motion.record->first_lifting(
-                    std::int64_t(first[i]), double(scales[i]), double(thresholds[i])));
+                lifting[i] =
+                    S(motion.record->first_lifting(std::int64_t(first[i]), double(factors[i]),
+                                                   {double(plus[i]), double(minus[i])}));
             }
         }
         const T sample = load<T>(lifting.data());
@@ -137,6 +140,8 @@ struct RecordExcitation {
         const T there = select<T>(lifts, sample, one);
         const T peak = gathered<T>(motion.record->horizontal().data(), there);
         const T towards = select<T>(peak < zero, -scale, scale);
+        // A positive acceleration of the ground pushes the block towards minus.
+        const T threshold = select<T>(peak * acceleration < zero, to_plus, to_minus);
         const auto excess = [&](const T& number) -> T {
             T needed = threshold;
             if constexpr (directions == Directions::both) {
@@ -162,17 +167,18 @@ struct RecordExcitation {
     }
 };
 
-/// The excitation of a block of this slenderness [rad] by a record, for any scalar. scale: the
-/// factor on the record [1]; frequency: samples per time unit 1/p [1].
+/// The excitation of a block, as seen from its side plus, by a record, for any scalar. scale: the
+/// factor on the record [1]; frequency: samples per time unit, that of Block::pace [1].
 template <Theory theory, class S>
 RecordExcitation<S, Directions::both> record_excitation(const Accelerogram& record,
-                                                        const S& slenderness, const S& scale,
+                                                        const Block<S>& block, const S& scale,
                                                         const S& frequency)
 {
     return {.motion = record_motion<S>(record),
             .acceleration = scale,
             .frequency = frequency,
-            .threshold = uplift_acceleration<theory>(slenderness)};
+            .to_plus = uplift_acceleration<theory>(block.slenderness),
+            .to_minus = uplift_acceleration<theory>(block.other.slenderness)};
 }
 
 } // namespace overturn

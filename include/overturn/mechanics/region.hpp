@@ -8,7 +8,8 @@
 
 namespace overturn {
 
-/// The regions of a spectrum; F+ and F- are the paper's "failure during the forced stage".
+/// The regions of a spectrum; F+ and F- are the paper's "failure during the forced stage". U2+ and
+/// U2-, the side after two impacts, exist only for blocks with two different sides.
 enum class Region : std::uint8_t {
     S = 0,
     S_plus = 1,
@@ -19,13 +20,15 @@ enum class Region : std::uint8_t {
     U1_minus = 6,
     F_plus = 7,
     F_minus = 8,
+    U2_plus = 9,
+    U2_minus = 10,
     undecided = 254,
     not_computed = 255
 };
 
 /// Names in result files, in the order of the codes.
-inline constexpr std::array<std::string_view, 9> region_names{"S",   "S+",  "S-", "U0+", "U0-",
-                                                              "U1+", "U1-", "F+", "F-"};
+inline constexpr std::array<std::string_view, 11> region_names{
+    "S", "S+", "S-", "U0+", "U0-", "U1+", "U1-", "F+", "F-", "U2+", "U2-"};
 
 constexpr std::string_view name_of(Region region)
 {
@@ -41,7 +44,14 @@ constexpr bool is_safe(Region region)
 }
 constexpr bool is_unsafe(Region region)
 {
-    return region >= Region::U0_plus && region <= Region::F_minus;
+    return region >= Region::U0_plus && region <= Region::U2_minus;
+}
+
+/// Whether the block overturns to its positive side.
+constexpr bool falls_to_plus(Region region)
+{
+    return region == Region::U0_plus || region == Region::U1_plus || region == Region::F_plus ||
+           region == Region::U2_plus;
 }
 
 } // namespace overturn

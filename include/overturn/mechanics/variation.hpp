@@ -91,18 +91,20 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
 }
 
 /// The variation over an impact at the speed w: a block whose tilt is larger by d strikes later by
-/// d / w, with a different acceleration until then. a, b: d^2|theta| / d tau^2 before and after.
+/// d / w, with a different acceleration until then. a, b: d^2|theta| / d tau^2 before and after; f:
+/// Block::rate_ratio(); k: p after over p before, because tau = p t. For a symmetric block f is
+/// sqrt(r), and k is 1.
 ///
-///     tilt+ = -sqrt(r) tilt-,   rate+ = -sqrt(r) rate- - (sqrt(r) a + b) tilt- / w
+///     tilt+ = -k f tilt-,   rate+ = -f rate- - (f a + k b) tilt- / w
 template <Number T>
-Variation<T> variation_over_impact(const T& sqrt_restitution, const T& speed, const T& before,
-                                   const T& after)
+Variation<T> variation_over_impact(const T& rate_ratio, const T& pace, const T& speed,
+                                   const T& before, const T& after)
 {
     using arithmetic::fma;
-    return {.tilt_by_tilt = -sqrt_restitution,
+    return {.tilt_by_tilt = -(pace * rate_ratio),
             .tilt_by_rate = T(scalar_t<T>(0)),
-            .rate_by_tilt = -fma(sqrt_restitution, before, after) / speed,
-            .rate_by_rate = -sqrt_restitution};
+            .rate_by_tilt = -fma(rate_ratio, before, pace * after) / speed,
+            .rate_by_rate = -rate_ratio};
 }
 
 } // namespace overturn

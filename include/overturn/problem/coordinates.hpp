@@ -38,9 +38,21 @@ double lifting_pga(const Scene& scene, const Point& point);
 
 /// The coordinates that result files store in addition to those given in the job, if they follow
 /// from these.
-inline constexpr std::array<std::string_view, 9> derived_coordinates{
-    "slenderness", "size", "frequency_parameter", "restitution", "amplitude",
-    "scale",       "pga",  "frequency",           "pulse_period"};
+inline constexpr std::array<std::string_view, 15> derived_coordinates{"slenderness",
+                                                                      "size",
+                                                                      "slenderness_plus",
+                                                                      "slenderness_minus",
+                                                                      "size_plus",
+                                                                      "size_minus",
+                                                                      "frequency_parameter",
+                                                                      "frequency_parameter_minus",
+                                                                      "largest_restitution",
+                                                                      "restitution",
+                                                                      "amplitude",
+                                                                      "scale",
+                                                                      "pga",
+                                                                      "frequency",
+                                                                      "pulse_period"};
 
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
@@ -66,6 +78,7 @@ public:
     /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
     ///   record_pga        the peak of the record over g, not scaled [1]
     ///   samples_per_unit  samples of the record per time unit 1/p [1]
+    ///   moment_kept       J / m of a block with two different sides [m2]
     const CoordinateValues& of(std::string_view name) const;
 
     /// All points of the box, row by row.

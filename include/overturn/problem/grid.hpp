@@ -54,6 +54,9 @@ struct Grid {
     /// The first quantity of this role, other than a column of a table; nullptr if there is none.
     const Column* axis_or_number(Role role) const;
 
+    /// Whether blocks are described by quantities of two different sides; they may be equal.
+    bool has_two_sides() const;
+
     /// The rows of a table; nullptr if there are none.
     const Dimension* table() const;
 };

@@ -4,18 +4,21 @@
 
 #include <cmath>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace overturn {
 
 /// What a quantity describes.
 enum class Role {
-    motion,   ///< which record
-    block,    ///< shape and size of the block
-    loss,     ///< of energy at an impact
-    strength, ///< of the motion
-    rate,     ///< of a pulse
-    setting   ///< of the pulse or of the computation; the same at all points
+    motion,    ///< which record
+    direction, ///< of the motion
+    block,     ///< shape and size of the block
+    loss,      ///< of energy at an impact
+    strength,  ///< of the motion
+    rate,      ///< of a pulse
+    derived,   ///< of the block; follows from the others and is not given
+    setting    ///< of the pulse or of the computation; the same at all points
 };
 
 /// A quantity as it is named in job files, tables and result files.
@@ -29,7 +32,10 @@ struct Quantity {
     std::string_view reason;    ///< for the interval
 
     bool allows(double value) const { return !std::isnan(value) && is_inside(value); }
-    bool is_coordinate() const { return role != Role::setting; }
+    bool is_coordinate() const { return role != Role::derived && role != Role::setting; }
+
+    /// Why a value that is not allowed is refused, as a text that follows the name.
+    std::string refusal_of(double value) const;
 };
 
 /// All quantities. Axes have the order of their quantities, slowest first.
@@ -43,6 +49,9 @@ const Quantity& quantity(std::string_view name);
 
 /// Whether the two are equal, or one follows from the other.
 bool are_equivalent(std::string_view one, std::string_view other);
+
+/// Whether only blocks with two different sides are described by this quantity.
+bool describes_two_sides(std::string_view name);
 
 /// Whether a point is described by at most one of these two quantities: they are
 /// equivalent, or describe a block in different ways.

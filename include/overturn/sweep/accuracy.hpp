@@ -20,7 +20,7 @@ inline constexpr std::array<double, 5> error_quantiles{0.5, 0.9, 0.99, 0.999, 1}
 inline constexpr std::array<double, 6> distance_limits{
     1e-8, 1e-6, 1e-4, 1e-2, 1, std::numeric_limits<double>::infinity()};
 
-inline constexpr std::size_t decided_regions = 9; ///< S to F-
+inline constexpr std::size_t decided_regions = region_names.size();
 
 using ErrorDistribution = std::array<double, error_quantiles.size()>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
 #include "overturn/problem/tile.hpp"
 #include "overturn/sweep/kernel.hpp"
@@ -50,13 +51,10 @@ inline FlipSearch flip_search(const Scene& scene)
                                : FlipSearch{.finest_step = 1e-6, .flip_width = 1e-12};
 }
 
-/// One line through a plane: all coordinates except the amplitude.
+/// One line through a plane.
 struct BoundaryLine {
-    double slenderness; ///< [rad]
-    double restitution; ///< r [1]
-    double frequency;   ///< see Point
-    int record = 0;     ///< see Point
-    double unit = 1;    ///< the strength at Point::amplitude = 1
+    Point point;     ///< its amplitude is not used
+    double unit = 1; ///< the strength at the amplitude 1; negative: the mirrored motion
 };
 
 /// A part of a line that was searched in steps wider than the finest ones, although the margins
@@ -81,14 +79,15 @@ struct Boundary {
 
 /// The lowest flips, at most `most_flips`, between the first and the last of these ascending
 /// amplitudes, all of which are computed.
-/// Steps are halved where the margin is not linear or the number of impacts changes, down to the
-/// finest step of the search.
-/// If the verdicts of two neighbours differ, there is a flip between them. If they overturn to
-/// different sides, there is a safe strip between them, however narrow. If |margin| has a local
-/// minimum, there may be two flips next to it, and the minimum is searched for them. Only a strip
-/// narrower than two steps of the scan that satisfies none of these criteria can be missed.
-/// Under a record all steps are divided evenly until each is at most `finest_step`; the other
-/// criteria are not applied, and narrower strips are missed. search: default: flip_search().
+/// Steps wider than an eighth of the amplitude are divided, and steps are halved where the margin
+/// is not linear or the number of impacts changes, down to the finest step of the search. If the
+/// verdicts of two neighbours differ, there is a flip between them. If they overturn to different
+/// sides, there is a safe strip between them, however narrow, unless the sides of the block differ
+/// so much that r > W_i / W_j. If |margin| has a local minimum, there may be two flips next to it,
+/// and the minimum is searched for them. Only a strip narrower than two steps of the scan that
+/// satisfies none of these criteria can be missed. Under a record all steps are divided evenly
+/// until each is at most `finest_step`; the other criteria are not applied, and narrower strips are
+/// missed. search: default: flip_search().
 Boundary boundary_on(const Scene& scene, const BoundaryLine& line,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      const std::optional<FlipSearch>& search = std::nullopt);

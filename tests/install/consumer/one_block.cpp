@@ -23,7 +23,7 @@ int main(int argc, char** argv)
     constexpr Theory theory = Theory::nonlinear;
     const Block<double> block{slenderness, restitution};
     const PulseExcitation<double> excitation = pulse_excitation<theory>(
-        pulse_motion<double>(PulseKind::one_sine), slenderness, amplitude, frequency);
+        pulse_motion<double>(PulseKind::one_sine), block, amplitude, frequency);
     const ForcedEnd<double> end = run_forced_stage<RungeKutta, theory>(block, excitation, 1e-9);
     std::printf("%d %.17g %.17g %.17g\n", int(region_of<theory>(end, block)),
                 end.state.side * end.state.tilt, end.state.side * end.state.rate,

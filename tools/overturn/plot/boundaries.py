@@ -13,11 +13,11 @@ from matplotlib import pyplot
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from overturn import regions
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
 from overturn.output_file import save
 from overturn.plot.sheet import MOST_PANELS, Sheet
-from overturn.regions import REGIONS
 from overturn.result_file import damage_reported, open_result, path_of, plain
 from overturn.spectrum_file import Axis
 from overturn.ticks import set_axes
@@ -36,12 +36,12 @@ shaded. Boundaries of several slendernesses, restitutions or records are plotted
 12 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
 is shaded as safe may contain them."""
 
-SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED = range(4)
+SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED, NOT_SCANNED = range(5)
 VERDICTS = np.full(256, UNDECIDED)  # by the code of a region
-VERDICTS[0:3], VERDICTS[3:9], VERDICTS[255] = SAFE, UNSAFE, NOT_COMPUTED
+VERDICTS[regions.SAFE], VERDICTS[regions.UNSAFE], VERDICTS[regions.NOT_COMPUTED] = SAFE, UNSAFE, NOT_COMPUTED
 # Safe and unsafe have about the same lightness as in spectra.
-SHADES = {SAFE: REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9"}
-FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", REGIONS[254][2]
+SHADES = {SAFE: regions.REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9", NOT_SCANNED: "#ffffff"}
+FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", regions.REGIONS[254][2]
 CODE_OF_UNDECIDED = 254
 ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
@@ -56,7 +56,8 @@ class Lines:
         self.frequency = np.zeros(1) if across is None else plane.values(across, plane.across)
         self.across = Axis(self.frequency) if across is None else axis_of(plane, across, plane.across)
         self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
-        self.up = Axis(scan_of(plane, up))
+        scan = scan_of(plane, up)
+        self.up, self.scan = Axis(scan), (np.min(scan), np.max(scan))
         self.ground, self.word = ground_word(plane.file), WORDS[up]
         self.flips = plane.read(name_of_flips(up))
         codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
@@ -76,9 +77,12 @@ class Lines:
         return others
 
     def verdicts(self, amplitudes):
-        """Returns the verdict of each amplitude, one per row: that above the nearest flip below."""
+        """Returns the verdict of each amplitude, one per row: that above the nearest flip below. Nothing is known beyond
+        the first and the last amplitude of the scan."""
         count = (self.flips[:, None, :] < amplitudes[None, :, None]).sum(axis=0)
-        return np.take_along_axis(np.concatenate([self.below[:1], self.above]), count, axis=0)
+        verdicts = np.take_along_axis(np.concatenate([self.below[:1], self.above]), count, axis=0)
+        is_scanned = (self.scan[0] <= amplitudes) & (amplitudes <= self.scan[1])
+        return np.where(is_scanned[:, None], verdicts, NOT_SCANNED)
 
 
 def shade(panel, lines):

@@ -88,7 +88,7 @@ class Spectrum:
         blue = self.up.share(plane.values(plane.up, plane.up))
         for rows in plane.tiles("region"):
             region, angle, rate = (plane.read(name, rows) for name in ("region", "angle", "velocity"))
-            standing = region <= LEFT_STANDING
+            standing = np.isin(region, LEFT_STANDING)
             colours = np.broadcast_to(red, region.shape), np.broadcast_to(blue[rows, None],
                                                                           region.shape)
             yield tuple(values[standing] for values in (angle, rate, *colours))
@@ -167,7 +167,7 @@ def write_names(panels, views, spectrum, labels):
     codes, angle, rate = spectrum.sample(cells, "region", "angle", "velocity")
     for text, code, piece in named_pieces(codes, labels, spectrum.across, spectrum.up):
         write_label(panels[0], piece, text, size=9)
-        if code > LEFT_STANDING:
+        if code not in LEFT_STANDING:
             continue
         for panel, view in zip(panels[1:], views):
             pixels, within = view.pixels(angle[piece], rate[piece])

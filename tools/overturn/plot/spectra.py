@@ -74,12 +74,11 @@ def draw_panels(panels, pixels, planes, axes, arguments):
     boundary = open_boundary(arguments.boundary, planes[0], arguments.units) if arguments.boundary else None
     present = set()
     for panel, plane, (across, up) in zip(panels, planes, axes):
-        rows, columns = up.cells(pixels), across.cells(pixels)
-        codes = plane.read_cells("region", rows, columns)
+        codes = plane.read_regions(up, across, pixels)
         present.update(np.unique(codes))
         draw_panel(panel, codes, across, up)
         if arguments.practice:
-            cover(panel, practice.picture(codes, plane.read_cells("peak", rows, columns)))
+            cover(panel, practice.picture(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels))))
         if boundary is not None:
             draw_boundary(panel, boundary, plane, arguments.units)
         write_labels(panel, codes, arguments.label, across, up)

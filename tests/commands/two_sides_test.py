@@ -1,0 +1,137 @@
+"""Blocks with two different sides in every command: the flips of two blocks of the documentation, which
+an independent program computed."""
+
+import json
+import math
+import unittest
+
+import h5py
+import numpy as np
+
+from program import Scratch
+
+INCLINE = 4 * math.pi / 180
+LEANING = {"width": 0.5, "height": 2, "incline": INCLINE}
+ECCENTRIC = {"width": 0.5, "height": 2, "center_offset": -0.05, "center_height": 1,
+             "radius_of_gyration": math.sqrt(0.3541667)}
+SURVEYED = {"slenderness_plus": math.atan(0.3), "slenderness_minus": math.atan(0.2),
+            "size_plus": math.hypot(0.3, 1), "size_minus": math.hypot(0.2, 1),
+            "radius_of_gyration": math.sqrt(0.3541667)}
+# Peak ground accelerations over g of a one-sine pulse of 0.5 s at which the verdict flips, twelve digits each.
+FLIPS = {("leaning", 0): [0.407515258023],
+         ("leaning", 180): [0.620924782649, 0.891748873204, 1.173623183158],
+         ("eccentric", 0): [0.686360312579, 1.022079907029, 1.324864005712],
+         ("eccentric", 180): [0.418905920675]}
+BLOCKS = {"leaning": [LEANING], "eccentric": [ECCENTRIC, SURVEYED]}
+ABOVE = {("leaning", 0): ["U0+"], ("leaning", 180): ["U2+", "S-", "U0+"],
+         ("eccentric", 0): ["U2-", "S+", "U0-"], ("eccentric", 180): ["U0-"]}
+
+
+def block_of(block):
+    return "".join(f"{name} = {value}\n" for name, value in block.items())
+
+
+def cases():
+    for (name, direction), flips in FLIPS.items():
+        for block in BLOCKS[name]:
+            yield block, direction, flips, ABOVE[name, direction]
+
+
+class TwoSides(Scratch):
+    def write(self, block, plane):
+        (self.folder / "job.toml").write_text(
+            f'scene.pulse = "one_sine"\n[block]\n{block_of(block)}[plane]\nrestitution_of_maximum = 1\n{plane}\n')
+
+    def assert_computes(self, command, output, *arguments):
+        self.assert_exit(self.overturn(command, "job.toml", "-o", output, *arguments), 0)
+        return self.folder / output
+
+    def test_flip_where_they_should_in_boundaries(self):
+        for number, (block, direction, flips, above) in enumerate(cases()):
+            self.write(block, f"pulse_period = 0.5\ndirection = {direction}\n"
+                              "pga = { first = 0.01, last = 3, count = 60 }")
+            with h5py.File(self.assert_computes("boundary", f"{number}.h5")) as file:
+                found = file["flip_pga"][:]
+                np.testing.assert_allclose(found[np.isfinite(found)], flips, rtol=0, atol=2e-12)
+                region = file["region_above"]
+                names = dict(zip(region.attrs["flag_values"], region.attrs["flag_meanings"].decode().split()))
+                self.assertEqual([names[code] for code in region[:len(flips)]], above)
+
+    def test_flip_where_they_should_in_answers(self):
+        for block, direction, flips, _ in cases():
+            options = [f"--{name.replace('_', '-')}={value}" for name, value in block.items()]
+            result = self.overturn("topple", *options, "--period", "0.5", "--direction", str(direction), "--json",
+                                   "--pga-max", "3")
+            self.assert_exit(result, 0)
+            answer = json.loads(result.stdout)
+            ends = [end for first_last in answer["toppling_pga"] for end in first_last if end is not None]
+            np.testing.assert_allclose(ends, flips, rtol=0, atol=2e-8)
+            self.assertEqual(answer["undecided_pga"], [])
+
+    def test_are_resolved_beside_their_flips_in_spectra_and_tables(self):
+        for number, (block, direction, flips, _) in enumerate(cases()):
+            pga = sorted(flip + step for flip in flips for step in (-1e-11, 1e-11))
+            unsafe = [i % 4 in (1, 2) for i in range(len(pga))]
+            resolved = "numerics = { resolve = true }"
+            self.write(block, f"pulse_period = 0.5\ndirection = {direction}\npga = {{ values = {pga} }}")
+            (self.folder / "job.toml").write_text(f"{resolved}\n" + (self.folder / "job.toml").read_text())
+            plane = self.assert_computes("run", f"plane_{number}.h5")
+            names = [*block, "pulse_period", "direction", "restitution_of_maximum", "pga"]
+            rows = [[*block.values(), 0.5, direction, 1, value] for value in pga]
+            (self.folder / "blocks.csv").write_text(
+                "\n".join(",".join(map(str, row)) for row in [names, *rows]) + "\n")
+            (self.folder / "job.toml").write_text(f'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\n{resolved}\n')
+            table = self.assert_computes("run", f"table_{number}.h5")
+            for path in (plane, table):
+                with h5py.File(path) as file:
+                    self.assertEqual((file["region"][:] >= 3).tolist(), unsafe, path)
+
+    def test_are_described_by_check_and_info(self):
+        self.write(LEANING, "pulse_period = 0.5\npga = { first = 0.1, last = 1, count = 5 }")
+        self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 10.04 degrees (+), 18.04 degrees (-)",
+                         "R = 1.031 m (+), 1.031 m (-)", "p = 2.672 1/s (+), 2.672 1/s (-)", "r_max = 0.8313")
+        self.assert_computes("run", "run.h5")
+        self.assert_exit(self.overturn("info", "run.h5"), 0)
+        self.assert_exit(self.overturn("verify", "run.h5"), 0)
+
+    def test_are_refused_with_what_to_do(self):
+        self.write(LEANING, "pulse_period = 0.5\npga = 0.5")
+        for override, words in (("plane.incline=4", "4 degrees are 0.06981 rad"),
+                                ("plane.incline=0.3", "the block does not stand"),
+                                ("plane.amplitude=2", "Give pga [g] instead"),
+                                ("plane.direction=90", "needs two horizontal components"),
+                                ("plane.slenderness=0.2", "describes the block in another way"),
+                                ("numerics.fill=true", "two different sides")):
+            result = self.overturn("check", "job.toml", "--set", override)
+            if override == "plane.slenderness=0.2":  # replaces the block
+                self.assert_exit(result, 65, "needs the dimensions of the block")
+            else:
+                self.assert_exit(result, 65, words)
+
+    def test_have_a_history_with_up_to_two_decisive_impacts(self):
+        for block, direction, flips, above in cases():
+            for pga, region in zip((flip + 1e-4 for flip in flips), above):
+                self.write(block, f"pulse_period = 0.5\ndirection = {direction}\npga = {pga}")
+                path = self.assert_computes("history", "history.h5")
+                with h5py.File(path) as file:
+                    kinds = dict(enumerate(file["events/kind"].attrs["flag_meanings"].decode().split()))
+                    names = [kinds[code] for code in file["events/kind"][:]]
+                    time, angle, velocity = (file[name][:] for name in ("time", "angle", "velocity"))
+                    after = names[names.index("end_of_pulse"):]
+                    if region.startswith("U"):
+                        self.assertEqual(after.count("impact"), int(region[1]), region)
+                        self.assertEqual(after[-1], "fall")
+                        self.assertAlmostEqual(abs(angle[-1]), math.pi / 2, places=12)
+                        self.assertEqual(angle[-1] > 0, region.endswith("+"))
+                    # The velocity is the derivative of the angle in 1/p of the side plus.
+                    step = np.diff(time)
+                    inner = (step > 0) & (step < 0.05)
+                    mean = (velocity[1:] + velocity[:-1]) / 2
+                    error = np.abs(np.diff(angle)[inner] / step[inner] - mean[inner])
+                    # Trapezoidal rule: h^2 / 12 times a third derivative of a few times alpha.
+                    self.assertLess(error.max(), 0.05 ** 2)
+                (self.folder / "history.h5").unlink()
+
+
+if __name__ == "__main__":
+    unittest.main()

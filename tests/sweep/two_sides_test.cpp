@@ -1,0 +1,305 @@
+// Blocks with two different sides through the forced stage: kernels, error bounds and flips.
+#include "support/two_sides.hpp"
+
+#include "overturn/integrate/more_digits.hpp"
+#include "overturn/sweep/boundary.hpp"
+#include "point_run.hpp"
+#include "support/every_scene.hpp"
+#include "support/random_record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace overturn {
+namespace {
+
+double least_threshold(Theory theory, const Block<double>& block)
+{
+    return uplift_threshold(theory, std::min(block.slenderness, block.other.slenderness));
+}
+
+/// A body under a pulse of this period [s].
+BoundaryLine line_of(const Scene& scene, const Body& body, double period, double direction)
+{
+    const Block<double> block = body.block(body.largest_restitution());
+    return {.point = {block, 1, 2 * pi<double>() / period},
+            .unit = direction * least_threshold(scene.theory, block)};
+}
+
+std::vector<double> accelerations(double last)
+{
+    return Axis(AxisRange{0.01, last, 300}).values();
+}
+
+void expect_flips(const Boundary& boundary, const std::vector<std::pair<double, Region>>& expected,
+                  double tolerance)
+{
+    ASSERT_EQ(boundary.flips.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(boundary.flips[i].amplitude(), expected[i].first, tolerance);
+        EXPECT_EQ(boundary.flips[i].region_above, expected[i].second);
+    }
+}
+
+TEST(TwoSides, FlipAtTheAccelerationsOfAnIndependentIntegration)
+{
+    // Twelve digits each, of the verdicts of other programs.
+    const Scene one_sine;
+    const auto flips = [&](const Body& body, double direction) {
+        return boundary_on(one_sine, line_of(one_sine, body, 0.5, direction), accelerations(3),
+                           widest_kernel());
+    };
+    expect_flips(flips(leaning_box, 1), {{0.407515258023, Region::U0_plus}}, 1e-11);
+    expect_flips(flips(leaning_box, -1),
+                 {{0.620924782649, Region::U2_plus},
+                  {0.891748873204, Region::S_minus},
+                  {1.173623183158, Region::U0_plus}},
+                 1e-11);
+    expect_flips(flips(eccentric_body, 1),
+                 {{0.686360312579, Region::U2_minus},
+                  {1.022079907029, Region::S_plus},
+                  {1.324864005712, Region::U0_minus}},
+                 1e-11);
+    expect_flips(flips(eccentric_body, -1), {{0.418905920675, Region::U0_minus}}, 1e-11);
+}
+
+TEST(TwoSides, FlipUnderARectangularPulseAtTheClosedForm)
+{
+    // Linear theory, no impact: A = alpha / (1 - exp(-p t_d)), here on the side minus.
+    const Scene scene{PulseKind::rectangular, Theory::linear};
+    const Block<double> block = eccentric_body.block(0.8);
+    const double duration = 0.2;
+    const double expected = block.other.slenderness / (1 - std::exp(-block.other.pace * duration));
+    EXPECT_NEAR(expected, 0.4759132, 5e-8);
+    const Boundary boundary = boundary_on(scene, line_of(scene, eccentric_body, 2 * duration, 1),
+                                          accelerations(1), widest_kernel());
+    expect_flips(boundary, {{expected, Region::U0_minus}}, 1e-12);
+}
+
+/// Points of random bodies under a scene, with up to about five times the least uplift.
+std::vector<Point> random_points(const Scene& scene, std::mt19937_64& generator, int count)
+{
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) {
+        const Body body = random_body(generator);
+        const double r =
+            std::min(1.0, (0.6 + 0.5 * uniform(generator)) * body.largest_restitution());
+        const Block<double> block = body.block(r);
+        const double sign = uniform(generator) < 0.5 ? -1 : 1;
+        const double strength = 1.05 + 5 * uniform(generator) * uniform(generator);
+        if (scene.is_recorded()) {
+            const Accelerogram& record = *scene.records.front();
+            points.push_back(
+                {block, sign * strength * least_threshold(scene.theory, block) / record.peak(),
+                 1 / (0.02 + 0.05 * uniform(generator))});
+        } else {
+            points.push_back(
+                {block, sign * strength, 2 * pi<double>() / (0.2 + 1.5 * uniform(generator))});
+        }
+    }
+    return points;
+}
+
+/// The block and the motion mirrored.
+std::vector<Point> mirrored(std::vector<Point> points)
+{
+    for (Point& point : points) {
+        point.block = point.block.turned();
+        point.amplitude = -point.amplitude;
+    }
+    return points;
+}
+
+constexpr Outputs all_outputs{
+    .impacts = true, .error = true, .region = true, .margin = true, .steps = true, .phase = true};
+
+Scene scene_of_random_record(Theory theory, std::mt19937_64& generator, Directions directions)
+{
+    Scene scene;
+    scene.theory = theory;
+    Accelerogram record = random_record(generator, 120, directions);
+    std::vector<double> upwards = record.upwards();
+    for (double& v : upwards) { // gravity never vanishes
+        v *= 0.1;
+    }
+    scene.records = {std::make_shared<const Accelerogram>(record.horizontal(), upwards, 0.02)};
+    return scene;
+}
+
+std::vector<Scene> scenes(std::mt19937_64& generator)
+{
+    std::vector<Scene> all = every_scene();
+    for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
+        for (const Directions directions : {Directions::horizontal, Directions::both}) {
+            all.push_back(scene_of_random_record(theory, generator, directions));
+        }
+    }
+    return all;
+}
+
+std::vector<Numerics> all_numerics(const Scene& scene)
+{
+    std::vector<Numerics> all{{Method::taylor, 1e-6}, {Method::taylor, 1e-10}};
+    if (!scene.is_recorded()) {
+        all.push_back({Method::rk45, 1e-8});
+    }
+    return all;
+}
+
+std::uint8_t mirrored_region(std::uint8_t region)
+{
+    return region == 0 || region > 10 ? region
+                                      : std::uint8_t(region % 2 == 1 ? region + 1 : region - 1);
+}
+
+TEST(TwoSides, AreMirroredBitByBit)
+{
+    std::mt19937_64 generator(50);
+    for (const Scene& scene : scenes(generator)) {
+        const std::vector<Point> points = random_points(scene, generator, 60);
+        for (const Numerics& numerics : all_numerics(scene)) {
+            const auto outcomes = [&](const std::vector<Point>& of) {
+                return outcomes_of(PointRun(scene, of, widest_kernel()), numerics, all_outputs);
+            };
+            const Outcomes one = outcomes(points);
+            const Outcomes other = outcomes(mirrored(points));
+            EXPECT_EQ(one.tilt, other.tilt);
+            EXPECT_EQ(one.rate, other.rate);
+            EXPECT_EQ(one.margin, other.margin);
+            EXPECT_EQ(one.error, other.error);
+            EXPECT_EQ(one.steps, other.steps);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                EXPECT_EQ(one.region[i], mirrored_region(other.region[i]));
+            }
+        }
+    }
+}
+
+TEST(TwoSides, HaveEqualBitsInEveryKernelAndBesideEveryNeighbour)
+{
+    std::mt19937_64 generator(51);
+    for (const Scene& scene : scenes(generator)) {
+        std::vector<Point> points = random_points(scene, generator, 40);
+        for (std::size_t i = 0; i < points.size(); i += 3) { // symmetric neighbours
+            const Block<double>& block = points[i].block;
+            points[i].frequency /= block.pace;
+            points[i].block = {block.slenderness, block.restitution};
+        }
+        for (const Numerics& numerics : all_numerics(scene)) {
+            const auto outcomes = [&](const std::vector<Point>& of, Kernel kernel) {
+                return outcomes_of(PointRun(scene, of, kernel), numerics, all_outputs);
+            };
+            const Outcomes together = outcomes(points, widest_kernel());
+            if (runs_here(Kernel::one_lane)) {
+                const Outcomes one_by_one = outcomes(points, Kernel::one_lane);
+                EXPECT_EQ(together.rate, one_by_one.rate);
+                EXPECT_EQ(together.margin, one_by_one.margin);
+                EXPECT_EQ(together.error, one_by_one.error);
+            }
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const Outcomes alone = outcomes({points[i]}, widest_kernel());
+                ASSERT_EQ(alone.rate[0], together.rate[i]);
+                ASSERT_EQ(alone.error[0], together.error[i]);
+            }
+        }
+    }
+}
+
+TEST(TwoSides, HaveErrorsWithinTheirBounds)
+{
+    std::mt19937_64 generator(52);
+    int known = 0;
+    int exceeded = 0;
+    int all = 0;
+    for (const Scene& scene : scenes(generator)) {
+        const std::vector<Point> points = random_points(scene, generator, 12);
+        const PointRun run(scene, points, widest_kernel());
+        Outcomes exact(points.size(), all_outputs);
+        for (const int point : run.all()) {
+            run.run_in_more_digits<Digits50>(point, exact);
+        }
+        for (const Numerics& numerics : all_numerics(scene)) {
+            const Outcomes found = outcomes_of(run, numerics, all_outputs);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                ++all;
+                if (!std::isfinite(found.error[i]) || !(exact.error[i] < 1e-12)) {
+                    continue;
+                }
+                ++known;
+                exceeded +=
+                    std::abs(found.margin[i] - exact.margin[i]) > found.error[i] + exact.error[i];
+                if (found.error[i] < std::abs(found.margin[i])) {
+                    EXPECT_EQ(is_safe(Region(found.region[i])), is_safe(Region(exact.region[i])));
+                }
+            }
+        }
+    }
+    EXPECT_GT(known, all / 2);
+    EXPECT_EQ(exceeded, 0);
+}
+
+TEST(TwoSides, AreResolved)
+{
+    std::mt19937_64 generator(53);
+    const Scene one_sine;
+    const Boundary flips = boundary_on(one_sine, line_of(one_sine, leaning_box, 0.5, -1),
+                                       accelerations(3), widest_kernel());
+    ASSERT_EQ(flips.flips.size(), 3u);
+    const BoundaryLine line = line_of(one_sine, leaning_box, 0.5, -1);
+    std::vector<Point> points;
+    for (const Flip& flip : flips.flips) { // neighbouring doubles, and a little more
+        for (const double acceleration : {flip.below, flip.above, flip.below * (1 - 1e-9)}) {
+            points.push_back(line.point);
+            points.back().amplitude = acceleration / line.unit;
+        }
+    }
+    const Outcomes outcomes = outcomes_of(PointRun(one_sine, points, widest_kernel()),
+                                          {Method::taylor, 1e-4, true}, {.region = true});
+    for (std::size_t i = 0; i < flips.flips.size(); ++i) {
+        EXPECT_EQ(outcomes.region[3 * i], std::uint8_t(flips.flips[i].region_below));
+        EXPECT_EQ(outcomes.region[3 * i + 1], std::uint8_t(flips.flips[i].region_above));
+        EXPECT_EQ(outcomes.region[3 * i + 2], std::uint8_t(flips.flips[i].region_below));
+    }
+}
+
+TEST(TwoSides, ThatAreEqualMoveLikeASymmetricBlock)
+{
+    // A body whose corners differ by a few roundings takes the general path.
+    std::mt19937_64 generator(54);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (const Scene& scene : every_scene()) {
+        std::vector<Point> general;
+        std::vector<Point> symmetric;
+        for (int i = 0; i < 20; ++i) {
+            const double b = 0.1 + 0.3 * uniform(generator);
+            const double r = 0.6 + 0.3 * uniform(generator);
+            const Body box{b, b * (1 + 1e-14), 1, std::sqrt((1 + b * b) / 3)};
+            const Block<double> block = box.block(r);
+            ASSERT_FALSE(block.is_symmetric());
+            const double amplitude = 1.1 + 3 * uniform(generator);
+            const double rate = 2 * pi<double>() / (0.3 + uniform(generator));
+            general.push_back({block, amplitude, rate});
+            symmetric.push_back({{block.slenderness, r}, amplitude, rate / block.pace});
+        }
+        const Numerics accurate{Method::taylor, 1e-13};
+        const Outcomes one =
+            outcomes_of(PointRun(scene, general, widest_kernel()), accurate, all_outputs);
+        const Outcomes other =
+            outcomes_of(PointRun(scene, symmetric, widest_kernel()), accurate, all_outputs);
+        for (std::size_t i = 0; i < general.size(); ++i) {
+            // A change of the block by a few roundings has less effect than those of the steps.
+            const double allowed = 8 * (one.error[i] + other.error[i]);
+            EXPECT_LE(std::abs(one.margin[i] - other.margin[i]), allowed);
+            if (allowed < std::abs(one.margin[i])) {
+                EXPECT_EQ(one.region[i], other.region[i]);
+                EXPECT_EQ(one.impacts[i], other.impacts[i]);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace overturn
