@@ -227,6 +227,9 @@ int check(const JobSource& source)
     print_scene(job);
     print_coordinates(job.problem.grid);
     print_row(job.blocks ? "blocks" : "block", block_line(job));
+    if (const std::string names = unused_columns(job); !names.empty()) {
+        print_row("columns", names + ": stored, without effect");
+    }
     print_row("ground", ground_line(job));
     for (const std::string& line : free_fall_lines(job)) {
         print_row("note", line);

@@ -1,4 +1,4 @@
-// The lines that `check` and `run` print about recorded ground motions.
+// The lines that `check` and `run` print about recorded ground motions and columns of tables.
 #pragma once
 
 #include "overturn/text/quoting.hpp"
@@ -94,12 +94,30 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
     return lines;
 }
 
-/// What a reader of the log of a run must know of its records.
-inline std::vector<std::string> notes_on_records(const Job& job)
+/// The names of the columns of the table of a job that describe nothing of a point; empty if there
+/// are none.
+inline std::string unused_columns(const Job& job)
+{
+    std::string names;
+    if (job.blocks) {
+        for (const TableColumn& column : job.blocks->table.columns) {
+            if (!job.problem.grid.has_table_column(column.name) && column.name != "motion_number") {
+                names += (names.empty() ? "" : ", ") + column.name;
+            }
+        }
+    }
+    return printable(names);
+}
+
+/// What a reader of the log of a run must know of its records and columns.
+inline std::vector<std::string> notes_on(const Job& job)
 {
     std::vector<std::string> lines = lines_of_equal_records(job);
     const std::vector<std::string> free_fall = free_fall_lines(job);
     lines.insert(lines.end(), free_fall.begin(), free_fall.end());
+    if (const std::string names = unused_columns(job); !names.empty()) {
+        lines.push_back("columns without effect: " + names);
+    }
     return lines;
 }
 

@@ -224,7 +224,7 @@ int run(const RunOptions& options)
             output = prepare_output(*job, path, *sole_writer);
             if (!output.is_complete) {
                 warn_of_implausible_values(*job);
-                std::ranges::for_each(notes_on_records(*job), say);
+                std::ranges::for_each(notes_on(*job), say);
                 computes = true;
             }
         } catch (const std::exception& error) {

@@ -324,6 +324,9 @@ void print_json(const Job& job, const ToppleOptions& options, const Answer& answ
         member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
     }
     member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
+    if (!alpha) {
+        member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
+    }
     member("gravity", job.problem.scene.gravity);
     member("lifting_pga", json_of(answer.lifting_pga));
     member("pga_max", options.pga_max);

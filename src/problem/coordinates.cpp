@@ -212,6 +212,11 @@ constexpr Derivation derivations[]{
      },
      Under::any_motion,
      Sides::two},
+    {"gyration_over_size",
+     {"radius_of_gyration", "size_plus"},
+     [](const Scene&, const Values& of) { return of[0] / of[1]; },
+     Under::any_motion,
+     Sides::two},
     {"largest_restitution",
      {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
      [](const Scene&, const Values& of) {

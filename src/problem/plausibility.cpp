@@ -29,6 +29,8 @@ constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers:
                                      "a block wider than 1.5 times its height; angles are in "
                                      "radians"};
 constexpr PlausibleRange size{"R", " m", 0.02, 20, "lengths are in metres"};
+constexpr PlausibleRange gyration{"the radius of gyration", " R", 0.1, 1.5,
+                                  "lengths are in metres"};
 constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
                                 "periods are in seconds, and lengths in metres"};
 constexpr PlausibleRange acceleration{"the peak ground acceleration", " g", 0, 5,
@@ -97,6 +99,14 @@ std::string finding_about_restitutions(const Coordinates& coordinates, bool has_
     return finding;
 }
 
+bool have_different_sides(const Coordinates& coordinates)
+{
+    const auto differ = [&](std::string_view plus, std::string_view minus) {
+        return coordinates.of(plus).values != coordinates.of(minus).values;
+    };
+    return differ("slenderness_plus", "slenderness_minus") || differ("size_plus", "size_minus");
+}
+
 } // namespace
 
 std::string implausible_values(const Scene& scene, const Grid& grid)
@@ -120,6 +130,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     for (const std::string_view name : {"size", "size_plus", "size_minus"}) {
         judge(size, name);
     }
+    judge(gyration, "gyration_over_size");
     judge(period, "pulse_period", "frequency");
     judge(acceleration, "pga", scene.is_recorded() ? "scale" : "amplitude");
     if (scene.is_recorded()) {
@@ -134,6 +145,12 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         findings.push_back(finding_about(time_step, extent_of(time_steps)));
     }
     findings.push_back(finding_about_restitutions(coordinates, grid.table() != nullptr));
+    if (grid.has_two_sides() && !coordinates.has("direction") &&
+        have_different_sides(coordinates)) {
+        findings.emplace_back(
+            "the mirror image of the motion, direction 180, is not computed; it may be worse for "
+            "blocks with two different sides (give the direction, 0, 180 or both)");
+    }
     std::erase(findings, "");
     return fmt::format("{}", fmt::join(findings, "; "));
 }

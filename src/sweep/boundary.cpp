@@ -140,6 +140,14 @@ public:
 
     Probe at(double amplitude) { return at(std::vector{amplitude}, most_accurate)[0]; }
 
+    /// The amplitude above which the motion lifts the block.
+    double lifting() const
+    {
+        Point point = line_.point;
+        point.amplitude = std::copysign(1.0, line_.unit);
+        return lifting_pga(scene_, point) / pga_of_unit(scene_, point) * std::abs(line_.unit);
+    }
+
     /// Whether there is a safe strip, however narrow, between two amplitudes at which the block
     /// overturns to different sides: a block that just does not overturn on one side must not
     /// overturn on the other after the next impact, which reduces its energy by r.
@@ -181,6 +189,11 @@ public:
             add_undecided(*first);
             add_undecided(amplitudes.back());
             amplitudes.erase(first, amplitudes.end());
+            // Just below, by more than the roundings of a scale.
+            const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
+            if (!amplitudes.empty() && amplitudes.back() < last) {
+                amplitudes.push_back(last);
+            }
         }
         return amplitudes;
     }
@@ -322,21 +335,34 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes)
     }
 }
 
-/// These amplitudes, with the steps between them divided evenly until each is at most `widest`,
-/// over the upper one.
-std::vector<double> divided(const std::vector<double>& amplitudes, double widest)
+/// These amplitudes, with steps that are wider than `widest`, over their upper amplitude, divided:
+/// first at halves of the upper amplitude, then evenly. Below `lifting`, nothing moves.
+std::vector<double> divided(const std::vector<double>& amplitudes, double widest, double lifting)
 {
+    std::vector<double> halved;
+    for (const double amplitude : amplitudes) {
+        const double below = halved.empty() ? amplitude : halved.back();
+        std::vector<double> between;
+        for (double half = amplitude / 2; half > std::max(below, lifting); half /= 2) {
+            between.push_back(half);
+        }
+        halved.insert(halved.end(), between.rbegin(), between.rend());
+        halved.push_back(amplitude);
+    }
     std::vector<double> all;
-    for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-        if (i > 0) {
-            const double below = amplitudes[i - 1];
-            const double step = amplitudes[i] - below;
-            const double parts = std::ceil(step / (widest * amplitudes[i]));
+    for (std::size_t i = 0; i < halved.size(); ++i) {
+        const double below = i > 0 ? halved[i - 1] : halved[i];
+        const double step = halved[i] - below;
+        if (step > 0 && halved[i] > lifting) {
+            // Of even steps, the lowest is the widest over its upper amplitude. Steps that are as
+            // wide as allowed, but for rounding, are not divided.
+            const double lowest = widest / (1 - widest) * std::max(below, lifting);
+            const double parts = std::ceil(step / lowest - 1e-9);
             for (double part = 1; part < parts; ++part) {
                 all.push_back(below + step * (part / parts));
             }
         }
-        all.push_back(amplitudes[i]);
+        all.push_back(halved[i]);
     }
     return all;
 }
@@ -345,7 +371,8 @@ std::vector<double> divided(const std::vector<double>& amplitudes, double widest
 /// about the verdicts next to it: the block has often come to rest long before the end.
 std::vector<Probe> at_equal_steps(Line& line, const std::vector<double>& amplitudes)
 {
-    std::vector<Probe> probes = line.at(divided(amplitudes, line.search.finest_step), scanning);
+    std::vector<Probe> probes =
+        line.at(divided(amplitudes, line.search.finest_step, line.lifting()), scanning);
     forget_the_useless(probes, std::numeric_limits<std::size_t>::max());
     return probes;
 }
@@ -408,7 +435,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     if (scene.is_recorded()) {
         probes = at_equal_steps(line, line.without_free_fall(amplitudes));
     } else {
-        probes = refined(line, line.at(divided(amplitudes, widest_step), scanning));
+        probes = refined(line, line.at(divided(amplitudes, widest_step, line.lifting()), scanning));
         add_hidden_verdicts(line, probes);
     }
     std::vector<Probe> closer;

@@ -86,6 +86,35 @@ class TwoSides(Scratch):
                 with h5py.File(path) as file:
                     self.assertEqual((file["region"][:] >= 3).tolist(), unsafe, path)
 
+    def test_have_no_boundary_of_another_block_or_direction(self):
+        plane = "pulse_period = {{ first = 0.3, last = 1, count = 5 }}\ndirection = {}\n" \
+                "pga = {{ first = 0.1, last = 1, count = 5 }}"
+        for name, block, direction in (("right", LEANING, 0), ("mirrored", LEANING, 180),
+                                       ("other", {**LEANING, "incline": 0.05}, 0)):
+            self.write(block, plane.format(direction))
+            self.assert_computes("boundary", f"{name}_b.h5")
+            self.assert_computes("run", f"{name}.h5")
+        for name, words in (("right", ""), ("mirrored", "direction differs"), ("other", "slenderness_plus differs")):
+            drawn = self.tool("plot_spectrum", f"{name}.h5", "--boundary", "right_b.h5")
+            self.assertEqual(drawn.returncode == 0, not words, drawn.stderr)
+            self.assertIn(words, drawn.stderr)
+
+    def test_warn_of_what_may_be_a_mistake(self):
+        self.write(LEANING, "pulse_period = 0.5\npga = 0.5")
+        self.assert_exit(self.overturn("check", "job.toml"), 0, "the mirror image of the motion, direction 180")
+        for direction in ("0", "180", "{ values = [0, 180] }"):
+            result = self.overturn("check", "job.toml", "--set", f"plane.direction={direction}")
+            self.assertNotIn("warning", result.stderr)
+        result = self.overturn("check", "job.toml", "--set", "plane.direction=0", "--set",
+                               "plane.radius_of_gyration=60")
+        self.assertIn("the radius of gyration", result.stderr)
+        (self.folder / "blocks.csv").write_text("width,height,centre_offset,lean,restitution\n0.5,2,0.1,4,0.8\n")
+        (self.folder / "table.toml").write_text(
+            'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\nplane = { pulse_period = 0.5, pga = 0.3 }\n')
+        self.assert_exit(self.overturn("check", "table.toml"), 0, "centre_offset, lean: stored, without effect")
+        self.assert_exit(self.overturn("run", "table.toml", "-o", "table.h5"), 0,
+                         "columns without effect: centre_offset, lean")
+
     def test_are_described_by_check_and_info(self):
         self.write(LEANING, "pulse_period = 0.5\npga = { first = 0.1, last = 1, count = 5 }")
         self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 10.04 degrees (+), 18.04 degrees (-)",
@@ -130,6 +159,8 @@ class TwoSides(Scratch):
                     error = np.abs(np.diff(angle)[inner] / step[inner] - mean[inner])
                     # Trapezoidal rule: h^2 / 12 times a third derivative of a few times alpha.
                     self.assertLess(error.max(), 0.05 ** 2)
+                drawn = self.tool("plot_history", "history.h5")
+                self.assertEqual(drawn.returncode, 0, drawn.stderr)
                 (self.folder / "history.h5").unlink()
 
 

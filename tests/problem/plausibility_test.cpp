@@ -190,5 +190,27 @@ TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
     }
 }
 
+TEST(Plausibility, OfTheRadiusOfGyrationAndOfTheDirectionIsJudged)
+{
+    std::mt19937_64 generator(37);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 50; ++i) {
+        const double height = 0.5 + 2 * uniform(generator);
+        const double gyration = height * (0.15 + 0.3 * uniform(generator));
+        Columns columns{
+            {"width", {0.3 * height}}, {"height", {height}},   {"pga", {0.3}},
+            {"pulse_period", {0.5}},   {"restitution", {0.5}}, {"radius_of_gyration", {gyration}},
+            {"incline", {0.05}},       {"direction", {180}}};
+        EXPECT_THAT(found_in(columns), IsEmpty());
+        columns["radius_of_gyration"] = {gyration * (i % 2 == 0 ? 100 : 1000)};
+        EXPECT_THAT(found_in(columns), HasSubstr("the radius of gyration"));
+        columns["radius_of_gyration"] = {gyration};
+        columns.erase("direction");
+        EXPECT_THAT(found_in(columns), HasSubstr("direction 180, is not computed"));
+        columns["incline"] = {0};
+        EXPECT_THAT(found_in(columns), IsEmpty());
+    }
+}
+
 } // namespace
 } // namespace overturn

@@ -4,6 +4,7 @@
 #include "support/every_scene.hpp"
 #include "support/given_values.hpp"
 #include "support/one_point.hpp"
+#include "support/random_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -279,14 +280,90 @@ TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
     EXPECT_EQ(below.region_at_first, Region::undecided);
     ASSERT_GE(below.flips.size(), 1u);
     EXPECT_EQ(below.flips[0].region_below, Region::undecided);
-    // The step is divided in four.
-    EXPECT_EQ(below.flips[0].amplitude(), 1.000001 + (2 - 1.000001) / 4);
+    // The step is divided in seven: an eighth of the upper amplitude is a seventh of the lower one.
+    EXPECT_DOUBLE_EQ(below.flips[0].amplitude(), 1.000001 + (2 - 1.000001) / 7);
     expect_whole_and_true(below, line);
     const Boundary above = boundary_on({}, line, {0.9, 1.000001}, widest_kernel());
     EXPECT_EQ(above.region_at_first, Region::S);
     ASSERT_EQ(above.flips.size(), 1u);
     EXPECT_EQ(above.flips[0].region_above, Region::undecided);
     expect_whole_and_true(above, line);
+}
+
+/// A block under a random record, which may have a vertical motion.
+struct RecordLine {
+    Scene scene;
+    BoundaryLine line;
+    double lifting; ///< scale
+};
+
+RecordLine random_record_line(std::mt19937_64& generator, Directions directions)
+{
+    const RecordPoint point = random_record_point(generator, 300, directions);
+    Scene scene;
+    scene.records = {std::make_shared<const Accelerogram>(point.record)};
+    const double threshold = uplift_acceleration<Theory::nonlinear>(point.block.slenderness);
+    return {
+        scene, {.point = {point.block, 1, point.frequency}}, point.record.lifting_scale(threshold)};
+}
+
+/// The region above the last flip below an amplitude.
+Region region_in(const Boundary& boundary, double amplitude)
+{
+    Region region = boundary.region_at_first;
+    for (const Flip& flip : boundary.flips) {
+        region = flip.amplitude() < amplitude ? flip.region_above : region;
+    }
+    return region;
+}
+
+TEST(Boundary, UnderARecordHasTheStatedStepsHoweverFewTheAmplitudes)
+{
+    std::mt19937_64 generator(64);
+    int strips = 0;
+    for (int i = 0; i < 60; ++i) {
+        const auto [scene, line, lifting] = random_record_line(generator, Directions::horizontal);
+        const std::vector<double> many =
+            Axis(AxisRange{0.5 * lifting, 12 * lifting, 60, Spacing::log}).values();
+        FlipSearch search = flip_search(scene);
+        search.finest_step = 0.01;
+        const Boundary reference = boundary_on(scene, line, many, widest_kernel(), search);
+        const Boundary few =
+            boundary_on(scene, line, {many.front(), many.back()}, widest_kernel(), search);
+        for (std::size_t k = 1; k < reference.flips.size(); ++k) {
+            const double first = reference.flips[k - 1].amplitude();
+            const double last = reference.flips[k].amplitude();
+            if (last - first < 2 * search.finest_step * last) {
+                continue; // may be missed by either
+            }
+            ++strips;
+            // Narrower strips within it may be found by one of both only.
+            const std::array shares{0.1, 0.3, 0.5, 0.7, 0.9};
+            EXPECT_TRUE(std::ranges::any_of(shares,
+                                            [&](double share) {
+                                                const double inside =
+                                                    first + share * (last - first);
+                                                return is_safe(region_in(few, inside)) ==
+                                                       is_safe(region_in(reference, inside));
+                                            }))
+                << first << " to " << last << " of line " << i;
+        }
+    }
+    EXPECT_GT(strips, 20);
+}
+
+TEST(Boundary, IsDecidedUpToWhereTheVerticalMotionCancelsGravity)
+{
+    std::mt19937_64 generator(65);
+    for (int i = 0; i < 6; ++i) {
+        const auto [scene, line, lifting] = random_record_line(generator, Directions::both);
+        const double free_fall = scene.records[0]->free_fall_scale();
+        FlipSearch search = flip_search(scene);
+        search.finest_step = 0.01;
+        const Boundary boundary =
+            boundary_on(scene, line, {0.1 * free_fall, 3 * free_fall}, widest_kernel(), search);
+        EXPECT_NEAR(boundary.undecided_share, 2 / 2.9, 0.02); // some verdicts may not be settled
+    }
 }
 
 TEST(Boundary, ReportsWhetherTheBlockOverturnsAtTheFirstAmplitude)

@@ -147,11 +147,14 @@ class TestTheMap(Picture):
             self.assertTrue((shown == middle)[kinds[shown] == kinds[middle]].all())
             if max(sizes) <= pixels:
                 continue
-            # Axes are linear: the middle of cell i is at (i + 1/2) / size.
-            rows, columns = ((np.arange(size) + 0.5) / size * pixels // 1 for size in sizes)
+            # Axes are linear: the middle of cell i is at (i + 1/2) / size. A pixel shows the cell under its middle,
+            # and all whose middle is under it.
+            under = [[{cell} | {other for other in range(axis.size) if axis.size > pixels
+                                and (other + 0.5) / axis.size * pixels // 1 == i}
+                      for i, cell in enumerate(axis.cells(pixels))] for axis in (up, across)]
             for i, j in np.ndindex(pixels, pixels):
-                under = kinds[codes[np.ix_(rows == i, columns == j)]]
-                self.assertEqual(kinds[shown[i, j]], max(under.max(initial=0), kinds[middle[i, j]]))
+                cells = np.ix_(list(under[0][i]), list(under[1][j]))
+                self.assertEqual(kinds[shown[i, j]], kinds[codes[cells]].max())
 
     def test_the_kinds_of_region_differ_in_lightness(self):
         def lightness(code):  # CIE L*

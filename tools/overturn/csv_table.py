@@ -27,7 +27,9 @@ To write a part of the points only, choose an index along some dimensions:
 REGION = "region"  # a column of every table
 # The names of all columns that a table may have; see docs/results.md.
 FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps", "status", "evaluated"}
-COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block"}
+COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block",
+           "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",
+           "slenderness_minus", "size_plus", "size_minus"}
 
 
 def parts_of(file, choices):

@@ -5,6 +5,7 @@ import re
 import numpy as np
 from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
 from overturn.choice import axes_of
+from overturn.regions import SAFE, UNSAFE
 from overturn.result_file import job_text, open_result
 from overturn.spectrum_file import PHYSICAL, RECIPROCALS, Plane
 from overturn.tool import ToolError
@@ -62,8 +63,10 @@ def boundary_on(file, plane, units):
                             if name not in (across, "crossing")}, across, "crossing")
     # Over the frequency, boundaries of small and large blocks are the same; in s and Hz they are not.
     shown = plane.quantities(units)[0]
-    for name in ("slenderness", "restitution", *["size"] * (shown in RECIPROCALS)):
-        if boundary.value(name) != plane.value(name):
+    sides = ("slenderness_plus", "slenderness_minus", "size_plus", "size_minus", "frequency_parameter_minus")
+    for name in ("slenderness", "restitution", *["size"] * (shown in RECIPROCALS), *sides, "direction"):
+        default = 0 if name == "direction" else None
+        if (boundary.value(name) or default) != (plane.value(name) or default):
             raise ToolError(f"\"{file.filename}\" has different blocks from the spectrum: {name} differs.")
     expect_overlap(boundary, plane, shown)
     return boundary
@@ -75,7 +78,7 @@ def draw_boundary(panel, file, plane, units):
     boundary = boundary_on(file, plane, units)
     across, up = plane.quantities(units)
     sides = [boundary.read(name) for name in ("region_below", "region_above")]
-    settled = (np.maximum(*sides) <= 8)  # F-
+    settled = np.isin(sides, SAFE + UNSAFE).all(axis=0)
     flips = np.where(settled, boundary.read(name_of_flips(up)), np.nan)
     columns = np.broadcast_to(boundary.values(across, boundary.across), flips.shape)
     for size, colour in ((2.6, "white"), (1.2, "black")):

@@ -57,18 +57,26 @@ class Plane:
     def read_regions(self, up, across, pixels):
         """Reads the regions for a picture. Where a pixel covers several points, it shows the one in its middle, unless
         another one is not computed, undecided or overturns and that one is not."""
-        middle = self.read_cells("region", up.cells(pixels), across.cells(pixels))
+        rows, columns = up.cells(pixels), across.cells(pixels)
+        middle = self.read_cells("region", rows, columns)
         if max(up.size, across.size) <= pixels:
             return middle
         of_row, of_column = up.pixels_of_cells(pixels), across.pixels_of_cells(pixels)
-        columns = np.flatnonzero(np.diff(of_column, prepend=-1))  # the first one of each pixel
+        first = np.flatnonzero(np.diff(of_column, prepend=-1))  # of the cells in each column of pixels
         highest = np.zeros(middle.shape, np.uint16)
         for tiles in self.tiles("region"):
-            rank = np.maximum.reduceat(ranks(self.read("region", tiles)), columns, axis=1)
-            of_tile = of_row[tiles]
-            rows = np.flatnonzero(np.diff(of_tile, prepend=-1))
-            place = np.ix_(of_tile[rows], of_column[columns])
-            highest[place] = np.maximum(highest[place], np.maximum.reduceat(rank, rows, axis=0))
+            rank = ranks(self.read("region", tiles))
+            by_pixel = rank[:, columns]
+            if across.size > pixels:
+                place = of_column[first]
+                by_pixel[:, place] = np.maximum(by_pixel[:, place], np.maximum.reduceat(rank, first, axis=1))
+            wanted = (rows >= tiles.start) & (rows < tiles.stop)
+            highest[wanted] = np.maximum(highest[wanted], by_pixel[rows[wanted] - tiles.start])
+            if up.size > pixels:
+                of_tile = of_row[tiles]
+                start = np.flatnonzero(np.diff(of_tile, prepend=-1))
+                place = of_tile[start]
+                highest[place] = np.maximum(highest[place], np.maximum.reduceat(by_pixel, start, axis=0))
         return worst(middle, highest)
 
     def knows(self, name, along=()):

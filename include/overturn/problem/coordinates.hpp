@@ -78,7 +78,7 @@ public:
     /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
     ///   record_pga        the peak of the record over g, not scaled [1]
     ///   samples_per_unit  samples of the record per time unit 1/p [1]
-    ///   moment_kept       J / m of a block with two different sides [m2]
+    ///   moment_kept, gyration_over_size  J / m [m2] and k / R+ of a block with two different sides
     const CoordinateValues& of(std::string_view name) const;
 
     /// All points of the box, row by row.

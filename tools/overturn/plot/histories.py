@@ -57,6 +57,12 @@ AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold}
         ("size", "$R$", " m"), ("frequency_parameter", "$p$", " 1/s"))
 
 
+def slendernesses(file):
+    """Returns the attributes with alpha of the block, or of its sides plus and minus."""
+    sides = ("slenderness_plus", "slenderness_minus")
+    return sides if sides[0] in file.attrs else ("slenderness",)
+
+
 class History:
     """The contents of the file between two times. Times are in 1/p and angles in rad. Under a record, times are
     in seconds and angles are divided by alpha; in physical units, they are in seconds and degrees."""
@@ -65,7 +71,8 @@ class History:
         self.is_recorded = is_recorded(file)
         self.panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
-        slenderness = float(file.attrs["slenderness"])
+        sides = [float(file.attrs[name]) for name in slendernesses(file)]
+        slenderness = sides[0]
         per_time = float(file.attrs["frequency_parameter"]) if self.is_in_seconds else 1
         per_angle = slenderness if self.is_recorded else 1
         if units == PHYSICAL:
@@ -88,7 +95,8 @@ class History:
                        for when, kind, angle in zip(events["time"][:] / per_time, events["kind"][:],
                                                     events["angle_after"][:] / per_angle)
                        if start <= when <= self.time[-1]]
-        self.alpha = slenderness / per_angle
+        self.alphas = -sides[-1] / per_angle, slenderness / per_angle
+        self.has_two_sides = len(sides) > 1
         self.largest_rate = rate * (slenderness if is_linear(file) else 2 * np.sin(slenderness / 2))
         self.end_of_ground_motion = float(file.attrs["end_of_pulse"]) / per_time
 
@@ -97,7 +105,9 @@ class History:
 
     def limits(self, name):
         """Returns the values of the dashed lines."""
-        return {"angle": (-self.alpha, self.alpha),
+        if self.has_two_sides and name != "angle":
+            return ()  # they are those of one side
+        return {"angle": self.alphas,
                 "velocity": (-self.largest_rate, self.largest_rate),
                 "q": (0, self.largest_rate**2)}.get(name, ())
 
@@ -182,8 +192,10 @@ def describe(file, units=JOB):
     shown = point_of(file, units)
     point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
              for name, symbol, unit in AXES if name in shown]
-    alpha = (slenderness_text(attributes["slenderness"], units) if units == PHYSICAL
-             else rf"$\alpha$ = {attributes['slenderness']:.4g} rad")
+    alpha = ", ".join((slenderness_text(attributes[name], units) if units == PHYSICAL
+                       else rf"$\alpha$ = {attributes[name]:.4g} rad") + side
+                      for name, side in zip(slendernesses(file), (" (+)", " (−)") if len(slendernesses(file)) > 1
+                                            else ("",)))
     record = [plain(ground_text(file), 40) + ", "] * is_recorded(file)
     return ("".join([*record, *point]) +
             rf"{alpha}, $r$ = {attributes['restitution']:.4g}: "

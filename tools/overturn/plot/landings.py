@@ -76,6 +76,9 @@ class Spectrum:
         self.plane = plane
         self.across, self.up = axes_of_plane(plane)
         block = [plane.value(name) for name in ("slenderness", "restitution")]
+        if "slenderness_plus" in plane.file:
+            raise ToolError("the boundaries in phase space are those of a symmetric block, but the blocks of this file "
+                            "have two different sides.", USAGE)
         if None in block:
             raise ToolError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
                             "are those of one block. Choose it with --index.", USAGE)
