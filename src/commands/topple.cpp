@@ -185,11 +185,11 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     const Scene& scene = job.problem.scene;
     const bool is_recorded = scene.is_recorded();
     const int decimals = requested.ranges.decimals(answer.pga);
-    const auto sides = [&](const char* name) { return options.block.find(name); };
+    const auto given = [&](const char* name) { return options.block.find(name); };
     const std::string box =
-        sides("width") == options.block.end() || sides("height") == options.block.end()
+        given("width") == options.block.end() || given("height") == options.block.end()
             ? ""
-            : fmt::format("{} m x {} m, ", sides("width")->second, sides("height")->second);
+            : fmt::format("{} m x {} m, ", given("width")->second, given("height")->second);
     print_row("block", box + block_line(job));
     const std::string motion = is_recorded ? record_lines(job).front()
                                            : fmt::format("{}, period {} s{}", name_of(scene.pulse),

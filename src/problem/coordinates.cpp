@@ -204,7 +204,7 @@ constexpr Derivation derivations[]{
      frequency_parameter_of,
      Under::any_motion,
      Sides::two},
-    {"moment_kept", // J / m: the share of the angular momentum that an impact keeps, over omega
+    {"moment_kept", // J / m: the angular momentum that an impact keeps, over m omega
      {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
      [](const Scene&, const Values& of) {
          const auto [k, plus, minus, alpha_plus, alpha_minus] = of;

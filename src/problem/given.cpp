@@ -176,20 +176,17 @@ void expect_slenderness(const Coordinates& coordinates, const Grid& corners)
 /// maximum for a block on a flat base, not a physical limit.
 void expect_restitution(const Coordinates& coordinates, const Grid& corners)
 {
-    const bool grid_has_two_sides = corners.has_two_sides();
     constexpr std::string_view name = "restitution_of_maximum";
     if (corners.find(name) == nullptr) {
         return;
     }
-    if (grid_has_two_sides) {
+    if (corners.has_two_sides()) {
         const double largest = extent_of(coordinates.of(name)).last;
         if (largest > 1) {
-            refuse(
-                name,
-                fmt::format(
-                    " = {}: r_max of a block with two different sides is reached if no energy is "
-                    "lost that an impact keeps. Give at most 1, or restitution, r itself.",
-                    largest));
+            refuse(name,
+                   fmt::format(" = {}: the restitution of a block with two different sides is "
+                               "at most r_max. Give at most 1, or restitution, r itself.",
+                               largest));
         }
         return;
     }

@@ -144,7 +144,6 @@ class Axis:
             first, last = 2 * shown[0] - inner[0], 2 * shown[-1] - inner[-1]
         self.edges = np.concatenate([[first], inner, [last]])
         self.size = len(values)
-        self.first, self.last = shown[0], shown[-1]  # values on the scale of the axis
 
     def shown(self, values):
         return np.log(values) if self.scale == "log" else values

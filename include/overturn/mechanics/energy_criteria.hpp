@@ -173,7 +173,7 @@ T region_code_after_pulse(const State<T>& state, const Block<T>& block)
     const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
     const T beyond_one = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
     const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
-    // From here on, the block is safe. Beyond the top, c < 0, so u <= c implies S+ or S-.
+    // If it does not overturn. Beyond the top, c < 0, so u <= c implies S+ or S-.
     T after_two = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
     if (!safe.are_symmetric) {
         const T beyond_two = select<T>(plus, code(Region::U2_plus), code(Region::U2_minus));

@@ -40,7 +40,8 @@ SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED, NOT_SCANNED = range(5)
 VERDICTS = np.full(256, UNDECIDED)  # by the code of a region
 VERDICTS[regions.SAFE], VERDICTS[regions.UNSAFE], VERDICTS[regions.NOT_COMPUTED] = SAFE, UNSAFE, NOT_COMPUTED
 # Safe and unsafe have about the same lightness as in spectra.
-SHADES = {SAFE: regions.REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9", NOT_SCANNED: "#ffffff"}
+SHADES = {SAFE: regions.REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9",
+          NOT_SCANNED: "#ffffff"}
 FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", regions.REGIONS[254][2]
 CODE_OF_UNDECIDED = 254
 ROWS = 1400  # of the shading: half a pixel at the default size
