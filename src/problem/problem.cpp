@@ -124,10 +124,6 @@ std::string reason_not_to_fill(const Problem& problem)
     if (problem.grid.table() != nullptr) {
         return "the blocks of a list have no neighbours";
     }
-    if (problem.grid.has_two_sides()) {
-        return "of blocks with two different sides, the boundaries of regions are not known well "
-               "enough";
-    }
     for (const Role role : {Role::strength, Role::rate}) {
         const Column* column = problem.grid.axis_or_number(role);
         if (column->values.size() > 1 && !column->values.is_range()) {

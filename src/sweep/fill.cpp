@@ -52,6 +52,16 @@ int longest_cell(const Grid& grid, Role role)
     return int(std::clamp<std::int64_t>(size / 32, 64, 256));
 }
 
+/// The points of a tile along its strengths or rates, at the first value of the other.
+std::vector<Point> points_along(const Problem& problem, Tile tile, Role role)
+{
+    const Role other = role == Role::strength ? Role::rate : Role::strength;
+    if (const auto dimension = problem.grid.dimension_of(other)) {
+        tile.count[*dimension] = 1;
+    }
+    return Coordinates(problem.scene, problem.grid, tile).points();
+}
+
 /// The entry of a shape or index for a dimension; `otherwise` if there is none.
 std::int64_t along(const std::optional<std::size_t>& dimension, const Shape& shape,
                    std::int64_t otherwise)
@@ -105,13 +115,11 @@ public:
     Filler(const Problem& problem, const Tile& tile, Kernel kernel, DropRequested drop_requested,
            const FillRule& rule)
         : theory_(problem.scene.theory), numerics_(problem.numerics), rule_(rule),
-          coordinates_(problem.scene, problem.grid, tile),
-          block_{coordinates_.of("slenderness").first(), coordinates_.of("restitution").first()},
-          amplitudes_(coordinates_.of("amplitude").values),
-          frequencies_(coordinates_.of("frequency").values),
+          of_row_(points_along(problem, tile, Role::strength)),
+          of_column_(points_along(problem, tile, Role::rate)),
           longest_{longest_cell(problem.grid, Role::strength),
                    longest_cell(problem.grid, Role::rate)},
-          run_(problem.scene, {}, kernel, std::move(drop_requested), true),
+          run_(problem.scene, {}, kernel, std::move(drop_requested), !problem.grid.has_two_sides()),
           node_at_(new int[std::size_t(tile.points())])
     {
         const bool with_impacts = std::ranges::count(problem.fields, Field::impacts) > 0;
@@ -149,8 +157,14 @@ private:
         Outcomes outcomes;
     };
 
-    int rows() const { return int(amplitudes_.size()); }
-    int columns() const { return int(frequencies_.size()); }
+    int rows() const { return int(of_row_.size()); }
+    int columns() const { return int(of_column_.size()); }
+    Point point(int place) const
+    {
+        Point point = of_column_[std::size_t(place % columns())];
+        point.amplitude = of_row_[std::size_t(place / columns())].amplitude;
+        return point;
+    }
     int place(int row, int column) const { return row * columns() + column; }
     bool is_integrated(int place) const { return filled_.evaluated[std::size_t(place)] != 0; }
     bool with_impacts() const { return !filled_.impacts.empty(); }
@@ -237,8 +251,7 @@ private:
         std::vector<Point> points;
         points.reserve(places.size());
         for (const int place : places) {
-            points.push_back({block_, amplitudes_[std::size_t(place / columns())],
-                              frequencies_[std::size_t(place % columns())]});
+            points.push_back(point(place));
         }
         PointRun run = run_.with_points(std::move(points));
         Outcomes outcomes = outcomes_of(run, numerics_, outputs);
@@ -324,12 +337,10 @@ private:
     const Theory theory_;
     const Numerics numerics_;
     const FillRule rule_;
-    const Coordinates coordinates_;
-    const Block<double> block_;
-    const std::vector<double>& amplitudes_;  // of the rows
-    const std::vector<double>& frequencies_; // of the columns
-    const std::array<int, 2> longest_;       // side of a cell along rows and columns [points]
-    const PointRun run_;                     // without points
+    const std::vector<Point> of_row_;    // at the first column
+    const std::vector<Point> of_column_; // in the first row
+    const std::array<int, 2> longest_;   // side of a cell along rows and columns [points]
+    const PointRun run_;                 // without points
     FilledTile filled_;
     std::vector<Node> nodes_;
     std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is

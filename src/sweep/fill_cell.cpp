@@ -8,36 +8,75 @@
 
 namespace overturn {
 
+namespace {
+
+/// The switch functions of these names.
+struct SafetySwitches {
+    double outward, inward, back, rebound;
+};
+
+SafetySwitches of_symmetric(const SafeRates<double>& safe, double rate, double restitution)
+{
+    return {safe.outward - rate, safe.inward().distance(rate), 1,
+            std::sqrt(restitution) * safe.outward - rate};
+}
+
+template <Theory theory>
+SafetySwitches of_two_sides(const SafeRates<double>& safe, double tilt, double rate,
+                            const Block<double>& block)
+{
+    const double q_max = safe.largest * safe.largest;
+    const double q0 = (safe.outward - rate) * (safe.outward + rate);
+    const auto above = [&](const ImpactLimit<double>& limit) {
+        return (q0 + limit.minus_q_min) / (q_max + limit.minus_q_min);
+    };
+    const Block<double> before = block.turned();
+    const double outward_before = separatrix_rate<theory>(tilt, before.slenderness);
+    const double largest_before = separatrix_rate<theory>(0.0, before.slenderness);
+    return {(safe.outward - rate) / safe.largest, above(safe.one), above(safe.two),
+            (outward_before - rate / before.rate_ratio()) / largest_before};
+}
+
+} // namespace
+
 template <Theory theory>
 Node node_of(const PointRun& run, const Outcomes& outcomes, int point)
 {
     const auto i = std::size_t(point);
     const Point& at = run.point(point);
     const Block<double> block = run.block_at_end(i, outcomes);
+    const bool is_symmetric = block.is_symmetric();
     const SafeRates<double> safe = safe_rates<theory>(outcomes.tilt[i], block);
     const double u = outcomes.rate[i];
+    const double slenderness = std::min(block.slenderness, block.other.slenderness);
+    const double frequency = at.frequency / std::max(block.pace, block.other.pace); // over p
     Node node{outcomes.region[i],
               outcomes.flags[i],
               0,
+              is_symmetric ? 0 : int(outcomes.side[i]),
               outcomes.impacts[i],
-              outcomes.peak[i] / at.block.slenderness * std::exp(pi<double>() / at.frequency),
+              outcomes.peak[i] / slenderness * std::exp(pi<double>() / frequency),
               {}};
     const PerLobe<double>& uplifts = run.pulse_of(point).uplifts;
     for (int lobe = 0; lobe < uplifts.count; ++lobe) {
         node.lobes |= std::uint32_t(std::isfinite(uplifts.values[std::size_t(lobe)])) << lobe;
     }
     const auto put = [&](Switch f, double value) { node.values[std::size_t(f)] = value; };
-    put(Switch::outward, safe.outward - u);
-    put(Switch::inward, safe.inward().distance(u));
-    put(Switch::impact, u + safe.outward);
+    const SafetySwitches safety = is_symmetric
+                                      ? of_symmetric(safe, u, block.restitution)
+                                      : of_two_sides<theory>(safe, outcomes.tilt[i], u, block);
+    put(Switch::outward, safety.outward);
+    put(Switch::inward, safety.inward);
+    put(Switch::back, safety.back);
+    put(Switch::impact, (u + safe.outward) / (is_symmetric ? 1 : safe.largest));
     put(Switch::end_tilt, outcomes.tilt[i]);
     put(Switch::room, pi<double>() / 2 - outcomes.tilt[i]);
     put(Switch::time_left, run.end_of_pulse() - outcomes.phase[i]);
     put(Switch::fall_speed, u);
-    put(Switch::turn, std::min(outcomes.lowest_turn[i], block.slenderness));
+    put(Switch::turn, std::min(outcomes.lowest_turn[i], slenderness));
     put(Switch::softest, outcomes.softest_impact[i]);
     put(Switch::last, outcomes.last_impact[i]);
-    put(Switch::rebound, std::sqrt(block.restitution) * safe.outward - u);
+    put(Switch::rebound, safety.rebound);
     return node;
 }
 
@@ -95,18 +134,24 @@ bool is_clear(const CellNodes& cell, Switch which, double kappa)
 
 /// The switch functions that matter for a region; is_uniform() adds those of the path and of the
 /// end of the pulse.
-std::vector<Switch> relevant_to(Region region)
+std::vector<Switch> relevant_to(Region region, bool is_symmetric)
 {
+    using enum Switch;
     switch (region) {
-    case Region::S: return {Switch::outward, Switch::impact};
+    case Region::S:
+        return is_symmetric ? std::vector{outward, impact}
+                            : std::vector{outward, inward, back, impact};
     case Region::S_plus:
-    case Region::S_minus:
-        return {Switch::outward, Switch::inward, Switch::impact, Switch::end_tilt};
+    case Region::S_minus: return {outward, inward, back, impact, end_tilt};
     case Region::U0_plus:
-    case Region::U0_minus: return {Switch::outward, Switch::room, Switch::end_tilt};
+    case Region::U0_minus: return {outward, room, end_tilt};
     case Region::U1_plus:
-    case Region::U1_minus: return {Switch::inward, Switch::end_tilt};
-    default: return {Switch::time_left, Switch::fall_speed};
+    case Region::U1_minus:
+        return is_symmetric ? std::vector{inward, end_tilt}
+                            : std::vector{outward, inward, end_tilt};
+    case Region::U2_plus:
+    case Region::U2_minus: return {outward, inward, back, end_tilt};
+    default: return {time_left, fall_speed};
     }
 }
 
@@ -130,7 +175,7 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         is_s && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; });
     const double kappa = low ? rule.kappa : rule.kappa * std::max(1.0, first.impacts - 2);
     const auto clear = [&](Switch which) { return is_clear(cell, which, kappa); };
-    const std::vector<Switch> relevant = relevant_to(region);
+    const std::vector<Switch> relevant = relevant_to(region, first.side == 0);
     if (!std::all_of(relevant.begin(), relevant.end(), clear)) {
         return false;
     }
@@ -138,7 +183,8 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
         return true;
     }
     const bool one_path = all([&](const Node& node) {
-        return node.impacts == first.impacts && node.flags == first.flags;
+        return node.impacts == first.impacts && node.flags == first.flags &&
+               node.side == first.side;
     });
     const bool end_is_clear =
         !is_s || (!with_impacts && clear(Switch::rebound)) || clear(Switch::end_tilt);

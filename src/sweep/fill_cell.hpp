@@ -9,10 +9,13 @@
 namespace overturn {
 
 /// The switch functions: a code or a number of impacts changes only where one of them is zero.
-/// Only their ratios to their own differences matter. c, u, q_min: see energy_criteria.hpp.
+/// Only their ratios to their own differences matter. c, u, q_min: see energy_criteria.hpp. If the
+/// sides of the block differ, those that bound safe states are scaled to 1 at rest on both sides.
 enum class Switch {
     outward,    ///< c - u: overturning on the side of the tilt
-    inward,     ///< u + sqrt(c^2 - q_min): overturning after an impact
+    inward,     ///< u + sqrt(c^2 - q_min): overturning on the other side after one impact; if the
+                ///< sides differ, q0 - q_min
+    back,       ///< q0 - q_min: overturning after two impacts, only if the sides differ
     impact,     ///< u + c: an impact after the pulse
     end_tilt,   ///< tilt at the end of the pulse: an impact just before or after the end
     room,       ///< pi/2 - tilt at the end of the pulse: a fall just before the end
@@ -22,15 +25,16 @@ enum class Switch {
     softest,    ///< speed of the softest impact before which it could turn: one could vanish
     last,       ///< speed of the last impact: it depends on all others
     rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
-                ///< block in region S
+                ///< block in region S; if the sides differ: c - u of the other side, before it
 };
-inline constexpr std::size_t switches = 11;
+inline constexpr std::size_t switches = 12;
 
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {
     std::uint8_t region;
     std::uint8_t flags;  ///< see outcome_flag
     std::uint32_t lobes; ///< bit set of those that lift a block at rest
+    int side;            ///< +1 or -1, at the end; 0 if the sides of the block are equal
     double impacts;      ///< counted
     double peak;         ///< largest tilt times exp(pi / Omega), see docs/filling.md [alpha]
     std::array<double, switches> values;

@@ -115,6 +115,18 @@ class TwoSides(Scratch):
         self.assert_exit(self.overturn("run", "table.toml", "-o", "table.h5"), 0,
                          "columns without effect: centre_offset, lean")
 
+    def test_have_filled_spectra(self):
+        self.write(LEANING, "pulse_period = { first = 0.2, last = 1.2, count = 300 }\n"
+                            "pga = { first = 0.1, last = 1.5, count = 300 }\ndirection = { values = [0, 180] }")
+        region = ("--set", 'output.fields=["region"]')
+        whole = self.assert_computes("run", "whole.h5", *region)
+        filled = self.assert_computes("run", "filled.h5", *region, "--set", "numerics.fill=true")
+        with h5py.File(whole) as one, h5py.File(filled) as other:
+            np.testing.assert_array_equal(one["region"][:], other["region"][:])
+            self.assertLess(np.mean(other["evaluated"][:] == 1), 0.5)
+            self.assertGreater(other["run/audit_checked"][:].sum(), 0)
+            self.assertEqual(other["run/audit_wrong"][:].sum(), 0)
+
     def test_are_described_by_check_and_info(self):
         self.write(LEANING, "pulse_period = 0.5\npga = { first = 0.1, last = 1, count = 5 }")
         self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 10.04 degrees (+), 18.04 degrees (-)",
@@ -129,8 +141,7 @@ class TwoSides(Scratch):
                                 ("plane.incline=0.3", "the block does not stand"),
                                 ("plane.amplitude=2", "Give pga [g] instead"),
                                 ("plane.direction=90", "needs two horizontal components"),
-                                ("plane.slenderness=0.2", "describes the block in another way"),
-                                ("numerics.fill=true", "two different sides")):
+                                ("plane.slenderness=0.2", "describes the block in another way")):
             result = self.overturn("check", "job.toml", "--set", override)
             if override == "plane.slenderness=0.2":  # replaces the block
                 self.assert_exit(result, 65, "needs the dimensions of the block")

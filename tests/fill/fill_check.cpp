@@ -2,13 +2,15 @@
 // which every point is integrated, and prints every kind of spectrum with the share of integrated
 // points. At least POINTS points are compared: tiles in which weaker rules fail and, if POINTS is
 // not 0, the paper's spectra, random spectra, and random spectra where many low bounces precede a
-// large motion. MUTANT: kappa (the rule of the nominal error) or grazes (impacts that could vanish
-// are ignored). Exit code 1 if a point is wrong, or if more points than expected were integrated.
+// large motion, both of symmetric blocks and of blocks with two different sides. MUTANT: kappa (the
+// rule of the nominal error) or grazes (impacts that could vanish are ignored). Exit code 1 if a
+// point is wrong, or if more points than expected were integrated.
 #include "overturn/mechanics/block.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/fill.hpp"
 #include "support/given_values.hpp"
+#include "support/two_sides.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -68,18 +70,21 @@ void name_point(const Problem& problem, std::int64_t row, std::int64_t column, i
                 int direct)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const Coordinates coordinates(scene, grid);
-    const Axis& amplitude = grid.find("amplitude")->values;
+    const Axis& amplitude = grid.axis_or_number(Role::strength)->values;
+    const Tile first{0, Shape(grid.dimensions.size(), 0), Shape(grid.dimensions.size(), 1)};
+    const Point point = Coordinates(scene, grid, first).points().front();
+    const Block<double>& block = point.block;
     std::printf(
         "  WRONG: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha "
-        "%.17g, r %.17g, Omega %s, a %s, %lld points a side%s: row %lld, column %lld: "
-        "filled %d, integrated %d\n",
+        "%.17g, r %.17g, R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, rate %s, strength "
+        "%s, direction %g, %lld points a side%s: row %lld, column %lld: filled %d, integrated %d\n",
         std::string(name_of(scene.pulse)).c_str(), std::string(name_of(scene.theory)).c_str(),
         std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
         numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-        scene.shape.gamma, scene.shape.nu, coordinates.of("slenderness").first(),
-        coordinates.of("restitution").first(), text_of(grid.find("frequency")->values).c_str(),
-        text_of(amplitude).c_str(), static_cast<long long>(amplitude.size()),
+        scene.shape.gamma, scene.shape.nu, block.slenderness, block.restitution, block.size,
+        block.pace, block.other.slenderness, block.other.size, block.other.pace,
+        text_of(grid.axis_or_number(Role::rate)->values).c_str(), text_of(amplitude).c_str(),
+        point.amplitude < 0 ? 180.0 : 0.0, static_cast<long long>(amplitude.size()),
         has_impacts(problem) ? ", with impacts" : "", static_cast<long long>(row),
         static_cast<long long>(column), filled, direct);
 }
@@ -173,7 +178,7 @@ public:
     explicit RandomProblems(std::uint64_t seed) : generator_(seed) {}
 
     /// corner: low frequencies and amplitudes just above 1.
-    Problem next(bool corner)
+    Problem next(bool corner, bool has_two_sides)
     {
         Scene scene;
         scene.pulse = PulseKind(std::size_t(uniform() * double(pulses.size())));
@@ -194,18 +199,50 @@ public:
         const double first_amplitude = corner ? 1.001 : between(0.1, 1.2);
         const double last_frequency = corner ? between(0.5, 2) : between(4, 15);
         const double first_frequency = corner ? 0.05 : log_between(0.05, 2);
-        const double slenderness = between(0.05, 0.5);
-        const double largest = largest_restitution(slenderness);
-        const double restitution = uniform() < 0.3 ? largest : between(0.5 * largest, 1);
-        return filled_spectrum(
-            scene, numerics,
-            {number("slenderness", slenderness), number("restitution", restitution),
-             axis("amplitude", AxisRange{first_amplitude, last_amplitude, side, spacing}),
-             axis("frequency", AxisRange{first_frequency, last_frequency, side, spacing})},
-            with_impacts);
+        const AxisRange amplitude{first_amplitude, last_amplitude, side, spacing};
+        const AxisRange frequency{first_frequency, last_frequency, side, spacing};
+        return filled_spectrum(scene, numerics,
+                               has_two_sides ? two_sides(scene.theory, amplitude, frequency)
+                                             : symmetric(amplitude, frequency),
+                               with_impacts);
     }
 
 private:
+    double restitution_of(double largest)
+    {
+        return uniform() < 0.3 ? largest : between(0.5 * largest, 1);
+    }
+
+    Quantities symmetric(const AxisRange& amplitude, const AxisRange& frequency)
+    {
+        const double slenderness = between(0.05, 0.5);
+        const double restitution = restitution_of(largest_restitution(slenderness));
+        return {number("slenderness", slenderness), number("restitution", restitution),
+                axis("amplitude", amplitude), axis("frequency", frequency)};
+    }
+
+    /// amplitude over the smaller uplift acceleration, frequency over the p of the side plus.
+    Quantities two_sides(Theory theory, const AxisRange& amplitude, const AxisRange& frequency)
+    {
+        const Body body = random_body(generator_);
+        const double restitution = restitution_of(body.largest_restitution());
+        const Block<double> block = body.block(restitution);
+        const double uplift =
+            uplift_threshold(theory, std::min(block.slenderness, block.other.slenderness));
+        const auto times = [](const AxisRange& range, double unit) {
+            return AxisRange{range.first * unit, range.last * unit, range.count, range.spacing};
+        };
+        return {number("slenderness_plus", block.slenderness),
+                number("slenderness_minus", block.other.slenderness),
+                number("size_plus", block.size),
+                number("size_minus", block.other.size),
+                number("radius_of_gyration", body.gyration),
+                number("restitution", restitution),
+                number("direction", uniform() < 0.5 ? 0 : 180),
+                axis("pga", times(amplitude, uplift)),
+                axis("pulse_frequency", times(frequency, block.pace / (2 * pi<double>())))};
+    }
+
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(generator_); }
     double between(double low, double high) { return low + (high - low) * uniform(); }
     double log_between(double low, double high)
@@ -221,7 +258,7 @@ private:
 bool report(const std::string& spectra, const Counts& counts, double most)
 {
     const bool right = counts.wrong == 0 && counts.share() <= most;
-    std::printf("%-40s %12lld points, %6.2f %% integrated (at most %g %%), %lld wrong%s\n",
+    std::printf("%-48s %12lld points, %6.2f %% integrated (at most %g %%), %lld wrong%s\n",
                 spectra.c_str(), static_cast<long long>(counts.points), 100 * counts.share(),
                 100 * most, static_cast<long long>(counts.wrong), right ? "" : ": FAILED");
     std::fflush(stdout);
@@ -247,14 +284,28 @@ bool check(std::int64_t points, std::uint64_t seed, const FillRule& rule)
     }
     right = report("spectra of the paper", paper, most) && right;
     RandomProblems random(seed);
-    Counts kinds[2];
-    while (paper.points + kinds[0].points + kinds[1].points < points) {
-        for (const bool corner : {false, true}) {
-            kinds[corner].add(compare(random.next(corner), rule));
+    struct Kind {
+        std::string name;
+        bool corner, has_two_sides;
+        double most;
+        Counts counts{};
+    };
+    std::vector<Kind> kinds{{"random spectra", false, false, 0.3},
+                            {"low frequency and amplitude", true, false, 1},
+                            {"two sides: random spectra", false, true, 0.3},
+                            {"two sides: low frequency and amplitude", true, true, 1}};
+    std::int64_t compared = paper.points;
+    while (compared < points) {
+        for (Kind& kind : kinds) {
+            const Counts counts = compare(random.next(kind.corner, kind.has_two_sides), rule);
+            kind.counts.add(counts);
+            compared += counts.points;
         }
     }
-    right = report("random spectra, seed " + std::to_string(seed), kinds[0], 0.3) && right;
-    right = report("low frequency and amplitude", kinds[1], 1) && right;
+    for (const Kind& kind : kinds) {
+        right =
+            report(kind.name + ", seed " + std::to_string(seed), kind.counts, kind.most) && right;
+    }
     std::printf(right ? "every filled point is right\n" : "FAILED\n");
     return right;
 }

@@ -1,3 +1,4 @@
+#include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/fill.hpp"
 #include "support/every_scene.hpp"
@@ -23,6 +24,15 @@ Grid some_grid(std::int64_t rows, std::int64_t columns)
 {
     return grid_of_block(0.2, 0.9, {.first = 0.9, .last = 12, .count = rows},
                          {.first = 0.3, .last = 9, .count = columns});
+}
+
+/// A leaning box, whose sides are different.
+Grid leaning_grid(double direction)
+{
+    return grid_of({}, {number("width", 0.5), number("height", 2), number("incline", 0.07),
+                        number("restitution_of_maximum", 0.95), number("direction", direction),
+                        axis("pga", AxisRange{0.1, 2, 128}),
+                        axis("pulse_period", AxisRange{0.2, 1.5, 128})});
 }
 
 const std::vector<Field> region_alone{Field::region, Field::evaluated};
@@ -81,6 +91,29 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrum)
                 << name_of(scene.pulse);
         }
     }
+}
+
+TEST(Fill, EveryPointHasTheRegionOfADirectSpectrumIfTheSidesOfTheBlockDiffer)
+{
+    std::int64_t after_two = 0;
+    for (const Scene& scene : every_scene()) {
+        for (const double direction : {0.0, 180.0}) {
+            for (const auto& fields : {region_alone, region_and_impacts}) {
+                const Problem problem =
+                    filled_problem(scene, without_audit, leaning_grid(direction), fields);
+                const FilledTile tile = filled(problem);
+                const TileFields direct = integrated(problem);
+                EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
+                if (fields == region_and_impacts) {
+                    EXPECT_EQ(tile.impacts, std::get<std::vector<std::uint16_t>>(direct.values[1]));
+                }
+                EXPECT_GT(count(tile.evaluated, point_origin::filled), 128 * 128 / 5)
+                    << name_of(scene.pulse);
+                after_two += count(tile.region, std::uint8_t(Region::U2_plus));
+            }
+        }
+    }
+    EXPECT_GT(after_two, 128 * 128 / 10);
 }
 
 TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
