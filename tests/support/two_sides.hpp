@@ -41,6 +41,15 @@ struct Body {
                 pace(plus),
                 {std::atan(minus / height) + incline, size(minus), pace(minus)}};
     }
+    /// Whether it stands on its base, and rocks on after an impact.
+    bool stands() const
+    {
+        const Block<double> block = this->block(1);
+        const double right_angle = std::acos(0.0);
+        return std::min(block.slenderness, block.other.slenderness) > 0 &&
+               std::max(block.slenderness, block.other.slenderness) < right_angle &&
+               gyration * gyration + height * height > plus * minus;
+    }
     Body mirrored() const { return {minus, plus, height, gyration, -incline}; }
 };
 

@@ -1,12 +1,15 @@
 // Random grids of one block and 32 x 32 pulses: half of them with realistic blocks and pulses, half
 // of them over the whole range of jobs in which a pulse can move the block; half of each close to a
-// boundary between safe and unsafe, if a line of amplitudes crosses one.
+// boundary between safe and unsafe, if a line of amplitudes crosses one. Half of the blocks have
+// two different sides.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/region.hpp"
+#include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "support/given_values.hpp"
+#include "support/two_sides.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +21,27 @@ namespace overturn {
 
 /// One block under pulses of these amplitudes and frequencies.
 struct PulsesOfBlock {
-    double slenderness; ///< [rad]
-    double restitution; ///< r [1]
-    AxisList amplitudes;
-    AxisList frequencies;
+    Quantities block;     ///< as given in a job, with its restitution
+    AxisList amplitudes;  ///< over the smaller uplift acceleration [1]
+    AxisList frequencies; ///< over p, that of the side plus [1]
+    /// Of blocks with two different sides, whose jobs give dimensional strengths and rates.
+    std::optional<double> uplift = std::nullopt; ///< the smaller uplift acceleration over g [1]
+    double pace = 1;                             ///< p of the side plus [1/s]
 
     Grid grid() const
     {
-        return grid_of({}, {number("slenderness", slenderness), number("restitution", restitution),
-                            axis("amplitude", amplitudes), axis("frequency", frequencies)});
+        const auto times = [](AxisList values, double unit) {
+            for (double& value : values) {
+                value *= unit;
+            }
+            return values;
+        };
+        const Quantities strength_and_rate =
+            uplift
+                ? Quantities{axis("pga", times(amplitudes, *uplift)),
+                             axis("pulse_frequency", times(frequencies, pace / (2 * pi<double>())))}
+                : Quantities{axis("amplitude", amplitudes), axis("frequency", frequencies)};
+        return grid_of({}, block + strength_and_rate);
     }
 };
 
@@ -52,14 +67,7 @@ public:
             scene_.shape.nu = between(-pi<double>(), pi<double>());
         }
         const bool real = uniform() < 0.5;
-        const double slenderness = real ? between(0.08, 0.45) : log_between(0.01, 1.3);
-        const double restitution =
-            real ? largest_restitution(slenderness) * between(0.55, 1) : between(0.02, 1);
-        PulsesOfBlock points{.slenderness = slenderness,
-                             // Some blocks have no loss.
-                             .restitution = uniform() < 0.1 ? 1 : restitution,
-                             .amplitudes = {},
-                             .frequencies = {}};
+        PulsesOfBlock points = uniform() < 0.5 ? symmetric(real) : two_sides(real);
         points.frequencies =
             sorted([&] { return real ? between(0.5, 9.5) : log_between(0.03, 30); });
         points.amplitudes =
@@ -76,6 +84,47 @@ private:
     double log_between(double low, double high)
     {
         return std::exp(between(std::log(low), std::log(high)));
+    }
+
+    /// Some blocks have no loss.
+    double restitution(double of_maximum, bool real)
+    {
+        const double restitution = real ? of_maximum * between(0.55, 1) : between(0.02, 1);
+        return uniform() < 0.1 ? 1 : restitution;
+    }
+
+    PulsesOfBlock symmetric(bool real)
+    {
+        const double slenderness = real ? between(0.08, 0.45) : log_between(0.01, 1.3);
+        const double r = restitution(largest_restitution(slenderness), real);
+        return {{number("slenderness", slenderness), number("restitution", r)}, {}, {}};
+    }
+
+    PulsesOfBlock two_sides(bool real)
+    {
+        Body body = random_body(generator_);
+        while (!real && !(body = wide_body()).stands()) {
+        }
+        const Block<double> block = body.block(restitution(body.largest_restitution(), real));
+        return {
+            {number("slenderness_plus", block.slenderness),
+             number("slenderness_minus", block.other.slenderness), number("size_plus", block.size),
+             number("size_minus", block.other.size), number("radius_of_gyration", body.gyration),
+             number("restitution", block.restitution)},
+            {},
+            {},
+            uplift_threshold(scene_.theory, std::min(block.slenderness, block.other.slenderness)),
+            block.pace};
+    }
+
+    /// Bodies with sides that may be very different, some of which do not stand.
+    Body wide_body()
+    {
+        Body body{log_between(0.01, 3), log_between(0.01, 3), log_between(0.3, 3),
+                  log_between(0.1, 3)};
+        body.incline = between(-1, 1) * std::min(std::atan(body.plus / body.height),
+                                                 std::atan(body.minus / body.height));
+        return body;
     }
 
     template <class Value>

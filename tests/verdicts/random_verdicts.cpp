@@ -93,15 +93,16 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 int number, double found, double bound, const Truth& truth)
 {
     const Point point = Coordinates(scene, grid).points()[std::size_t(number)];
+    const Block<double>& block = point.block;
     std::printf("  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
-                "r %.17g, Omega %.17g, a %.17g: margin "
-                "%.6g, "
-                "bound %.3g, true %.6g, off by %.3g\n",
+                "R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, r %.17g, omega %.17g, a %.17g: "
+                "margin %.6g, bound %.3g, true %.6g, off by %.3g\n",
                 what, std::string(name_of(scene.pulse)).c_str(),
                 std::string(name_of(scene.theory)).c_str(),
                 std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
                 numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-                scene.shape.gamma, scene.shape.nu, point.block.slenderness, point.block.restitution,
+                scene.shape.gamma, scene.shape.nu, block.slenderness, block.size, block.pace,
+                block.other.slenderness, block.other.size, block.other.pace, block.restitution,
                 point.frequency, point.amplitude, found, bound, truth.margin[number],
                 std::abs(found - truth.margin[number]));
 }

@@ -176,20 +176,24 @@ private:
     }
 
     /// The same if q_min > 0. The gradient |c| / |limit| grows towards c = sqrt(q_min), where it is
-    /// infinite. Across that, the change of the limit is its error.
+    /// infinite. Across that, the change of the limit is its error. Where c^2 and q_min cancel,
+    /// their round-off matters.
     [[gnu::noinline]] T error_inside(const ImpactLimit<T>& inward, const SeparatrixAt& at,
                                      const T& rate) const
     {
         using std::abs;
         const T one(S(1));
-        const T low = inward.limit_at(at.c - at.radius);
-        const T high = inward.limit_at(at.c + at.radius);
+        const T lost = roundings() * at.largest * at.largest;
+        const T low = inward.signed_root(inward.square_at(at.c - at.radius) - lost);
+        const T high = inward.signed_root(inward.square_at(at.c + at.radius) + lost);
         const auto with_gradient = [&](const T& c, const T& limit) -> T {
-            const T gradient = abs(c) / select<T>(limit == zero_, at.largest, T(abs(limit)));
+            const T divisor = select<T>(limit == zero_, at.largest, T(abs(limit)));
+            const T gradient = abs(c) / divisor;
             const T inwards = growth_.bound(T(at.slope * gradient), one);
             const T outwards = growth_.bound(T(at.slope * gradient), -one);
             const T of_rate = growth_.bound(zero_, one);
-            return select<T>(rate > of_rate, outwards,
+            return lost / divisor +
+                   select<T>(rate > of_rate, outwards,
                              select<T>(rate < -of_rate, inwards, greater<T>(inwards, outwards)));
         };
         const T regular =

@@ -44,15 +44,22 @@ struct ImpactLimit {
     ImpactLimit(const T& minus_q, const T& c) : minus_q_min(minus_q), limit(limit_at(c)) {}
 
     /// The limit at another tilt, where the separatrix is at c.
-    T limit_at(const T& c) const
+    T limit_at(const T& c) const { return signed_root(square_at(c)); }
+
+    /// c |c| - q_min, or c^2 - q_min if q_min is not positive.
+    T square_at(const T& c) const
     {
         using arithmetic::fma;
         using std::abs;
+        return fma(select<T>(minus_q_min < T(scalar_t<T>(0)), T(abs(c)), c), c, minus_q_min);
+    }
+
+    static T signed_root(const T& square)
+    {
+        using std::abs;
         using std::sqrt;
-        const T zero(scalar_t<T>(0));
-        const T square = fma(select<T>(minus_q_min < zero, T(abs(c)), c), c, minus_q_min);
         const T root = sqrt(T(abs(square)));
-        return select<T>(square < zero, T(-root), root);
+        return select<T>(square < T(scalar_t<T>(0)), T(-root), root);
     }
 
     /// The distance of a rate from the limit; negative if the block overturns after the impact.
