@@ -138,7 +138,8 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     add_block(command, options.block);
     command
         .add_option("--direction", options.direction,
-                    "180: the mirror image of the motion, for blocks with two different sides")
+                    "180: the mirror image of the motion, for blocks with two different sides; any "
+                    "angle with --set scene.second_component=...")
         ->type_name("DEGREES");
     number("--period", options.period, "S", "Period of the pulse [s]");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")

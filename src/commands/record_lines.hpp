@@ -58,6 +58,9 @@ inline std::vector<std::string> record_lines(const Job& job)
         const Accelerogram& record = *job.problem.scene.records[i];
         const std::string component =
             (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
+            (motion.second.empty() ? ""
+                                   : fmt::format(", second {} up to {:.3g} g", motion.second,
+                                                 record.in_direction(90).peak())) +
             (motion.vertical.empty() ? ""
                                      : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
                                                    record.upwards_peak()));

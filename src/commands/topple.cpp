@@ -47,8 +47,9 @@ std::string job_text(const ToppleOptions& options)
                             is_number ? options.component : quoted(options.component));
     }
     text += "[plane]\n";
-    text += options.scale ? fmt::format("scale = {}\n", *options.scale)
-                          : fmt::format("pga = {}\n", options.pga.value_or(0));
+    text += options.scale || (is_recorded && !options.pga)
+                ? fmt::format("scale = {}\n", options.scale.value_or(0))
+                : fmt::format("pga = {}\n", options.pga.value_or(0));
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
@@ -194,9 +195,14 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     const std::string motion = is_recorded ? record_lines(job).front()
                                            : fmt::format("{}, period {} s{}", name_of(scene.pulse),
                                                          *options.period, shape_text(scene));
-    print_row("motion", options.direction
-                            ? fmt::format("{}; direction {} degrees", motion, *options.direction)
-                            : motion);
+    std::string direction;
+    if (options.direction) {
+        direction = fmt::format("; direction {} degrees", *options.direction);
+    }
+    if (scene.has_two_components()) {
+        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job)));
+    }
+    print_row("motion", motion + direction);
     if (scene.theory != Theory::nonlinear) {
         print_row("theory", name_of(scene.theory));
     }
@@ -286,8 +292,10 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
                            *options.period, shape);
     }
     const Motion& motion = job.motions.front();
-    return fmt::format("{{\"record\": {}, \"component\": {}, \"vertical\": {}}}",
+    return fmt::format("{{\"record\": {}, \"component\": {}, \"second_component\": {}, "
+                       "\"vertical\": {}}}",
                        quoted(motion.file), quoted(motion.component),
+                       motion.second.empty() ? "null" : quoted(motion.second),
                        motion.vertical.empty() ? "null" : quoted(motion.vertical));
 }
 

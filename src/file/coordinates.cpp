@@ -205,7 +205,12 @@ private:
                     }
                     return values;
                 });
-            all_.back().variable.comment = measure.comment;
+            std::string& comment = all_.back().variable.comment;
+            comment = measure.comment;
+            if (job_.problem.scene.has_two_components()) {
+                comment += comment.empty() ? "" : "; ";
+                comment += "of the first horizontal component";
+            }
         }
     }
 

@@ -176,6 +176,7 @@ std::string record_text(const Motion& motion)
 {
     std::string text = motion.file;
     text += motion.component.empty() ? "" : ", component " + motion.component;
+    text += motion.second.empty() ? "" : ", second component " + motion.second;
     text += motion.vertical.empty() ? "" : ", vertical " + motion.vertical;
     for (const std::string& line : motion.header) {
         text += "\n    " + line;

@@ -58,7 +58,7 @@ std::string first_difference(std::string_view stored, std::string_view given)
     const std::string_view record = record_named_in(line_of(given));
     if (!record.empty() && record == record_named_in(line_of(stored))) {
         return fmt::format("the record {} has changed since then, or is read with other keys "
-                           "(component, vertical, time_step, units, gravity). ",
+                           "(component, second_component, vertical, time_step, units, gravity). ",
                            record);
     }
     return fmt::format("line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n",

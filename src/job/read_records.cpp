@@ -71,7 +71,8 @@ std::string label_of(const RecordFile& file, const RecordComponent& component)
 std::string checksum_of(const Accelerogram& record)
 {
     std::uint64_t hash = 0;
-    for (const std::vector<double>* values : {&record.horizontal(), &record.upwards()}) {
+    for (const std::vector<double>* values :
+         {&record.horizontal(), &record.upwards(), &record.second()}) {
         hash = XXH64(values->data(), values->size() * sizeof(double), hash);
     }
     return fmt::format("{:016x}", hash);
@@ -151,6 +152,7 @@ struct GivenRecord {
     std::string file;
     std::optional<Entry> component;
     std::optional<Entry> vertical;
+    std::optional<Entry> second;
 };
 
 RecordFile content_of(const Entry& entry, const std::string& file, const Reading& reading)
@@ -162,11 +164,16 @@ RecordFile content_of(const Entry& entry, const std::string& file, const Reading
     }
 }
 
-/// The vertical accelerations over g: a component of the same file, or another file.
-std::vector<double> upwards_of(const GivenRecord& given, const RecordFile& content,
-                               const RecordComponent& horizontal, const Reading& reading)
+/// The accelerations over g of another component of the motion, if there is a choice: it is of the
+/// same file, or another file. name: of this component, in messages.
+std::vector<double> other_component(const std::optional<Entry>& choice_of_it, std::string_view name,
+                                    const GivenRecord& given, const RecordFile& content,
+                                    const RecordComponent& horizontal, const Reading& reading)
 {
-    const Entry& choice = *given.vertical;
+    if (!choice_of_it) {
+        return {};
+    }
+    const Entry& choice = *choice_of_it;
     const RecordComponent* component = chosen(content, choice);
     RecordFile other;
     if (component == nullptr) {
@@ -185,9 +192,8 @@ std::vector<double> upwards_of(const GivenRecord& given, const RecordFile& conte
                horizontal.time_step);
     }
     if (component->acceleration == horizontal.acceleration) {
-        refuse(choice,
-               " = {} has the accelerations of the horizontal component. Give the vertical one.",
-               component_text(choice));
+        refuse(choice, " = {} has the accelerations of the horizontal component. Give the {} one.",
+               component_text(choice), name);
     }
     return over_gravity(*component, reading.gravity);
 }
@@ -208,14 +214,20 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
     }
     auto record = std::make_shared<const Accelerogram>(
         over_gravity(*horizontal, reading.gravity),
-        given.vertical ? upwards_of(given, content, *horizontal, reading) : std::vector<double>(),
-        horizontal->time_step);
+        other_component(given.vertical, "vertical", given, content, *horizontal, reading),
+        horizontal->time_step,
+        other_component(given.second, "second", given, content, *horizontal, reading));
+    if (given.second && record->second() == record->upwards()) {
+        refuse(*given.second, " = {} is also the vertical component. Correct one of them.",
+               component_text(*given.second));
+    }
     Motion motion{
         .file = given.file,
         .name = {},
         .component = horizontal->name,
         .label = label_of(content, *horizontal),
         .vertical = given.vertical ? component_text(*given.vertical) : "",
+        .second = given.second ? component_text(*given.second) : "",
         .header = {},
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
         .checksum = checksum_of(*record)};
@@ -249,7 +261,7 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
     for (std::size_t i = 0; i < size; ++i) {
         const Entry one = entry.node->is_array() ? element(entry, i) : entry;
         for (std::string& file : files_of(one, folder)) {
-            records.push_back({one, std::move(file), {}, {}});
+            records.push_back({one, std::move(file), {}, {}, {}});
         }
     }
     if (records.size() > most_records) {
@@ -258,15 +270,17 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
     }
     const auto components = choices_of(scene, "component", records.size());
     const auto verticals = choices_of(scene, "vertical", records.size());
+    const auto seconds = choices_of(scene, "second_component", records.size());
     for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].component = components[i];
         records[i].vertical = verticals[i];
+        records[i].second = seconds[i];
     }
     return records;
 }
 
 /// Sets the name of every motion: its file; if several motions are of one file, the file and the
-/// component, as in "WTMC.V2A:N28W"; if these have several vertical motions, also that.
+/// component, as in "WTMC.V2A:N28W"; if these have several other components, also those.
 void name_motions(std::vector<Motion>& motions)
 {
     std::map<std::string, int> of_file, of_component;
@@ -279,7 +293,9 @@ void name_motions(std::vector<Motion>& motions)
         if (of_file[motion.file] == 1) {
             motion.name = motion.file;
         } else if (of_component[motion.name] > 1) {
-            motion.name += ":" + motion.vertical;
+            for (const std::string& other : {motion.second, motion.vertical}) {
+                motion.name += other.empty() ? "" : ":" + other;
+            }
         }
     }
 }

@@ -37,11 +37,13 @@ std::string motion_text(const Motion& motion, const Accelerogram& record)
 {
     const IntensityMeasures& measures = motion.measures;
     return fmt::format(
-        "{{ file = {}, component = {}, vertical = {}, samples = {}, time_step = {}, pga = {}, pgv "
-        "= {}, arias_intensity = {}, significant_duration = {}, checksum = {} }}",
-        in_quotes(motion.file), in_quotes(motion.component), in_quotes(motion.vertical),
-        record.samples(), float_text(record.time_step()), float_text(measures.pga),
-        float_text(measures.pgv), float_text(measures.arias_intensity),
+        "{{ file = {}, component = {}, {}vertical = {}, samples = {}, time_step = {}, pga = {}, "
+        "pgv = {}, arias_intensity = {}, significant_duration = {}, checksum = {} }}",
+        in_quotes(motion.file), in_quotes(motion.component),
+        motion.second.empty() ? ""
+                              : fmt::format("second_component = {}, ", in_quotes(motion.second)),
+        in_quotes(motion.vertical), record.samples(), float_text(record.time_step()),
+        float_text(measures.pga), float_text(measures.pgv), float_text(measures.arias_intensity),
         float_text(measures.significant_duration), in_quotes(motion.checksum));
 }
 

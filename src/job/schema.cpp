@@ -28,6 +28,7 @@ constexpr std::array keys{
     Key{"scene", "nu", Under::pulse},
     Key{"scene", "units", Under::record},
     Key{"scene", "component", Under::record},
+    Key{"scene", "second_component", Under::record},
     Key{"scene", "vertical", Under::record},
     Key{"scene", "time_step", Under::record},
     Key{"scene", "gravity"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace overturn {
@@ -25,14 +26,29 @@ std::vector<double> suffix_maxima(const std::vector<double>& values, const Value
 } // namespace
 
 Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> upwards,
-                           double time_step)
-    : horizontal_(std::move(horizontal)), upwards_(std::move(upwards)), time_step_(time_step),
+                           double time_step, std::vector<double> second)
+    : horizontal_(std::move(horizontal)), upwards_(std::move(upwards)), second_(std::move(second)),
+      time_step_(time_step),
       later_peak_(suffix_maxima(horizontal_, [](double a) { return std::abs(a); })),
       later_fall_(suffix_maxima(upwards_, [](double v) { return -v; }))
 {
     for (const double v : upwards_) {
         upwards_peak_ = std::max(upwards_peak_, std::abs(v));
     }
+}
+
+Accelerogram Accelerogram::in_direction(double degrees) const
+{
+    const double sign = degrees < 180 ? 1 : -1;
+    const double half_turn = degrees < 180 ? degrees : degrees - 180;
+    const double angle = half_turn * std::numbers::pi / 180;
+    const double cosine = sign * (half_turn == 90 ? 0 : std::cos(angle));
+    const double sine = sign * std::sin(angle);
+    std::vector<double> motion = horizontal_;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        motion[i] = cosine * horizontal_[i] + sine * (second_.empty() ? 0 : second_[i]);
+    }
+    return {std::move(motion), upwards_, time_step_};
 }
 
 double Accelerogram::upwards_mean() const

@@ -39,9 +39,17 @@ double least_uplift_threshold(const Scene& scene, const Point& point)
 
 } // namespace
 
+std::shared_ptr<const Accelerogram> motion_of(const Scene& scene, const Point& point)
+{
+    const auto& record = scene.records[std::size_t(point.record)];
+    return scene.has_two_components()
+               ? std::make_shared<const Accelerogram>(record->in_direction(point.direction))
+               : record;
+}
+
 double pga_of_unit(const Scene& scene, const Point& point)
 {
-    return scene.is_recorded() ? scene.records[std::size_t(point.record)]->peak()
+    return scene.is_recorded() ? motion_of(scene, point)->peak()
                                : least_uplift_threshold(scene, point);
 }
 
@@ -55,8 +63,8 @@ double lifting_pga(const Scene& scene, const Point& point)
     const UpliftThresholds thresholds(uplift_threshold(scene.theory, block.slenderness),
                                       uplift_threshold(scene.theory, block.other.slenderness));
     if (scene.is_recorded()) {
-        const Accelerogram& record = *scene.records[std::size_t(point.record)];
-        return record.peak() * record.lifting_scale(thresholds);
+        const auto record = motion_of(scene, point);
+        return record->peak() * record->lifting_scale(thresholds);
     }
     // A positive acceleration of the ground lifts the block on its side minus.
     const LobeAmplitudes<double> lobes =
@@ -247,6 +255,12 @@ constexpr Derivation derivations[]{
      [](const Scene&, const Values& of) { return of[0] * of[1]; },
      Under::record},
     {"record_pga",
+     {"motion", "direction"},
+     [](const Scene& scene, const Values& of) {
+         return record_of(scene, of[0]).in_direction(of[1]).peak();
+     },
+     Under::two_components},
+    {"record_pga",
      {"motion"},
      [](const Scene& scene, const Values& of) { return record_of(scene, of[0]).peak(); },
      Under::record},
@@ -292,9 +306,7 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
                 derivation_of(other, scene, grid, path) != nullptr);
     };
     const auto is_possible = [&](const Derivation& each) {
-        return each.name == name &&
-               (each.motion == Under::any_motion ||
-                (each.motion == Under::record) == scene.is_recorded()) &&
+        return each.name == name && scene.is_under(each.motion) &&
                (each.sides == Sides::any || (each.sides == Sides::two) == grid.has_two_sides()) &&
                std::all_of(each.from.begin(), each.from.end(), is_known);
     };
@@ -447,8 +459,12 @@ std::vector<Point> Coordinates::points() const
     fill(is_recorded ? "scale" : "amplitude",
          [](Point& point, double value) { point.amplitude = value; });
     if (grid_.find("direction") != nullptr) {
-        fill("direction", [](Point& point, double value) {
-            point.amplitude = value == 180 ? -point.amplitude : point.amplitude;
+        fill("direction", [&](Point& point, double value) {
+            if (scene_.has_two_components()) {
+                point.direction = value;
+            } else if (value == 180) {
+                point.amplitude = -point.amplitude;
+            }
         });
     }
     const auto fill_frequency = [&](std::string_view name, const auto& value_of) {

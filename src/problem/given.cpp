@@ -245,9 +245,18 @@ void expect_standing(const Coordinates& coordinates, const Grid& corners)
 }
 
 /// With one component of motion, only the motion itself and its mirror image have a direction.
-void expect_directions(const Grid& grid)
+void expect_directions(const Scene& scene, const Grid& grid)
 {
-    if (const Column* directions = grid.find("direction")) {
+    if (scene.has_two_components()) {
+        if (grid.find("pga") != nullptr) {
+            refuse("pga", " is not unique: the peak of two horizontal components depends on the "
+                          "direction. Give scale, a factor on the record.");
+        }
+        if (grid.find("direction") == nullptr) {
+            refuse("direction", " is missing. Two horizontal components need a direction in "
+                                "degrees, from the first component towards the second one.");
+        }
+    } else if (const Column* directions = grid.find("direction")) {
         for (const double value : directions->values.values()) {
             if (value != 0 && value != 180) {
                 refuse(
@@ -296,13 +305,16 @@ void expect_gravity(const Scene& scene, const Grid& grid)
     }
     const std::string_view name = grid.find("pga") != nullptr ? "pga" : "scale";
     const Coordinates coordinates(scene, grid);
-    refuse(name,
-           fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
-                       "below the scale {:.6g}, which is a PGA of {:.6g} g.",
-                       extent_of(coordinates.of(name)).first,
-                       coordinates.of(name).values.size() > 1 ? " and more" : "",
-                       scene.records.size() > 1 ? " under every record" : "",
-                       weakest->free_fall_scale(), weakest->free_fall_scale() * weakest->peak()));
+    refuse(name, fmt::format(" = {:.6g}{}: the vertical motion cancels gravity{}. Choose a value "
+                             "below the scale {:.6g}{}.",
+                             extent_of(coordinates.of(name)).first,
+                             coordinates.of(name).values.size() > 1 ? " and more" : "",
+                             scene.records.size() > 1 ? " under every record" : "",
+                             weakest->free_fall_scale(),
+                             scene.has_two_components()
+                                 ? ""
+                                 : fmt::format(", which is a PGA of {:.6g} g",
+                                               weakest->free_fall_scale() * weakest->peak())));
 }
 
 /// The place of an axis among the dimensions; smaller is slower. Under records, the size of the
@@ -366,7 +378,7 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     expect_complete(scene, grid);
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
-    expect_directions(grid);
+    expect_directions(scene, grid);
     if (grid.has_two_sides()) {
         expect_standing(coordinates, corners);
     } else {

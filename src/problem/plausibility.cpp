@@ -138,6 +138,9 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         for (const auto& record : scene.records) {
             means.values.push_back(record->upwards_mean());
             peaks.values.push_back(record->peak());
+            for (const double a : record->second()) {
+                peaks.values.back() = std::max(peaks.values.back(), std::abs(a));
+            }
             time_steps.values.push_back(record->time_step());
         }
         findings.push_back(finding_about(vertical_mean, extent_of(means)));

@@ -64,11 +64,12 @@ public:
     {
         std::vector<double> horizontal = record ? record->horizontal() : std::vector<double>();
         std::vector<double> upwards = record ? record->upwards() : std::vector<double>();
+        std::vector<double> second = record ? record->second() : std::vector<double>();
         double time_step = record ? record->time_step() : 0;
-        transfer_all(horizontal, upwards, time_step);
+        transfer_all(horizontal, upwards, second, time_step);
         if (is_input_) {
             record = std::make_shared<const Accelerogram>(std::move(horizontal), std::move(upwards),
-                                                          time_step);
+                                                          time_step, std::move(second));
         }
     }
 

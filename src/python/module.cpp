@@ -74,16 +74,17 @@ Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double
     return scene;
 }
 
-/// A scene under a record; horizontal and upwards: accelerations over g, finite, upwards of the
-/// same number or empty.
-Scene scene_of_record(const Values& horizontal, const Values& upwards, double time_step,
-                      const std::string& theory, double gravity)
+/// A scene under a record; horizontal, second and upwards: accelerations over g, finite, the latter
+/// two of the same number or empty.
+Scene scene_of_record(const Values& horizontal, const Values& second, const Values& upwards,
+                      double time_step, const std::string& theory, double gravity)
 {
     Scene scene;
     scene.theory = choice_of<Theory>("theory", theory, theory_names);
     scene.gravity = allowed("gravity", gravity);
-    scene.records.push_back(std::make_shared<const Accelerogram>(
-        vector_of(horizontal), vector_of(upwards), allowed("time_step", time_step)));
+    scene.records.push_back(
+        std::make_shared<const Accelerogram>(vector_of(horizontal), vector_of(upwards),
+                                             allowed("time_step", time_step), vector_of(second)));
     return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include "overturn/integrate/forced_path.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/problem/coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -272,8 +273,9 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
                 .build(view);
         };
         if (scene.is_recorded()) {
-            return build(record_excitation<theory>(*scene.records.front(), point.block,
-                                                   point.amplitude, point.frequency));
+            const auto record = motion_of(scene, point);
+            return build(
+                record_excitation<theory>(*record, point.block, point.amplitude, point.frequency));
         }
         return build(pulse_excitation<theory>(pulse_motion<double>(scene.pulse, scene.shape),
                                               point.block, point.amplitude, point.frequency));

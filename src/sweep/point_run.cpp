@@ -16,6 +16,20 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// The records of points, in their order; those of equal directions are the same object.
+std::vector<std::shared_ptr<const Accelerogram>> motions_of(const Scene& scene,
+                                                            const std::vector<Point>& points)
+{
+    std::map<std::pair<int, double>, std::shared_ptr<const Accelerogram>> known;
+    std::vector<std::shared_ptr<const Accelerogram>> motions;
+    for (const Point& point : points) {
+        auto& motion = known[{point.record, point.direction}];
+        motion = motion ? motion : motion_of(scene, point);
+        motions.push_back(motion);
+    }
+    return motions;
+}
+
 } // namespace
 
 Outcomes::Outcomes(std::size_t points, const Outputs& wanted)
@@ -62,12 +76,11 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
     const PerLobe<FlankInPulse<double>> flanks = flanks_of(motion);
     for (std::size_t first = 0; first < points.size();) {
         const auto number = int(pulses.size());
-        const auto& [block, amplitude, frequency, record] = points[first];
-        pulses.push_back(
-            with_theory(theory, [&, &block = block, &amplitude = amplitude]<Theory known>() {
-                return scaled_pulse<known>(motion, flanks, block.slenderness,
-                                           block.other.slenderness, amplitude);
-            }));
+        const Point& point = points[first];
+        pulses.push_back(with_theory(theory, [&]<Theory known>() {
+            return scaled_pulse<known>(motion, flanks, point.block.slenderness,
+                                       point.block.other.slenderness, point.amplitude);
+        }));
         std::size_t next = first;
         for (; next < points.size() && are_equal(points[first], points[next]); ++next) {
             of_point[next] = number;
@@ -82,7 +95,11 @@ PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
       drop_requested_(std::move(drop_requested)), points_(std::move(points)),
       pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_)),
       are_symmetric_(are_symmetric)
-{}
+{
+    if (scene.is_recorded()) {
+        motions_ = motions_of(scene_, points_);
+    }
+}
 
 PointRun PointRun::with_points(std::vector<Point> points) const
 {
@@ -109,17 +126,18 @@ bool PointRun::falls_freely(int point) const
 template <class T, Theory theory, class Visitor>
 auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
-    const auto& [block, amplitude, frequency, index] = this->point(point);
+    const Point& at = this->point(point);
+    const Block<T> block = block_in<T>(at.block);
     if (const Accelerogram* record = record_of(point)) {
-        return visit(
-            record_excitation<theory>(*record, block_in<T>(block), T(amplitude), T(frequency)));
+        return visit(record_excitation<theory>(*record, block, T(at.amplitude), T(at.frequency)));
     }
     if constexpr (std::same_as<T, double>) {
         const ScaledPulse<double>& pulse = pulse_of(point);
-        return visit(PulseExcitation<double>{pulse_, pulse.acceleration, frequency, pulse.uplifts});
+        return visit(
+            PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
     } else {
-        return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape),
-                                              block_in<T>(block), T(amplitude), T(frequency)));
+        return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape), block,
+                                              T(at.amplitude), T(at.frequency)));
     }
 }
 

@@ -83,8 +83,7 @@ public:
     /// The record of a point; nullptr under a pulse.
     const Accelerogram* record_of(int point) const
     {
-        return scene_.is_recorded() ? scene_.records[std::size_t(this->point(point).record)].get()
-                                    : nullptr;
+        return motions_.empty() ? nullptr : motions_[std::size_t(point)].get();
     }
 
     /// The block of a point as seen from the side on which it ended.
@@ -136,7 +135,8 @@ private:
     Kernel kernel_;
     DropRequested drop_requested_;
     std::vector<Point> points_;
-    ScaledPulses pulses_; // only under a pulse
+    ScaledPulses pulses_;                                      // only under a pulse
+    std::vector<std::shared_ptr<const Accelerogram>> motions_; // of the points, under records
     bool are_symmetric_;
 };
 

@@ -1,5 +1,6 @@
 """Jobs with recorded ground motions: results, resuming, and refusals."""
 
+import json
 import math
 import shutil
 import unittest
@@ -182,6 +183,92 @@ class OtherAxes(ScratchWithRecords):
         one, other = self.opened("out.h5"), self.opened("column.h5")
         self.assertTrue(np.array_equal(one.region.values, other.region.values))
         self.assertTrue(np.allclose(one.pga, other.pga, rtol=1e-15))
+
+
+class Directions(ScratchWithRecords):
+    TWO = ("--set", "scene.second_component=up.AT2", "--set", "output.fields=['region', 'margin', 'peak']")
+    ROCK = """
+[scene]
+record = "one.AT2"
+second_component = "up.AT2"
+[block]
+slenderness_plus = {plus}
+slenderness_minus = {minus}
+size_plus = 1
+size_minus = 0.9
+radius_of_gyration = 0.6
+[plane]
+scale = {{ first = 0.5, last = 4.0, count = 12 }}
+direction = {{ values = {directions} }}
+restitution_of_maximum = 0.9
+[output]
+fields = ["region", "margin", "peak", "angle"]
+"""
+
+    def test_are_the_components_and_their_mirror_images(self):
+        self.run_job(*self.TWO, "--set", "plane.direction={ values = [0, 37, 90, 180, 217] }", out="two.h5")
+        two = self.opened("two.h5")
+        other = ("--set", "scene.component=1", *self.TWO[2:])
+        for record, direction in (("one.AT2", 0), ("one.AT2", 180), ("up.AT2", 90)):
+            self.run_job(*other, "--set", f"scene.record={record}", "--set",
+                         f"plane.direction={direction % 360 if direction != 90 else 0}", out="one.h5")
+            one = self.opened("one.h5")
+            for field in ("region", "margin", "peak"):
+                np.testing.assert_array_equal(two[field].sel(direction=direction).values, one[field].values)
+            (self.folder / "one.h5").unlink()
+        # Symmetric blocks do not know the sign of the motion.
+        np.testing.assert_array_equal(two.margin.sel(direction=37).values, two.margin.sel(direction=217).values)
+        self.assertFalse(np.array_equal(two.margin.sel(direction=37).values, two.margin.sel(direction=0).values))
+        self.assertEqual(two.pga.dims, ("direction", "scale"))
+        first, second = (max(abs(float(word)) for word in (self.folder / name).read_text().split(" SEC\n")[1].split())
+                         for name in ("one.AT2", "up.AT2"))
+        np.testing.assert_allclose(two.pga.sel(direction=[0, 90, 180]) / two.scale,
+                                   np.repeat([[first], [second], [first]], two.scale.size, 1), rtol=1e-14)
+        self.assertIn("first horizontal component", two.record_pga.attrs["comment"])
+
+    def rock(self, name, plus, minus, directions):
+        (self.folder / "rock.toml").write_text(self.ROCK.format(plus=plus, minus=minus, directions=directions))
+        self.assert_exit(self.overturn("run", "rock.toml", "-o", name), 0)
+        return self.opened(name)
+
+    def test_of_a_rock_are_those_of_the_mirrored_rock_after_half_a_turn(self):
+        # Sizes are interchanged by hand: the sides are plus and minus.
+        one = self.rock("one.h5", 0.3, 0.2, [0, 30, 90, 200])
+        self.ROCK = self.ROCK.replace("size_plus = 1\nsize_minus = 0.9", "size_plus = 0.9\nsize_minus = 1")
+        other = self.rock("other.h5", 0.2, 0.3, [180, 210, 270, 20])
+        by_value = {int(value): at for at, value in enumerate(other.direction.values)}
+        order = [by_value[(int(value) + 180) % 360] for value in one.direction.values]
+        for field in ("margin", "peak"):
+            np.testing.assert_array_equal(one[field].values, other[field].values[order])
+        np.testing.assert_array_equal(one.angle.values, -other.angle.values[order])
+        self.assertGreater(len(np.unique(one.region.values)), 2)
+
+    def test_have_boundaries_and_answers(self):
+        self.rock("one.h5", 0.3, 0.2, [30])
+        self.assert_exit(self.overturn("boundary", "rock.toml", "-o", "flips.h5"), 0)
+        flips = self.opened("flips.h5")
+        region = self.opened("one.h5").region.values.squeeze()
+        scales = np.linspace(0.5, 4, 12)
+        flip = flips.flip_amplitude.values.squeeze()
+        changes = [np.sum(flip < scale) % 2 for scale in scales]
+        unsafe = ~np.isin(region, [0, 1, 2])
+        np.testing.assert_array_equal(np.array(changes) ^ bool(unsafe[0]), unsafe)
+        answer = self.overturn("topple", "--slenderness-plus", "0.3", "--slenderness-minus", "0.2", "--size-plus", "1",
+                               "--size-minus", "0.9", "--radius-of-gyration", "0.6", "--restitution-of-maximum", "0.9",
+                               "--record", "one.AT2", "--set", "scene.second_component=up.AT2", "--direction", "30",
+                               "--scale", "4", "--json")
+        answer = json.loads(answer.stdout)
+        self.assertAlmostEqual(answer["pga"], float(self.opened("one.h5").pga[-1]), places=12)
+        self.assertEqual(answer["topples"], bool(unsafe[-1]))
+        self.assertEqual(answer["motion"]["second_component"], "up.AT2")
+
+    def test_are_refused_without_what_they_need(self):
+        for arguments, words in ((("scene.second_component=up.AT2",), "direction is missing"),
+                                 (("plane.direction=30",), "needs two horizontal components"),
+                                 (("scene.second_component=up.AT2", "plane.direction=30", "plane.pga=1"),
+                                  "depends on the direction")):
+            overrides = [word for argument in arguments for word in ("--set", argument)]
+            self.assert_exit(self.overturn("check", "job.toml", *overrides), 65, words)
 
 
 class VerticalMotion(ScratchWithRecords):

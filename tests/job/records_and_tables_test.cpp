@@ -119,6 +119,39 @@ TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)
               (std::vector<std::string>{"a.V2A:N:E", "a.V2A:N:Up"}));
 }
 
+TEST_F(Motions, HaveASecondComponentOfTheSameFileOrOfAnother)
+{
+    write_components("a.V2A", {"N", "E", "Up"});
+    write_record("a.AT2", "0 0.1 0");
+    write_record("b.AT2", "0 0.2 0");
+    const std::string direction = "scale = 1\ndirection = { values = [0, 30] }";
+    const auto second = [&](const std::string& scene) {
+        const Job job = plane(scene, direction);
+        return job.problem.scene.records[0]->second();
+    };
+    const std::vector<double> east =
+        plane("record = 'a.V2A'\ncomponent = 2").problem.scene.records[0]->horizontal();
+    EXPECT_EQ(second("record = 'a.V2A'\nsecond_component = 2\nvertical = 'Up'"), east);
+    EXPECT_EQ(second("record = 'a.V2A'\nsecond_component = 'E'"), east);
+    EXPECT_EQ(second("record = ['a.V2A', 'a.V2A']\ncomponent = [1, 3]\nsecond_component = 2"),
+              east);
+    EXPECT_EQ(second("record = 'a.AT2'\nsecond_component = 'b.AT2'"),
+              (std::vector<double>{0, 0.2, 0}));
+    EXPECT_THAT(plane("record = 'a.V2A'\nsecond_component = 'E'", direction).resolved,
+                HasSubstr("second_component = \"E\""));
+    const auto message = [&](const std::string& scene) {
+        return refusal(exit_code::job, [&] { plane(scene, direction); });
+    };
+    EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 1"),
+                HasSubstr("has the accelerations of the horizontal component. Give the second"));
+    EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 2\nvertical = 2"),
+                HasSubstr("is also the vertical component"));
+    EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 4"), HasSubstr("not a component"));
+    EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 'b.AT2'"), HasSubstr("samples"));
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = 'a.V2A'\nsecond_component = 2"); }),
+                HasSubstr("direction is missing"));
+}
+
 TEST_F(Motions, AreRefusedIfOneIsListedTwiceUnderAnySpelling)
 {
     write_components("a.V2A", {"N", "E"});

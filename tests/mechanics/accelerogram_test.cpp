@@ -82,6 +82,44 @@ TEST(Accelerogram, PeaksAreTheLargestOfAllSamples)
     EXPECT_EQ(accelerogram({1, 0}).upwards_peak(), 0);
 }
 
+TEST(Accelerogram, InADirectionIsTheSumOfBothComponents)
+{
+    std::mt19937_64 generator(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const Accelerogram first = random_record(generator, 20, Directions::both);
+        const Accelerogram other = random_record(generator, 20, Directions::horizontal);
+        const Accelerogram both(first.horizontal(), first.upwards(), 0.25, other.horizontal());
+        EXPECT_EQ(both.in_direction(0).horizontal(), first.horizontal());
+        EXPECT_EQ(both.in_direction(90).horizontal(), other.horizontal());
+        const double direction = 360 * uniform(generator);
+        const double angle = direction * pi<double>() / 180;
+        const Accelerogram motion = both.in_direction(direction);
+        const Accelerogram mirrored =
+            both.in_direction(direction < 180 ? direction + 180 : direction - 180);
+        const Accelerogram across = both.in_direction(std::fmod(direction + 90, 360));
+        EXPECT_EQ(motion.upwards(), first.upwards());
+        EXPECT_EQ(motion.time_step(), 0.25);
+        EXPECT_TRUE(motion.second().empty());
+        for (std::size_t k = 0; k < motion.horizontal().size(); ++k) {
+            const double a = motion.horizontal()[k];
+            const double a1 = first.horizontal()[k];
+            const double a2 = other.horizontal()[k];
+            const double size = std::abs(a1) + std::abs(a2);
+            EXPECT_NEAR(a, a1 * std::cos(angle) + a2 * std::sin(angle), 1e-14 * size);
+            EXPECT_NEAR(std::hypot(a, across.horizontal()[k]), std::hypot(a1, a2), 1e-14 * size);
+            // direction + 180 may be rounded.
+            EXPECT_NEAR(mirrored.horizontal()[k], -a, 1e-12 * size);
+        }
+        const double exact = std::floor(direction / 2); // below 180
+        std::vector<double> opposite = both.in_direction(exact + 180).horizontal();
+        for (double& a : opposite) {
+            a = -a;
+        }
+        EXPECT_EQ(opposite, both.in_direction(exact).horizontal());
+    }
+}
+
 TEST(Accelerogram, LiftingScaleSeparatesScalesThatLiftFromOthers)
 {
     std::mt19937_64 generator(5);

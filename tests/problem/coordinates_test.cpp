@@ -344,6 +344,29 @@ TEST(Direction, OfTheMirrorImageMirrorsTheMotion)
     }
 }
 
+TEST(Coordinates, OfTwoComponentsHaveThePeakOfEveryDirection)
+{
+    Scene scene;
+    scene.records = {record_of_two_components(0.5, 0.01), record_of_two_components(1, 0.02)};
+    const Grid grid = grid_of(scene, {number("slenderness", 0.2), number("size", 1.0),
+                                      number("restitution", 0.8), axis("motion", {1, 2}),
+                                      axis("direction", {0, 30, 90, 210}), axis("scale", {1, 3})});
+    const Coordinates coordinates(scene, grid);
+    EXPECT_EQ(coordinates.dimensions_of("pga"), (std::vector<std::size_t>{0, 1, 2}));
+    const std::vector<double>& pga = coordinates.of("pga").values;
+    const std::vector<Point> points = coordinates.points();
+    ASSERT_EQ(points.size(), pga.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto motion = motion_of(scene, points[i]);
+        EXPECT_EQ(pga[i], motion->peak() * points[i].amplitude);
+        EXPECT_EQ(pga_of_unit(scene, points[i]), motion->peak());
+        EXPECT_GT(points[i].amplitude, 0); // its mirror image is that of the direction
+    }
+    EXPECT_EQ(pga[0], 0.75); // of the first component
+    EXPECT_EQ(pga[4], 0.5);  // of the second one
+    EXPECT_EQ(pga[2], pga[6]);
+}
+
 TEST(LargestRestitution, ExistsBelowTheSlendernessAtWhichItIsZero)
 {
     EXPECT_DOUBLE_EQ(limit_of_r_max, std::asin(std::sqrt(2.0 / 3)));

@@ -256,6 +256,22 @@ TEST(GridOf, RefusesStrengthsAtAllOfWhichTheVerticalMotionCancelsGravity)
     expect_refused(scene, given(axis("motion", {1, 2}), {4}), "scale", "= 4: the vertical motion");
 }
 
+TEST(GridOf, TakesAnyDirectionOfTwoComponentsAndOnlyTwoOfOne)
+{
+    Scene scene;
+    scene.records = {short_record(1, 0.01)};
+    const Quantities others = block + loss + Quantities{number("motion", 1)};
+    const Quantities scale{number("scale", 1)};
+    grid_of(scene, others + scale + Quantities{axis("direction", {0, 180})});
+    expect_refused(scene, others + scale + Quantities{axis("direction", {0, 30, 180})}, "direction",
+                   "= 30 needs two horizontal components");
+    scene.records = {record_of_two_components(0.5, 0.01)};
+    grid_of(scene, others + scale + Quantities{axis("direction", AxisRange{0, 345, 24})});
+    expect_refused(scene, others + scale, "direction", "is missing");
+    expect_refused(scene, others + Quantities{number("pga", 1), number("direction", 30)}, "pga",
+                   "depends on the direction");
+}
+
 TEST(GridOf, RefusesABlockWithTwoSidesThatDoesNotStand)
 {
     std::mt19937_64 generator(38);

@@ -24,6 +24,8 @@ std::vector<Problem> every_problem()
     const Scene records = scene_of_three_records();
     Scene vertical;
     vertical.records = {short_record(0.5, 0.01, 0.25), short_record(0.5, 0.02, -0.25)};
+    Scene directions;
+    directions.records = {record_of_two_components(0.5, 0.01)};
     std::vector<Problem> problems{
         {.scene = pulse_scene,
          .grid = grid_of(pulse_scene, pulse),
@@ -54,7 +56,11 @@ std::vector<Problem> every_problem()
          .grid = grid_of(vertical, block + Quantities{column("motion", {2, 1, 2}),
                                                       column("scale", {1, 0.5, 1.5})}),
          .numerics = {.method = Method::taylor},
-         .fields = {Field::peak}}};
+         .fields = {Field::peak}},
+        {.scene = directions,
+         .grid = grid_of(directions, block + Quantities{number("motion", 1), number("scale", 1),
+                                                        axis("direction", {0, 30})}),
+         .fields = {Field::region}}};
     return problems;
 }
 
@@ -82,6 +88,7 @@ void expect_equal(const Scene& one, const Scene& other)
     for (std::size_t i = 0; i < one.records.size(); ++i) {
         EXPECT_EQ(one.records[i]->horizontal(), other.records[i]->horizontal());
         EXPECT_EQ(one.records[i]->upwards(), other.records[i]->upwards());
+        EXPECT_EQ(one.records[i]->second(), other.records[i]->second());
         EXPECT_EQ(one.records[i]->time_step(), other.records[i]->time_step());
     }
 }

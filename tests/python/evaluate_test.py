@@ -116,6 +116,24 @@ class TheBitsUnderARecord(WithTheSameBits):
         by_scale = overturn.evaluate(**motion, scale=[1, 2])
         np.testing.assert_array_equal(by_pga["peak"], by_scale["peak"])
 
+    def test_of_two_components_has_directions(self):
+        one, other = (overturn.read_record(JOBS / name) for name in ("synthetic.AT2", "synthetic_vertical.AT2"))
+        motion = {**BLOCK, "record": one.acceleration, "time_step": one.time_step}
+        scale = np.linspace(0.5, 4, 12)[:, None]
+        turned = overturn.evaluate(**motion, second_component=other.acceleration, scale=scale,
+                                   direction=[0, 90, 180, 30])
+        for column, record in enumerate((one, other, one)):
+            alone = overturn.evaluate(**{**motion, "record": record.acceleration}, scale=scale[:, 0])
+            np.testing.assert_array_equal(turned["margin"][:, column], alone["margin"])
+        sum_of_both = one.acceleration * np.cos(np.pi / 6) + other.acceleration * np.sin(np.pi / 6)
+        alone = overturn.evaluate(**{**motion, "record": sum_of_both}, scale=scale[:, 0])
+        np.testing.assert_array_equal(turned["verdict"][:, 3], alone["verdict"])
+        self.assertEqual(len(np.unique(turned["verdict"])), 2)
+        for arguments, words in (({"scale": 1}, "direction is missing"), ({"pga": 1, "direction": 30}, "pga is not"),
+                                 ({"scale": 1, "direction": 30, "second_component": [0, 1]}, "has 2 samples")):
+            with self.assertRaisesRegex(ValueError, words):
+                overturn.evaluate(**{**motion, "second_component": other.acceleration, **arguments})
+
     def test_where_gravity_vanishes_points_are_undecided(self):
         motion = {"record": [0, 0.5, 0], "vertical": [0, -0.5, 0], "time_step": 0.1}
         outcome = overturn.evaluate(**BLOCK, **motion, scale=[1, 2])

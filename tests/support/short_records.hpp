@@ -21,6 +21,14 @@ inline std::shared_ptr<const Accelerogram> short_record(double peak, double time
                                                 std::move(vertical), time_step);
 }
 
+/// A record of four samples, whose second component has this peak at another time.
+inline std::shared_ptr<const Accelerogram> record_of_two_components(double peak, double time_step)
+{
+    return std::make_shared<const Accelerogram>(std::vector<double>{0, 0.75, -0.25, 0},
+                                                std::vector<double>(), time_step,
+                                                std::vector<double>{0, peak / 4, peak, 0});
+}
+
 /// Three records, all different in peak and time step.
 inline Scene scene_of_three_records()
 {

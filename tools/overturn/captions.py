@@ -89,7 +89,10 @@ def motion_text(plane, units):
     name = motion_names(plane.file)[int(number) - 1]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
-    return name + (f", PGA {plane.value('record_pga'):.3g} g" if "scale" in plane.quantities(units) else "")
+    if "scale" not in plane.quantities(units):
+        return name
+    words = (f"PGA {plane.value('record_pga'):.3g} g", plane.file["record_pga"].attrs.get("comment", ""))
+    return f"{name}, {' '.join(filter(None, words))}"
 
 
 def other_words(plane, units):

@@ -55,8 +55,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None, direction: ArrayLike | None = None,
              pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
-             record: ArrayLike | None = None, vertical: ArrayLike | None = None,
-             time_step: float | None = None, scale: ArrayLike | None = None,
+             record: ArrayLike | None = None, second_component: ArrayLike | None = None,
+             vertical: ArrayLike | None = None, time_step: float | None = None, scale: ArrayLike | None = None,
              theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
              resolve: bool = False, gravity: float = 9.81) -> Outcome:
     """Computes what becomes of blocks, each under its own pulse, or all under one record.
@@ -81,9 +81,11 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         direction*: 0, the motion as it stands, or 180, its mirror image [degree]; also of a record.
     Or a record:
         record: horizontal accelerations over g [1], one-dimensional, linear between samples.
+        second_component: accelerations at a right angle to these [1], at the same times. The motion is then
+            record * cos(direction) + second_component * sin(direction), of any direction*.
         vertical: vertical accelerations over g [1] at the same times, positive upwards.
         time_step: between two samples [s].
-        scale*: factor on both accelerations [1]; or pga*, the peak of the scaled record over g [1].
+        scale*: factor on all accelerations [1]; or pga*, the peak of the scaled record over g [1].
     The computation:
         theory: "nonlinear" or "linear".
         method: "taylor", or "rk45" under pulses.
@@ -106,7 +108,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     shape_numbers = _given(window=window, cycles=cycles, gamma=gamma, nu=nu)
     numbers = {name: _number(name, value) for name, value in _given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
-    of_record = _given(vertical=vertical, time_step=time_step, scale=scale)
+    of_record = _given(second_component=second_component, vertical=vertical, time_step=time_step, scale=scale)
     if record is None:
         _refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
@@ -120,8 +122,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         if time_step is None or (scale is None) == (pga is None):
             raise ArgumentError("a record needs time_step, and either scale or pga.")
         columns |= _given(scale=scale)
-        horizontal, upwards = _accelerations(record, vertical)
-        scene = core.scene_of_record(horizontal, upwards, numbers["time_step"], theory, numbers["gravity"])
+        components = _accelerations(record, second_component, vertical)
+        scene = core.scene_of_record(*components, numbers["time_step"], theory, numbers["gravity"])
     numerics = core.numerics(scene, method, numbers.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns)
 
@@ -161,21 +163,23 @@ def _refuse(arguments, reason):
         raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
 
 
-def _accelerations(record, vertical):
-    """Returns checked samples; none if there is no vertical motion."""
+def _accelerations(record, second_component, vertical):
+    """Returns checked samples of three components; none of those that are not given."""
     horizontal = _numbers("record", record)
-    upwards = _numbers("vertical", [] if vertical is None else vertical)
-    for name, samples in (("record", horizontal), ("vertical", upwards)):
+    others = {name: _numbers(name, value)
+              for name, value in _given(second_component=second_component, vertical=vertical).items()}
+    for name, samples in {"record": horizontal, **others}.items():
         if samples.ndim != 1:
             raise ValueError(f"{name} has {samples.ndim} dimensions. Give a one-dimensional array of samples.")
         for index in np.flatnonzero(~np.isfinite(samples))[:1]:
             raise ValueError(f"{name}[{index}] = {samples[index]} is not finite. Give accelerations over g.")
     if horizontal.size < 2 or not horizontal.any():
         raise ValueError("record needs two or more samples, not all of them zero.")
-    if vertical is not None and upwards.size != horizontal.size:
-        raise ValueError(f"vertical has {upwards.size} samples, but record has {horizontal.size}. Give both at the "
-                         "same times.")
-    return horizontal, upwards
+    for name, samples in others.items():
+        if samples.size != horizontal.size:
+            raise ValueError(f"{name} has {samples.size} samples, but record has {horizontal.size}. Give both at "
+                             "the same times.")
+    return horizontal, others.get("second_component", []), others.get("vertical", [])
 
 
 def _evaluated(scene, numerics, columns):

@@ -140,6 +140,8 @@ def _measure(dataset, im):
         known = [name for name in POWERS if _NAMES.get(name, name) in dataset]
         raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}; "
                          "another one must be a variable of numbers over the dimension motion.")
+    if im == "pga" and im in dataset:  # of the direction, if there are two horizontal components
+        return dataset[im]
     measure = dataset[unscaled]
     if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
         measure = measure.sel(motion=dataset["motion_number"])

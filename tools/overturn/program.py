@@ -24,6 +24,8 @@ _WARNING = "overturn: warning: "  # begins a line of the program
 FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations",
          "scene.vertical": "a component of the record, a path, or a list of them. overturn.evaluate(vertical=...) "
                            "takes accelerations",
+         "scene.second_component": "a component of the record, a path, or a list of them. "
+                                   "overturn.evaluate(second_component=...) takes accelerations",
          "blocks.table": "the path of a CSV file. overturn.evaluate(width=..., height=...) takes arrays of blocks"}
 
 Job = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -129,7 +131,7 @@ def _expect_file_names(value, key):
     if key not in FILES:
         return
     names = value.tolist() if hasattr(value, "tolist") else value
-    kinds = (str, os.PathLike, int) if key == "scene.vertical" else (str, os.PathLike)
+    kinds = (str, os.PathLike, int) if key in ("scene.second_component", "scene.vertical") else (str, os.PathLike)
     for name in names if isinstance(names, (list, tuple)) else [names]:
         if not isinstance(name, kinds):
             raise TypeError(f"{key} is {_described(value)}, but a job names files: give {FILES[key]}.")

@@ -18,11 +18,18 @@ struct UpliftThresholds {
 
 class Accelerogram {
 public:
-    /// Accelerations over g [1], at least two; upwards: of the same number, or empty if there is no
-    /// vertical motion. time_step > 0 [s].
-    Accelerogram(std::vector<double> horizontal, std::vector<double> upwards, double time_step);
+    /// Accelerations over g [1], at least two; upwards, second: of the same number, or empty if
+    /// there is no vertical motion, or no second horizontal component. time_step > 0 [s].
+    Accelerogram(std::vector<double> horizontal, std::vector<double> upwards, double time_step,
+                 std::vector<double> second = {});
+
+    /// The motion in a direction psi [degree], without a second component: a1 cos psi + a2 sin psi
+    /// of the horizontal component a1 and the second one a2. That of psi + 180 is its mirror image,
+    /// bit by bit.
+    Accelerogram in_direction(double degrees) const;
 
     const std::vector<double>& horizontal() const { return horizontal_; }
+    const std::vector<double>& second() const { return second_; }
     const std::vector<double>& upwards() const { return upwards_; }
     double time_step() const { return time_step_; }
     std::int64_t samples() const { return std::int64_t(horizontal_.size()); }
@@ -51,7 +58,7 @@ public:
                                const UpliftThresholds& thresholds) const;
 
 private:
-    std::vector<double> horizontal_, upwards_;
+    std::vector<double> horizontal_, upwards_, second_;
     double time_step_;
     double upwards_peak_ = 0;
     // Suffix maxima of |horizontal| and of -upwards.

@@ -28,6 +28,9 @@ std::optional<double> r_max_of(double slenderness);
 /// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
 double uplift_threshold(Theory theory, double slenderness);
 
+/// The record of a point, in its direction.
+std::shared_ptr<const Accelerogram> motion_of(const Scene& scene, const Point& point);
+
 /// The peak ground acceleration over g of a motion of the strength 1: the amplitude of a pulse that
 /// excites the block of this point, or the scale of its record.
 double pga_of_unit(const Scene& scene, const Point& point);

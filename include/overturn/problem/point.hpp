@@ -12,7 +12,8 @@ struct Point {
     /// Omega, of a block with two different sides omega_p in the unit of its pace; under records,
     /// the samples per unit of time [1]
     double frequency;
-    int record = 0; ///< the index of its record among those of the scene, if there are any
+    int record = 0;       ///< the index of its record among those of the scene, if there are any
+    double direction = 0; ///< of the motion, if there are two horizontal components [degree]
 };
 
 } // namespace overturn

@@ -19,7 +19,7 @@ namespace overturn {
 enum class Method { rk45, taylor };
 
 /// The ground motions under which something applies.
-enum class Under { any_motion, pulse, record };
+enum class Under { any_motion, pulse, record, two_components };
 
 /// Names in job files and result files, in the order of the enumerators.
 inline constexpr auto pulse_names = [] {
@@ -49,11 +49,20 @@ struct Scene {
     Theory theory = Theory::nonlinear;
     PulseShape shape{};
 
-    /// Recorded ground motions, which replace the pulse; either all or none have a vertical motion.
+    /// Recorded ground motions, which replace the pulse; either all or none have a vertical motion,
+    /// and a second horizontal component.
     std::vector<std::shared_ptr<const Accelerogram>> records{};
     double gravity = 9.81; ///< g [m/s2]
 
     bool is_recorded() const { return !records.empty(); }
+    bool has_two_components() const { return is_recorded() && !records[0]->second().empty(); }
+
+    bool is_under(Under motion) const
+    {
+        return motion == Under::any_motion || (motion == Under::pulse && !is_recorded()) ||
+               (motion == Under::record && is_recorded()) ||
+               (motion == Under::two_components && has_two_components());
+    }
 
     /// The index into `records` of a value of the coordinate "motion", which counts from 1.
     static std::size_t record_index(double motion) { return std::size_t(motion) - 1; }
