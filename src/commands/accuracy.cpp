@@ -99,7 +99,7 @@ int accuracy(const AccuracyOptions& options)
         expect_room_for(options.output, FileKind::accuracy);
     }
 
-    warn_of_implausible_values(job);
+    warn_of_probable_mistakes(job);
     say(fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",
                     options.digits, std::ceil(seconds_in_digits(job) * double(options.digits))));
     const AccuracyStudy study(job.problem.scene, job.problem.grid, options.points, options.digits,

@@ -220,7 +220,7 @@ int check(const JobSource& source)
 {
     const Kernel kernel = widest_kernel(); // throws if this processor supports none
     const Job job = read_job(source.path, source.overrides);
-    warn_of_implausible_values(job);
+    warn_of_probable_mistakes(job);
     if (!job.title.empty()) {
         fmt::print("{}\n\n", printable(job.title));
     }

@@ -181,7 +181,7 @@ int history(const HistoryOptions& options)
         const GuardedReading guarded(options.output, sole_writer.lock());
         expect_room_for(options.output, FileKind::history);
     }
-    warn_of_implausible_values(job);
+    warn_of_probable_mistakes(job);
     const auto slenderness = slenderness_of_only_block(job);
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {

@@ -4,10 +4,12 @@
 #include "overturn/text/quoting.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/job/nearest_name.hpp"
 #include "overturn/problem/plausibility.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -24,13 +26,47 @@ inline void say(const std::string& line)
     std::fflush(stdout);
 }
 
-/// Prints what looks like a mistake in the units to stderr, in one line.
-inline void warn_of_implausible_values(const Job& job)
+/// The quantity that a column without effect probably gives: its name is misspelt, or followed by a
+/// unit, as in incline_deg. Empty if there is none, or if the points do not lack it.
+inline std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 {
-    if (const std::string values = implausible_values(job.problem.scene, job.problem.grid);
-        !values.empty()) {
+    const std::vector<std::string_view> names = axis_names();
+    std::string_view meant = nearest_name(column, names);
+    for (const std::string_view name : names) {
+        meant =
+            column.starts_with(name) && column.substr(name.size()).starts_with('_') ? name : meant;
+    }
+    const auto excludes = [&](const Column& given) {
+        return given.quantity->name == meant || exclude_each_other(given.quantity->name, meant);
+    };
+    const auto excluded = [&](const Dimension& each) {
+        return std::ranges::any_of(each.columns, excludes);
+    };
+    return std::ranges::any_of(grid.numbers, excludes) ||
+                   std::ranges::any_of(grid.dimensions, excluded)
+               ? ""
+               : meant;
+}
+
+/// Prints to stderr what looks like a mistake in the units, and misspelt columns of a table.
+inline void warn_of_probable_mistakes(const Job& job)
+{
+    const auto warn = [](const std::string& text) {
         std::fflush(stdout);
-        fmt::print(stderr, "overturn: warning: {}.\n", printable(values));
+        fmt::print(stderr, "overturn: warning: {}.\n", printable(text));
+    };
+    const Grid& grid = job.problem.grid;
+    if (const std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
+        warn(values);
+    }
+    for (const TableColumn& column :
+         job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {
+        const std::string_view meant =
+            grid.has_table_column(column.name) ? "" : quantity_meant_by(column.name, grid);
+        if (!meant.empty()) {
+            warn(fmt::format("the column {} of {} has no effect (did you mean {}?)",
+                             in_quotes(column.name), job.blocks->file, meant));
+        }
     }
 }
 

@@ -223,7 +223,7 @@ int run(const RunOptions& options)
             sole_writer.emplace(path);
             output = prepare_output(*job, path, *sole_writer);
             if (!output.is_complete) {
-                warn_of_implausible_values(*job);
+                warn_of_probable_mistakes(*job);
                 std::ranges::for_each(notes_on(*job), say);
                 computes = true;
             }

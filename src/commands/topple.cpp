@@ -371,7 +371,7 @@ int topple(const ToppleOptions& options)
                     job.motions.size());
     }
     if (!options.json) {
-        warn_of_implausible_values(job);
+        warn_of_probable_mistakes(job);
     }
     if (!options.history.empty()) {
         write_history(job, options.history);

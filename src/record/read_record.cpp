@@ -97,7 +97,10 @@ void expect_no_other_unit(const RecordFile& file, const Lines& lines)
         bool is_stated = false;
         for (const std::string& line : component.header) {
             const std::string quoted = quoted_bytes(trimmed(line));
-            for (const StatedUnit& stated : stated_units(line, places)) {
+            const std::size_t marks = is_text ? trimmed(line).find_first_not_of("#%") : 0;
+            const std::string_view words =
+                trimmed(line).substr(std::min(marks, trimmed(line).size()));
+            for (const StatedUnit& stated : stated_units(words, places)) {
                 if (is_text && stated.is_time) {
                     lines.refuse_file("the line {} states times in {}. Give times in seconds.",
                                       quoted, stated.text);

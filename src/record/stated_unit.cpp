@@ -281,11 +281,14 @@ private:
     }
 
     /// Whether the current word is where a unit is expected: after a bracket, "in", "divided by" or
-    /// "acceleration".
+    /// "acceleration", or as the whole line.
     bool is_expected() const
     {
         const std::string& before = words_[at_].before;
         if (before.find_first_of(":=([{<") != before.npos) {
+            return true;
+        }
+        if (const auto whole = match(0); at_ == 0 && whole && whole->end == words_.size()) {
             return true;
         }
         if (at_ == 0 || !(before.empty() || before == ",")) {

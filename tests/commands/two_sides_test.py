@@ -115,6 +115,22 @@ class TwoSides(Scratch):
         self.assert_exit(self.overturn("run", "table.toml", "-o", "table.h5"), 0,
                          "columns without effect: centre_offset, lean")
 
+    def test_warn_of_columns_that_are_misspelt(self):
+        for column, meant in (("inclin", "incline"), ("incline_deg", "incline"), ("incline_degrees", "incline"),
+                              ("center_ofset", "center_offset"), ("centre_offset", "center_offset"),
+                              ("radius_of_gyration_m", "radius_of_gyration"), ("directoin", "direction"),
+                              ("name", None), ("lean", None), ("weight", None), ("site", None), ("sizes", None),
+                              ("restitution_from", None), ("age", None)):
+            (self.folder / "blocks.csv").write_text(f"width,height,{column},restitution\n0.5,2,0.05,0.8\n")
+            (self.folder / "table.toml").write_text(
+                'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\nplane = { pulse_period = 0.5, pga = 0.3 }\n')
+            for command in ("check", "run"):
+                result = self.overturn(command, "table.toml")
+                self.assert_exit(result, 0, column)
+                self.assertEqual(f'the column "{column}" of blocks.csv has no effect (did you mean {meant}?)'
+                                 in result.stderr, meant is not None, column)
+                self.assertEqual("warning" in result.stderr, meant is not None, column)
+
     def test_have_filled_spectra(self):
         self.write(LEANING, "pulse_period = { first = 0.2, last = 1.2, count = 300 }\n"
                             "pga = { first = 0.1, last = 1.5, count = 300 }\ndirection = { values = [0, 180] }")
