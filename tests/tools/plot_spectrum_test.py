@@ -87,10 +87,32 @@ class TestTheMap(Picture):
     TOLERANCE = 0.01
 
     def test_cells_extend_to_the_midpoints_between_values(self):
+        # The steps to the next value are 1, 2 and 1.
+        frequency = 1 + np.cumsum(np.tile([1.0, 1.0, 2.0], 6))
+        self.spectrum([np.tile([S, F_MINUS, U0_MINUS], 6)], frequency=frequency)
+        np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]), np.array([6, 9, 9]) / 24,
+                                   atol=2 * self.TOLERANCE)
+
+    def test_nothing_is_coloured_far_from_computed_values(self):
         self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1.0, 2.0, 10.0])
-        # Edges at 0.5, 1.5, 6 and 14.
-        np.testing.assert_allclose(shares(self.picture(), [S, F_MINUS, U0_MINUS]),
-                                   np.array([1, 4.5, 8]) / 13.5, atol=self.TOLERANCE)
+        # At most 9/16 from a value: from 0.5 to 1.5, on to 2.5625, and from 9.4375 to 10.5625.
+        picture = self.picture()
+        widths = np.array([np.count_nonzero(where(picture, code)) for code in (S, F_MINUS, U0_MINUS)]) / 1e6
+        np.testing.assert_allclose(widths, np.array([1, 1.0625, 1.125]) / 10.0625, atol=self.TOLERANCE)
+        self.assertIn("between computed values", self.words())
+        for values in ([1.0, 2.0, 10.0], [10.0, 2.0, 1.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0], [0.0, 3.0]):
+            axis = Axis(np.array(values))
+            shown = axis.shown(np.sort(values))
+            places = axis.middles(1000)
+            distance = np.abs(places[:, None] - shown).min(axis=1)
+            reach = np.minimum(1 / 16 * np.ptp(shown), np.inf)
+            outside = (places < shown[0]) | (places > shown[-1])
+            self.assertTrue((distance[~axis.is_between(1000)] <= reach * (1 + 1e-12)).all(), values)
+            self.assertTrue((distance[axis.is_between(1000)] >= reach * (1 - 1e-12)).all(), values)
+            self.assertFalse(axis.is_between(1000)[outside].any(), values)
+            self.assertGreaterEqual(axis.limits()[0], 0 if min(values) >= 0 else -2)
+        self.assertFalse(Axis(np.linspace(1, 3, 9)).is_between(1000).any())
+        self.assertFalse(Axis(np.array([1.0, 2, 3]), are_counted=True).is_between(1000).any())
 
     def test_geometric_values_are_equally_wide_on_a_logarithmic_axis(self):
         self.spectrum([[S], [F_MINUS], [U0_MINUS]], amplitude=[0.1, 1.0, 10.0])
@@ -133,7 +155,7 @@ class TestTheMap(Picture):
     def test_a_pixel_shows_what_is_unknown_before_what_overturns_before_what_is_safe(self):
         generator = np.random.default_rng(37)
         for _ in range(200):
-            sizes = generator.integers(1, 60, 2)
+            sizes = generator.choice([1, *range(9, 60)], 2)  # fewer values have gaps
             pixels = int(generator.integers(1, 40))
             codes = generator.choice([S, S_PLUS, F_MINUS, UNDECIDED, NOT_COMPUTED], sizes, p=(.5, .3, .1, .05, .05))
             self.spectrum(codes)
@@ -205,10 +227,10 @@ class TestTheWords(Picture):
                                   "undecided: see field status"])
 
     def test_an_unfinished_file_is_plotted_and_labelled(self):
-        self.spectrum([[S, NOT_COMPUTED]])
+        self.spectrum([np.repeat([S, NOT_COMPUTED], 5)])
         words = self.words()
         self.assertIn("not computed yet", words)
-        self.assertIn("unfinished: 1 of 2 tiles computed", " ".join(words))
+        self.assertIn("unfinished: 5 of 10 tiles computed", " ".join(words))
         # Half of the map is coloured, the other half has no region's colour.
         self.assertAlmostEqual(np.count_nonzero(where(self.picture(), S)) / 1e6, 0.5, delta=0.01)
 
@@ -263,7 +285,8 @@ class TestSeveralSpectra(Picture):
 
     def test_any_two_dimensions_are_axes(self):
         # Slenderness and amplitude; the strength of the motion is vertical.
-        self.spectrum([[[[S], [F_MINUS]]], [[[F_MINUS], [F_MINUS]]]])
+        codes = np.array([[[[S], [F_MINUS]]], [[[F_MINUS], [F_MINUS]]]])
+        self.spectrum(codes.repeat(5, axis=0).repeat(5, axis=2))
         picture, words = self.picture("--index", "frequency=0"), self.words("--index", "frequency=0")
         np.testing.assert_allclose(shares(picture, [S, F_MINUS]), [0.25, 0.75], atol=0.01)
         middle = np.median(np.argwhere(where(picture, S)), axis=0)

@@ -18,15 +18,15 @@ class TestPublishedPractice(Recorded):
         return self.output_of("spectrum.h5", "-o", "picture.png", "--practice", *arguments)
 
     def test_misjudges_safe_blocks_that_pass_alpha(self):
-        self.recorded([[S, S, S_PLUS, F_MINUS]])
-        self.add("peak", [0.999, 1.0, 1.3, np.inf])
-        self.assertIn("safe, although |theta| reaches alpha: 2 of 3 safe points (66.7 %)",
+        self.recorded([np.repeat([S, S, S_PLUS, F_MINUS], 3)])
+        self.add("peak", np.repeat([0.999, 1.0, 1.3, np.inf], 3))
+        self.assertIn("safe, although |theta| reaches alpha: 6 of 9 safe points (66.7 %)",
                       self.practice())
         colour = [round(255 * part) for part in colors.to_rgb(practice.COLOUR)]
         marked = np.count_nonzero((self.picture("--practice") == colour).all(axis=2))
         self.assertAlmostEqual(marked / 1e6, 0.5, delta=0.01)
         words = self.words("--practice")
-        self.assertIn("2 of 3", words)
+        self.assertIn("6 of 9", words)
         self.assertIn("safe points (66.7 %)", words)
 
     def test_is_not_judged_where_the_outcome_is_unknown(self):

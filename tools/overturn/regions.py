@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 # readers. The minus of a pair is the darker one. Of F, the main structure under records, the minus is the paper's grey,
 # and the plus differs in hue, too. U2, of blocks with two different sides, differs by its hue.
 UNDECIDED, NOT_COMPUTED = 254, 255
+BETWEEN = 253  # in pictures alone: between computed values that are far from each other
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
     1: ("S+", "safe after one more impact", "#0b5530"),
@@ -44,7 +45,7 @@ def worst(middle, rank):
 
 
 def coloured(codes):
-    """Returns codes as RGBA; points not computed are transparent and show the hatch below."""
+    """Returns codes as RGBA; what is not computed is transparent and shows the hatch below."""
     table = np.zeros((256, 4), np.uint8)
     for code, (_, _, colour) in REGIONS.items():
         table[code] = [round(255 * part) for part in matplotlib.colors.to_rgba(colour)]
@@ -68,7 +69,7 @@ def legend_entries(codes, ground="pulse"):
             meaning = meaning_of(code, ground)
             label = f"{name}  {meaning}" if name else meaning
             entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
-    if NOT_COMPUTED in codes:
-        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5,
-                             label="not computed yet"))
+    words = ["not computed yet"] * (NOT_COMPUTED in codes) + ["between computed values"] * (BETWEEN in codes)
+    if words:
+        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5, label=", or ".join(words)))
     return entries

@@ -3,7 +3,7 @@
 import numpy as np
 
 from overturn.fields import read_field
-from overturn.regions import ranks, worst
+from overturn.regions import BETWEEN, ranks, worst
 from overturn.result_file import open_result
 from overturn.tool import USAGE, ToolError
 
@@ -11,6 +11,7 @@ STRENGTHS = ("amplitude", "scale", "pga")
 RATES = ("frequency", "pulse_period", "pulse_frequency")
 JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
 EQUIVALENTS = {"frequency": "pulse_period", "amplitude": "pga", "scale": "pga"}  # in physical units
+MOST_REACH = 1 / 16  # of a cell from its value, over the range of the axis: nine even values leave no gaps
 RECIPROCALS = {"pulse_period": "pulse_frequency", "pulse_frequency": "pulse_period"}
 
 
@@ -60,7 +61,7 @@ class Plane:
         rows, columns = up.cells(pixels), across.cells(pixels)
         middle = self.read_cells("region", rows, columns)
         if max(up.size, across.size) <= pixels:
-            return middle
+            return without_gaps(middle, up, across)
         of_row, of_column = up.pixels_of_cells(pixels), across.pixels_of_cells(pixels)
         first = np.flatnonzero(np.diff(of_column, prepend=-1))  # of the cells in each column of pixels
         highest = np.zeros(middle.shape, np.uint16)
@@ -77,7 +78,7 @@ class Plane:
                 start = np.flatnonzero(np.diff(of_tile, prepend=-1))
                 place = of_tile[start]
                 highest[place] = np.maximum(highest[place], np.maximum.reduceat(by_pixel, start, axis=0))
-        return worst(middle, highest)
+        return without_gaps(worst(middle, highest), up, across)
 
     def knows(self, name, along=()):
         """Whether a coordinate is stored and varies in this plane along the given dimensions at most."""
@@ -122,15 +123,23 @@ def are_geometric(values):
             and unevenness(np.diff(np.log(values))) < 1e-6 < unevenness(np.diff(values)))
 
 
+def without_gaps(codes, up, across):
+    """Returns a picture without colours between values that are far from each other."""
+    codes[up.is_between(codes.shape[0])] = BETWEEN
+    codes[:, across.is_between(codes.shape[1])] = BETWEEN
+    return codes
+
+
 class Axis:
     """The cells of one axis, in ascending order of the values, which may descend in the file; each
-    extends to the midpoints between its value and its neighbours.
+    extends to the midpoints between its value and its neighbours, but not beyond a small part of the axis: what is
+    between values far from each other was not computed, unless the values are counted.
 
     Midpoints are computed on the scale of the axis, which is logarithmic for geometric values unless
     `scale` is given.
     """
 
-    def __init__(self, values, scale=None):
+    def __init__(self, values, scale=None, *, are_counted=False):
         self.descends = values[-1] < values[0]
         if self.descends:
             values = values[::-1]
@@ -142,7 +151,12 @@ class Axis:
             first, last = shown[0] - 0.5, shown[0] + 0.5
         else:
             first, last = 2 * shown[0] - inner[0], 2 * shown[-1] - inner[-1]
-        self.edges = np.concatenate([[first], inner, [last]])
+            if self.scale == "linear" and values[0] >= 0:
+                first = max(first, 0)  # no block or motion has a negative value
+        reach = np.inf if are_counted or len(values) == 1 else MOST_REACH * (shown[-1] - shown[0])
+        self.starts = np.maximum(np.insert(inner, 0, first), shown - reach)
+        self.ends = np.minimum(np.append(inner, last), shown + reach)
+        self.edges = np.concatenate([self.starts[:1], inner, self.ends[-1:]])
         self.size = len(values)
 
     def shown(self, values):
@@ -156,12 +170,21 @@ class Axis:
         """Returns the positions of values along the axis, from 0 to 1."""
         return (self.shown(values) - self.edges[0]) / (self.edges[-1] - self.edges[0])
 
-    def cells(self, pixels):
-        """Returns the cell under the centre of each pixel, as its index in the file."""
+    def middles(self, pixels):
+        """Returns the centres of pixels on the scale of the axis."""
         width = (self.edges[-1] - self.edges[0]) / pixels
-        middles = self.edges[0] + width * (np.arange(pixels) + 0.5)
-        cells = np.searchsorted(self.edges[1:-1], middles)
+        return self.edges[0] + width * (np.arange(pixels) + 0.5)
+
+    def cells(self, pixels):
+        """Returns the cell under the centre of each pixel, or the nearest one, as its index in the file."""
+        cells = np.searchsorted(self.edges[1:-1], self.middles(pixels))
         return len(self.edges) - 2 - cells if self.descends else cells
+
+    def is_between(self, pixels):
+        """Returns whether the centre of each pixel is in no cell."""
+        middles = self.middles(pixels)
+        cells = np.searchsorted(self.edges[1:-1], middles)
+        return (middles < self.starts[cells]) | (middles > self.ends[cells])
 
     def pixels_of_cells(self, pixels):
         """Returns the pixel under the middle of each cell, in the order of the file."""

@@ -57,7 +57,8 @@ def axis_of(plane, quantity, dimension):
     """Returns the cells of an axis. Periods of evenly spaced frequencies are neither evenly spaced nor
     geometric; a logarithmic axis leaves room for the short and the long ones."""
     is_converted = quantity == "pulse_period" and quantity != dimension
-    return Axis(plane.values(quantity, dimension), "log" if is_converted else None)
+    return Axis(plane.values(quantity, dimension), "log" if is_converted else None,
+                are_counted=quantity in ("motion", "block"))
 
 
 def axes_of_plane(plane, units=JOB):

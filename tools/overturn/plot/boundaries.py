@@ -93,11 +93,11 @@ def shade(panel, lines):
     middles = (edges[1:] + edges[:-1]) / 2
     amplitudes = np.exp(middles) if up.scale == "log" else middles
     table = np.array([matplotlib.colors.to_rgb(SHADES[verdict]) for verdict in sorted(SHADES)])
-    picture = table[lines.verdicts(amplitudes)]
     # Columns are as wide as the cells of their frequencies, which may be unequal.
-    columns = across.cells(ROWS)
+    verdicts = lines.verdicts(amplitudes)[:, across.cells(ROWS)]
+    verdicts[:, across.is_between(ROWS)] = NOT_SCANNED
     set_axes(panel, across, up)
-    image = panel.imshow(picture[:, columns], extent=(0, 1, 0, 1), transform=panel.transAxes,
+    image = panel.imshow(table[verdicts], extent=(0, 1, 0, 1), transform=panel.transAxes,
                          origin="lower", aspect="auto", interpolation="nearest", zorder=0)
     image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
 
@@ -136,7 +136,8 @@ def legend_entries(all_lines):
         (lambda lines: True, shade_of(SAFE), "safe"),
         (lambda lines: lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
          "undecided, or more flips"),
-        (lambda lines: lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet")]
+        (lambda lines: lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet"),
+        (lambda lines: lines.across.is_between(ROWS), shade_of(NOT_SCANNED), "between computed values")]
     shown = [(handle, label) for is_in, handle, label in entries
              if any(np.any(is_in(lines)) for lines in all_lines)]
     return tuple(zip(*shown))
