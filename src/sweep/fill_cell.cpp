@@ -173,7 +173,8 @@ bool is_uniform(const CellNodes& cell, const FillRule& rule, bool with_impacts)
     const bool is_s = region == Region::S;
     const bool low =
         is_s && !with_impacts && all([&](const Node& node) { return node.peak < rule.low; });
-    const double kappa = low ? rule.kappa : rule.kappa * std::max(1.0, first.impacts - 2);
+    const double after_impacts = first.impacts > 3 ? 2 * (first.impacts - 2) : 1;
+    const double kappa = rule.kappa * (low ? 1 : after_impacts);
     const auto clear = [&](Switch which) { return is_clear(cell, which, kappa); };
     const std::vector<Switch> relevant = relevant_to(region, first.side == 0);
     if (!std::all_of(relevant.begin(), relevant.end(), clear)) {

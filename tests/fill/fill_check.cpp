@@ -161,7 +161,14 @@ std::vector<HardTile> hard_tiles()
          axis("amplitude", AxisRange{1.001, 1.4381634078456134, 400}),
          axis("frequency", AxisRange{0.05, 1.5294371192114744, 400})},
         true);
-    return {{sine, 133, 616}, {cosine, 66, 316}};
+    const Problem long_sine = filled_spectrum(
+        {.pulse = PulseKind::sine, .shape = {.cycles = 2.5}},
+        {.method = Method::taylor, .tolerance = 1e-6},
+        {number("slenderness", 0.074652571386679634), number("restitution", 0.98338163828903169),
+         axis("amplitude", AxisRange{0.51442284163307428, 5.9931804499549077, 870, Spacing::log}),
+         axis("frequency", AxisRange{0.48942030814698767, 7.2780824029224114, 870, Spacing::log})},
+        true);
+    return {{sine, 133, 616}, {cosine, 66, 316}, {long_sine, 258, 352}};
 }
 
 /// The spectra of the paper's figures: its block under a pulse, the restitution over the largest.

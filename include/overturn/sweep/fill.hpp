@@ -14,7 +14,7 @@ namespace overturn {
 struct FillRule {
     /// Each switch function exceeds kappa/2 times its second differences between the nodes of a
     /// cell; kappa = 0.25 is the nominal error of an interpolation. After
-    /// n > 3 impacts it is multiplied by n - 2, except where `low` applies: every impact of a
+    /// n > 3 impacts it is multiplied by 2 (n - 2), except where `low` applies: every impact of a
     /// series increases small differences [1].
     double kappa = 4;
     /// In a cell of region S, impacts are ignored, unless they are stored, if the largest tilt
