@@ -235,10 +235,12 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
                    other.ranges.text(other.ranges.decimals(answer.pga), 6));
     }
     if (is_recorded) {
-        fmt::print(
-            "\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. Up to "
-            "{:.2g} % of the searched accelerations are undecided.\n",
-            100 * toppling_step, 100 * most_undecided_of(answer.by_restitution));
+        const double undecided = most_undecided_of(answer.by_restitution);
+        fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
+                   "of the searched accelerations {} undecided.\n",
+                   100 * toppling_step,
+                   undecided > 0 ? fmt::format("Up to {:.2g} %", 100 * undecided) : "None",
+                   undecided > 0 ? "are" : "is");
     }
 }
 

@@ -226,12 +226,15 @@ void expect_standing(const Coordinates& coordinates, const Grid& corners)
         [&](double kept, double plus, double minus) -> std::string {
             for (const auto& [alpha, side] : {std::pair(plus, "plus"), std::pair(minus, "minus")}) {
                 if (!rule.allows(alpha)) {
+                    const bool stands = alpha > 0;
                     return fmt::format(
-                        ": the block does not stand: its slenderness is {:.6g} rad ({:.4g} "
-                        "degrees) on the "
-                        "side {}. The centre of mass must be above the base, between both corners. "
-                        "Lower the incline or the offset.",
-                        alpha, degrees(alpha), side);
+                        ": the block {}: its slenderness is {:.6g} rad ({:.4g} degrees) on the "
+                        "side {}. {} Lower the incline or the offset.",
+                        stands ? "leans by too much" : "does not stand", alpha, degrees(alpha),
+                        side,
+                        stands
+                            ? "The equations hold below a right angle."
+                            : "The centre of mass must be above the base, between both corners.");
                 }
             }
             return kept > 0

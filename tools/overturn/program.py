@@ -39,7 +39,7 @@ class ProgramError(RuntimeError):
         self.exit_code = exit_code  #: of the program; negative: the signal that ended it
 
 
-def check(job: Job, *, overrides: Mapping[str, Any] = {}) -> str:
+def check(job: Job, *, overrides: Mapping[str, Any] | None = None) -> str:
     """Returns what `overturn check` prints: points, bytes and time of a job.
 
     job: the path of a job file; or a job as a TOML text of several lines, or as a dictionary of the
@@ -53,7 +53,7 @@ def check(job: Job, *, overrides: Mapping[str, Any] = {}) -> str:
 
 
 def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = None,
-        overrides: Mapping[str, Any] = {}) -> xarray.Dataset:
+        overrides: Mapping[str, Any] | None = None) -> xarray.Dataset:
     """Runs a job and returns its result, see open().
 
     job, overrides: as in check().
@@ -123,7 +123,7 @@ def _job_file(job):
 
 
 def _set_arguments(overrides):
-    return [word for key, value in overrides.items() for word in ("--set", f"{key}={_toml(value, key)}")]
+    return [word for key, value in (overrides or {}).items() for word in ("--set", f"{key}={_toml(value, key)}")]
 
 
 def _expect_file_names(value, key):
