@@ -1,14 +1,20 @@
 """The portraits of tools/plot_phase: their colours compared with Eq. 20, their texts read from
 SVG."""
 
+import itertools
+import os
 import re
+import subprocess
 import unittest
 
+import h5py
 import numpy as np
 from matplotlib import colors, pyplot
 from tool import InAFolder  # first: adds the package to the path
-from overturn.phase_space import FreeBlock, fill_libration, fill_regions, largest_restitution
-from overturn.regions import REGIONS
+from overturn.phase_space import (FreeBlock, fill_libration, fill_regions, largest_restitution,
+                                  regions_of_states)
+from overturn.plot.portraits import block_of_file
+from overturn.regions import LEFT_STANDING, REGIONS
 
 ALPHA, R = 0.4, 0.6
 HIGHEST = 1.5
@@ -47,7 +53,7 @@ def region_by_the_criterion(angle, rate):
 
 class TestTheRegions(unittest.TestCase):
     def test_every_place_has_the_colour_of_its_region(self):
-        picture = painted(lambda panel: fill_regions(panel, FreeBlock(ALPHA, R), HIGHEST))
+        picture = painted(lambda panel: fill_regions(panel, FreeBlock(ALPHA, R), np.pi / 2, HIGHEST))
         colour_of = {name: [round(255 * part) for part in colors.to_rgb(colour)]
                      for name, _, colour in REGIONS.values()}
         seen = set()
@@ -62,7 +68,7 @@ class TestTheRegions(unittest.TestCase):
         self.assertEqual(seen, {"S", "S+", "S−", "U0+", "U0−", "U1+", "U1−"})
 
     def test_the_libration_region_consists_of_the_safe_regions(self):
-        picture = painted(lambda panel: fill_libration(panel, FreeBlock(ALPHA, R), "black"))
+        picture = painted(lambda panel: fill_libration(panel, FreeBlock(ALPHA, R), "black", np.pi / 2, HIGHEST))
         for row, column in np.ndindex(100, 100):
             name = region_by_the_criterion(((4 * column + 2) / 400 - 0.5) * np.pi,
                                            ((4 * row + 2) / 400 - 0.5) * 2 * HIGHEST)
@@ -115,6 +121,35 @@ class TestAPortrait(InAFolder):
         self.assertIn("0.3 rad", words)
         self.assertIn("0.75", words)
 
+    def test_has_the_regions_of_the_end_states_of_a_computed_file(self):
+        seen = set()
+        for number, (block, theory) in enumerate(itertools.product(
+                ("width = 0.5\nheight = 2\nincline = 0.07", "width = 0.6\nheight = 1.5\ncenter_offset = -0.1",
+                 "width = 0.5\nheight = 2"), ("nonlinear", "linear"))):
+            (self.folder / "job.toml").write_text(f"""
+                scene = {{ pulse = "one_sine", theory = "{theory}" }}
+                [block]\n{block}
+                [plane]
+                pulse_period = {{ first = 0.2, last = 1.5, count = 60 }}
+                pga = {{ first = 0.1, last = 1.5, count = 60 }}
+                direction = {{ values = [0, 180] }}
+                restitution_of_maximum = 0.95
+                [output]
+                fields = ["region", "angle", "velocity", "margin"]""")
+            path = self.folder / f"{number}.h5"
+            subprocess.run([os.environ["OVERTURN"], "run", self.folder / "job.toml", "-o", path], check=True,
+                           capture_output=True)
+            with h5py.File(path) as file:
+                region, angle, velocity, margin = (file[name][:] for name in ("region", "angle", "velocity", "margin"))
+            clear = np.isin(region, LEFT_STANDING) & (np.abs(margin) > 1e-9) & (angle != 0)
+            found = regions_of_states(block_of_file(path), angle, velocity)
+            np.testing.assert_array_equal(found[clear], region[clear])
+            seen |= set(region[clear])
+            run = self.run_tool("regions", "--block", path, "-o", "picture.png")
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertGreaterEqual(len(seen), 8)
+        self.assertTrue(seen & {9, 10})
+
     def test_can_be_drawn_for_any_block(self):
         for alpha, r in (("0.02", "0.999"), ("0.1746", "0.9115"), ("1.4", "0.05"), ("1.5", "1")):
             for portrait, loss in (("pendulum", ()), ("libration", ("--restitution", r)),
@@ -127,6 +162,7 @@ class TestAPortrait(InAFolder):
                                     (("regions", "--restitution", "1.2"), "outside (0, 1]"),
                                     (("pendulum", "--restitution", "1"), "no loss at impacts"),
                                     (("regions", "-o", "picture.jpg"), ".png, .pdf or .svg"),
+                                    (("libration", "--block", "a.h5"), "for the portrait regions"),
                                     (("others",), "invalid choice")):
             self.refuses(2, sentence, *arguments)
 

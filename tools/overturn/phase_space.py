@@ -1,24 +1,33 @@
-"""Phase space of free rocking in closed form (Eqs. 5, 11-20): angle, and velocity over p.
+"""Phase space of free rocking in closed form (Eqs. 5, 11-20; docs/two_sides.md): angle, and velocity over p.
 
 Times are in 1/p, so that a velocity is d theta / d(p t) [rad]; q is over p^2.
 """
 
 import numpy as np
-from matplotlib import patheffects
-from overturn.regions import CODES, REGIONS
+from matplotlib.colors import to_rgba
+from overturn.captions import is_linear
+from overturn.regions import CODES, SAFE, coloured
+from overturn.tool import USAGE, ToolError
 
 HALF_TURN = np.pi / 2  # tilt of an overturned block
-BOUNDARY = {"color": "black", "linewidth": 0.9,  # visible on dark colours, too
-            "path_effects": [patheffects.withStroke(linewidth=2.2, foreground="white")]}
+PIXELS = 1200  # of a map of states, per side; even, so that none is at the angle 0
 
 
 class FreeBlock:
-    """A block of given slenderness [rad] and restitution, in nonlinear or linear theory."""
+    """A block of given slenderness [rad] and restitution, in nonlinear or linear theory: one side of it, in its own
+    time. The other side is equal unless it is set; size R and pace p have any unit that both sides share."""
 
-    def __init__(self, slenderness, restitution, linear=False):
+    def __init__(self, slenderness, restitution, linear=False, size=1.0, pace=1.0):
         self.slenderness, self.restitution, self.linear = slenderness, restitution, linear
+        self.size, self.pace, self.other = size, pace, self
         self.largest_rate = float(self.separatrix_rate(0.0))  # Eq. 8
-        self.q_min = self.largest_rate**2 * (1 - 1 / restitution)  # Eq. 18
+        self.top = size * self.largest_rate**2  # the energy at which it balances, over m g / 2
+
+    @property
+    def q_min(self):
+        """The least q0 of states that do not overturn after one impact or two (Eq. 18 if the sides are equal)."""
+        r = self.restitution
+        return self.largest_rate**2 * (1 - min(self.other.top / (r * self.top), 1 / r**2))
 
     def separatrix_rate(self, angle):
         """c = 2 sin((alpha - |theta|)/2), in linear theory alpha - |theta|; negative for
@@ -31,7 +40,7 @@ class FreeBlock:
         return np.sqrt(np.maximum(self.separatrix_rate(angle)**2 - q, 0))
 
     def inward_rate(self, angle):
-        """The largest inward speed at which the block stays safe after one impact: q0 = q_min."""
+        """The largest inward speed at which the block stays safe: q0 = q_min."""
         return self.rate(angle, self.q_min)
 
     def outermost_angle(self, q):
@@ -40,53 +49,75 @@ class FreeBlock:
         return self.slenderness - (rate if self.linear else 2 * np.arcsin(rate / 2))
 
 
+def block_of(plane):
+    """Returns the block of a plane of a result, as seen from its side plus."""
+    def value(name):
+        if (number := plane.value(name)) is None:
+            raise ToolError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
+                            "are those of one block. Choose it with --index.", USAGE)
+        return number
+    restitution, linear = value("restitution"), is_linear(plane.file)
+    if "slenderness_plus" not in plane.file:
+        return FreeBlock(value("slenderness"), restitution, linear)
+    plus, minus = (FreeBlock(value(f"slenderness_{side}"), restitution, linear, value(f"size_{side}"), value(pace))
+                   for side, pace in (("plus", "frequency_parameter"), ("minus", "frequency_parameter_minus")))
+    plus.other, minus.other = minus, plus
+    return plus
+
+
 def largest_restitution(slenderness):
     """Eq. 17."""
     return (1 - 1.5 * np.sin(slenderness)**2)**2
 
 
-def bands(block, angle):
-    """Regions for theta >= 0 in ascending velocity: region, lowest and highest velocity; None means
-    unbounded. For theta <= 0 the same holds with the signs of velocity and region reversed."""
-    c = block.separatrix_rate(angle)
-    return (("U1-", None, -block.inward_rate(angle)),
-            ("S-", -block.inward_rate(angle), -np.abs(c)),
-            ("S", -np.maximum(c, 0), np.maximum(c, 0)),
-            ("U0+", c, None))
+def regions_of_states(block, angle, velocity):
+    """Returns the codes of the regions of states at rest of the ground. velocity: over p of the side plus."""
+    angle, velocity = np.broadcast_arrays(angle, velocity)
+    codes = np.empty(angle.shape, np.uint8)
+    for side, sign, own, other in ((block, 1, "+", "-"), (block.other, -1, "-", "+")):
+        on_side = angle > 0 if sign > 0 else angle <= 0
+        c = side.separatrix_rate(angle[on_side])
+        rate = sign * velocity[on_side] * block.pace / side.pace
+        energy = side.size * (side.largest_rate**2 - c**2 + rate**2)  # over m g / 2
+        after = side.restitution * energy
+        codes[on_side] = np.select(
+            [rate > c, after > side.other.top, side.restitution * after > side.top, rate < -c],
+            [CODES[name] for name in ("U0" + own, "U1" + other, "U2" + own, "S" + other)], CODES["S"])
+    return codes
 
 
-def fill_regions(panel, block, highest):
-    """Fills all seven regions with their colours, up to the given velocity."""
-    angle = np.linspace(0, HALF_TURN, 1001)
-    for name, low, high in bands(block, angle):
-        low = np.full_like(angle, -highest) if low is None else low
-        high = np.full_like(angle, highest) if high is None else high
-        for sign in (1, -1):
-            turned = name if sign == 1 else name.translate(str.maketrans("+-", "-+"))
-            panel.fill_between(sign * angle, sign * low, sign * high, linewidth=0,
-                               color=REGIONS[CODES[turned]][2])
+def map_of_regions(block, reach, highest):
+    """Returns angles up to +-reach, velocities up to +-highest, and the codes of their regions, row by row."""
+    places = (np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1
+    angle, velocity = reach * places, highest * places
+    return angle, velocity, regions_of_states(block, angle, velocity[:, None])
 
 
-def fill_libration(panel, block, colour):
+def show(panel, picture, reach, highest):
+    image = panel.imshow(picture, extent=(-reach, reach, -highest, highest), origin="lower", aspect="auto",
+                         interpolation="nearest", zorder=0)
+    image.set_in_layout(False)
+
+
+def fill_regions(panel, block, reach, highest):
+    """Fills all regions with their colours."""
+    show(panel, coloured(map_of_regions(block, reach, highest)[2]), reach, highest)
+
+
+def fill_libration(panel, block, colour, reach, highest):
     """Fills the set of all safe states (Eq. 20), blades and rhomboid."""
-    half = np.linspace(0, HALF_TURN, 1001)
-    angle = np.concatenate([-half[::-1], half])  # 0 is repeated: the edges are discontinuous there
-    side = np.repeat([-1, 1], len(half))
-    edges = -side * block.inward_rate(angle), side * block.separatrix_rate(angle)
-    panel.fill_between(angle, *edges, color=colour, linewidth=0)
+    is_safe = np.isin(map_of_regions(block, reach, highest)[2], SAFE)
+    picture = np.zeros((*is_safe.shape, 4))
+    picture[is_safe] = to_rgba(colour)
+    show(panel, picture, reach, highest)
 
 
-def draw_boundaries(panel, block, **style):
-    """Draws the lines between the seven regions: the separatrix (for |theta| > alpha, too), the
-    outer edge of the blades, and theta = 0 outside of them, which separates U0 from U1."""
-    style = BOUNDARY | style
-    angle = np.linspace(0, HALF_TURN, 1001)
-    c, inward = block.separatrix_rate(angle), block.inward_rate(angle)
-    for sign in (1, -1):
-        panel.plot(sign * angle, sign * c, **style)
-        panel.plot(sign * angle, -sign * np.abs(c), **style)
-        panel.plot(sign * angle, -sign * inward, **style)
-        panel.plot([0, 0], [sign * block.largest_rate, sign * 100], **style)
+def draw_boundaries(panel, block, reach, highest, **style):
+    """Draws the lines between the regions."""
+    angle, velocity, codes = map_of_regions(block, reach, highest)
+    for colour, width in (("white", 2.2), ("black", 0.9)):  # visible on dark colours, too
+        for code in np.unique(codes):
+            panel.contour(angle, velocity, codes == code, [0.5], colors=colour, linewidths=width, **style)
 
 
 def name_phase_axes(panel):

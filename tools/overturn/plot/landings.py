@@ -3,17 +3,16 @@ coloured by the points of the plane."""
 
 import numpy as np
 from matplotlib import pyplot
-from overturn.captions import ground_word, heading, is_linear, is_recorded, subtitle
+from overturn.captions import ground_word, heading, is_recorded, subtitle
 from overturn.choice import add_choice_arguments, planes_of
 from overturn.output_file import save
-from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_libration,
-                                  name_phase_axes)
+from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
 from overturn.result_file import damage_reported, plain
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
-from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
+from overturn.tool import parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 
 EXAMPLE = """\
@@ -75,14 +74,7 @@ class Spectrum:
     def __init__(self, plane):
         self.plane = plane
         self.across, self.up = axes_of_plane(plane)
-        block = [plane.value(name) for name in ("slenderness", "restitution")]
-        if "slenderness_plus" in plane.file:
-            raise ToolError("the boundaries in phase space are those of a symmetric block, but the blocks of this file "
-                            "have two different sides.", USAGE)
-        if None in block:
-            raise ToolError(f"the block varies along {plane.across} or {plane.up}, but the boundaries in phase space "
-                            "are those of one block. Choose it with --index.", USAGE)
-        self.block = FreeBlock(*block, is_linear(plane.file))
+        self.block = block_of(plane)
 
     def blocks(self):
         """Yields angle, velocity, red and blue of points not overturned, some rows at a time."""
@@ -104,10 +96,13 @@ class Spectrum:
 
 def land(spectrum):
     """Returns the view near the upright block and the view of all states."""
-    block = spectrum.block
+    sides = spectrum.block, spectrum.block.other
+    paces = [side.pace / sides[0].pace for side in sides]
     fastest = max((np.abs(rate).max(initial=0) for _, rate, _, _ in spectrum.blocks()), default=0)
-    near = Landing(NEAR * block.slenderness, NEAR * block.largest_rate)
-    fastest = max(fastest, float(block.inward_rate(HALF_TURN)), float(block.inward_rate(0.0)))
+    near = Landing(NEAR * max(side.slenderness for side in sides),
+                   NEAR * max(side.largest_rate * pace for side, pace in zip(sides, paces)))
+    fastest = max(fastest, *(float(side.inward_rate(angle)) * pace
+                             for side, pace in zip(sides, paces) for angle in (0.0, HALF_TURN)))
     far = Landing(HALF_TURN, 1.05 * fastest)
     for points in spectrum.blocks():
         near.add(*points)
@@ -142,10 +137,10 @@ def draw_plane(panel, spectrum):
 
 
 def draw_landing(panel, spectrum, landing, title):
-    fill_libration(panel, spectrum.block, LIBRATION)
+    fill_libration(panel, spectrum.block, LIBRATION, *landing.reach)
     panel.imshow(landing.picture(), extent=landing.extent(), origin="lower", aspect="auto",
                  interpolation="nearest", zorder=2)
-    draw_boundaries(panel, spectrum.block, zorder=3)
+    draw_boundaries(panel, spectrum.block, *landing.reach, zorder=3)
     left, right, bottom, top = landing.extent()
     panel.set(xlim=(left, right), ylim=(bottom, top), title=title)
     name_phase_axes(panel)

@@ -3,20 +3,24 @@
 import numpy as np
 from matplotlib import pyplot
 from overturn.output_file import save
-from overturn.phase_space import (HALF_TURN, FreeBlock, draw_boundaries, fill_libration,
-                                  fill_regions, largest_restitution, name_phase_axes)
+from overturn.phase_space import (HALF_TURN, FreeBlock, block_of, draw_boundaries, fill_libration,
+                                  fill_regions, largest_restitution, map_of_regions, name_phase_axes)
+from overturn.region_labels import pieces, thinned, write_label
+from overturn.regions import REGIONS
+from overturn.spectrum_file import Plane, open_spectrum
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
   tools/plot_phase pendulum                      # draws phase_pendulum.png
   tools/plot_phase regions --slenderness 0.1746 -o regions.pdf
+  tools/plot_phase regions --block leaning.h5    # of the block of a spectrum, which may lean
 
 The portraits are:
   pendulum   a pendulum, and a block without loss at impacts: two strips of the portrait of the
              pendulum, orange, form that of the block (Fig. 2 of the paper)
   libration  how the loss at one impact adds two blades to the safe rhomboid (Fig. 3)
-  regions    the seven regions (Fig. 4)
+  regions    the seven regions (Fig. 4); of a block with two different sides, nine
 
 The default block is stout, alpha = 0.4 rad, so that all details are visible; the default r is the
 maximum for its slenderness, (1 - 3/2 sin^2 alpha)^2."""
@@ -26,6 +30,7 @@ STRIP = "#f0a040"
 ORBIT = {"color": "0.45", "linewidth": 0.9}
 SEPARATRIX = {"color": "#1b3f73", "linewidth": 1.8}
 RED = "#c8282b"
+LEAST_SHARE = 0.001  # of the picture: smaller pieces of a region get no name
 HIGHEST = {"pendulum": 1.25, "libration": 1.25, "regions": 1.5}  # over the largest safe velocity
 
 
@@ -59,12 +64,15 @@ def frame(panel, title, reach, highest):
 
 
 def name_angles(panel, marks):
-    panel.set_xticks([angle for angle, _ in marks], [name for _, name in marks])
+    low, high = panel.get_xlim()
+    shown = [(angle, name) for angle, name in marks if low <= angle <= high]
+    panel.set_xticks([angle for angle, _ in shown], [name for _, name in shown])
 
 
-def block_ticks(panel, alpha):
-    name_angles(panel, [(-HALF_TURN, r"$-\pi/2$"), (-alpha, r"$-\alpha$"), (0, "0"),
-                        (alpha, r"$\alpha$"), (HALF_TURN, r"$\pi/2$")])
+def block_ticks(panel, block):
+    plus, minus = (r"$\alpha$", r"$-\alpha$") if block.other is block else (r"$\alpha_+$", r"$-\alpha_-$")
+    name_angles(panel, [(-HALF_TURN, r"$-\pi/2$"), (-block.other.slenderness, minus), (0, "0"),
+                        (block.slenderness, plus), (HALF_TURN, r"$\pi/2$")])
 
 
 def draw_pendulum(panel, block):
@@ -145,7 +153,7 @@ def draw_lossless(panel, block, highest):
     mark(panel, "$D$", half, block.separatrix_rate(half), (11, 8))
     mark(panel, r"$\bar D$", half, -block.separatrix_rate(half), (11, -8))
     frame(panel, "(b) Rocking block without loss at impacts", HALF_TURN, highest)
-    block_ticks(panel, alpha)
+    block_ticks(panel, block)
 
 
 def portrait_pendulum(block, highest):
@@ -199,37 +207,38 @@ def mark_blades(panel, block):
 
 def portrait_libration(block, highest):
     figure, panel = pyplot.subplots(figsize=(9.5, 7))
-    fill_libration(panel, block, LIBRATION)
-    draw_boundaries(panel, block)
+    fill_libration(panel, block, LIBRATION, HALF_TURN, highest)
+    draw_boundaries(panel, block, HALF_TURN, highest)
     draw_orbit_from_c(panel, block)
     mark_blades(panel, block)
     frame(panel, "The libration region with the loss at the first impact", HALF_TURN, highest)
-    block_ticks(panel, block.slenderness)
+    block_ticks(panel, block)
     panel.plot([], [], color=RED, linewidth=1.8, label="from C, with loss at each impact")
     panel.plot([], [], color=RED, linewidth=1.2, linestyle=(0, (4, 3)), label="without loss")
     panel.legend(loc="lower left", frameon=False, fontsize=9.5)
     return figure
 
 
+def reach_of(portrait, block):
+    """Returns the largest angle of a portrait; of slender blocks, the regions are near the upright position."""
+    widest = max(block.slenderness, block.other.slenderness)
+    near = 4 if block.other is block else 2
+    return min(HALF_TURN, near * widest) if portrait == "regions" else HALF_TURN
+
+
 def portrait_regions(block, highest):
     figure, panel = pyplot.subplots(figsize=(9.5, 7))
-    fill_regions(panel, block, highest)
-    draw_boundaries(panel, block)
-    reach = 0.62 * HALF_TURN
-    beside = 1.4 * block.slenderness
-    blade = (beside, (float(block.inward_rate(beside))
-                      + abs(float(block.separatrix_rate(beside)))) / 2)
-    for sign in (1, -1):
-        own, other = ("+", "−") if sign == 1 else ("−", "+")
-        for name, (angle, rate) in ((f"U0{own}", (reach, 0.3 * highest)),
-                                    (f"U1{own}", (-reach * 0.6, 0.8 * highest))):
-            panel.text(sign * angle, sign * rate, name, ha="center", va="center", fontsize=14)
-        panel.annotate(f"S{own}", (-sign * blade[0], sign * blade[1]),
-                       (-sign * 0.68 * HALF_TURN, sign * 0.24 * highest), fontsize=14, ha="center",
-                       va="center", arrowprops={"arrowstyle": "-", "linewidth": 0.8})
-    panel.text(0, 0, "S", ha="center", va="center", fontsize=14)
-    frame(panel, "Outcome of free rocking, by initial state", HALF_TURN, highest)
-    block_ticks(panel, block.slenderness)
+    reach = reach_of("regions", block)
+    fill_regions(panel, block, reach, highest)
+    draw_boundaries(panel, block, reach, highest)
+    codes = map_of_regions(block, reach, highest)[2]
+    cells = thinned(np.arange(len(codes)))
+    codes = codes[np.ix_(cells, cells)]
+    for code in np.unique(codes):
+        for piece in pieces(codes == code, LEAST_SHARE * codes.size):
+            write_label(panel, piece, REGIONS[code][0], size=13)
+    frame(panel, "Outcome of free rocking, by initial state", reach, highest)
+    block_ticks(panel, block)
     return figure
 
 
@@ -238,11 +247,14 @@ PORTRAITS = {"pendulum": portrait_pendulum, "libration": portrait_libration,
 
 
 def draw(portrait, block):
-    fastest = float(max(block.inward_rate(0.0), block.inward_rate(HALF_TURN)))
+    fastest = max(float(side.inward_rate(angle)) * side.pace / block.pace
+                  for side in (block, block.other) for angle in (0.0, reach_of(portrait, block)))
     figure = PORTRAITS[portrait](block, HIGHEST[portrait] * fastest)
     words = ("the orange strips of (a), joined, form that of (b)" if portrait == "pendulum"
              else f"r = {block.restitution:.4g}")
-    figure.suptitle(f"Phase portrait,  α = {block.slenderness:.4g} rad,  {words}",
+    angles = (f"α = {block.slenderness:.4g} rad" if block.other is block
+              else f"α = {block.slenderness:.4g} rad (+), {block.other.slenderness:.4g} rad (−)")
+    figure.suptitle(f"Phase portrait,  {angles},  {words}",
                     x=0.02, y=0.98, ha="left", fontsize=12)
     figure.tight_layout()
     return figure
@@ -255,13 +267,25 @@ def read_arguments(argv):
                         help="slenderness of the block [rad] (default: 0.4)")
     parser.add_argument("--restitution", type=float, metavar="R",
                         help="energy ratio at an impact (default: the maximum for the slenderness)")
+    parser.add_argument("--block", metavar="FILE.h5",
+                        help="the block of a spectrum or a boundary, in place of these; its first one, if there are "
+                             "several")
     arguments = parse_with_picture(parser, argv, "phase_PORTRAIT.png")
+    if arguments.block and arguments.portrait != "regions":
+        parser.error("--block is for the portrait regions")
     if arguments.portrait == "pendulum" and arguments.restitution is not None:
         parser.error("the portrait pendulum has no loss at impacts: omit --restitution")
     return arguments
 
 
+def block_of_file(path):
+    with open_spectrum(path, ()) as file:
+        return block_of(Plane(file, dict.fromkeys(file.dimensions, 0), None, file.dimensions[-1]))
+
+
 def chosen_block(arguments):
+    if arguments.block:
+        return block_of_file(arguments.block)
     if not 0 < arguments.slenderness < HALF_TURN:
         raise ToolError(f"--slenderness {arguments.slenderness:g} is outside (0, pi/2).", USAGE)
     r = 1.0 if arguments.portrait == "pendulum" else arguments.restitution
