@@ -2,6 +2,7 @@
 #include "support/two_sides.hpp"
 
 #include "overturn/integrate/more_digits.hpp"
+#include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "point_run.hpp"
 #include "support/every_scene.hpp"
@@ -147,6 +148,90 @@ std::vector<Numerics> all_numerics(const Scene& scene)
         all.push_back({Method::rk45, 1e-8});
     }
     return all;
+}
+
+/// The end state of a block under a record of this many samples, with more digits than the result.
+Outcomes end_under(Theory theory, const Accelerogram& record, std::size_t samples,
+                   const Point& point)
+{
+    const auto first = [&](const std::vector<double>& values) {
+        return std::vector<double>(values.begin(), values.begin() + std::ptrdiff_t(samples));
+    };
+    Scene scene{.theory = theory};
+    scene.records = {std::make_shared<const Accelerogram>(
+        first(record.horizontal()), first(record.upwards()), record.time_step())};
+    Outcomes outcomes(1, all_outputs);
+    PointRun(scene, {point}, widest_kernel()).run_in_more_digits<long double>(0, outcomes);
+    return outcomes;
+}
+
+/// A constant acceleration a, with a vertical one v, turns gravity by phi: the base is inclined by
+/// -phi to it. Nonlinear: tan phi = a / (1 + v), linear: phi = a / (1 + v).
+template <Theory theory>
+void expect_turned_gravity()
+{
+    std::mt19937_64 generator(55);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int without = 0;
+    int with_impact = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const Body body = random_body(generator);
+        const Block<double> block = body.block(0.7 * body.largest_restitution());
+        const Accelerogram shaken = random_record(generator, 12, Directions::both);
+        std::vector<double> horizontal = shaken.horizontal();
+        std::vector<double> upwards = shaken.upwards();
+        const double scale =
+            (1 + 3 * uniform(generator)) * least_threshold(theory, block) / shaken.peak();
+        std::transform(upwards.begin(), upwards.end(), upwards.begin(),
+                       [&](double v) { return 0.3 / scale * v / shaken.upwards_peak(); });
+        std::fill(horizontal.begin() + 6, horizontal.end(), horizontal[6] / 8);
+        std::fill(upwards.begin() + 6, upwards.end(), upwards[6]);
+        const double time_step = 0.02 + 0.06 * uniform(generator);
+        const Accelerogram record(horizontal, upwards, time_step);
+        const Point point{block, scale, 1 / time_step};
+        const Outcomes begin = end_under(theory, record, 7, point);
+        const Outcomes end = end_under(theory, record, 12, point);
+        if (!(begin.tilt[0] > 0) || ((begin.flags[0] | end.flags[0]) & outcome_flag::fell)) {
+            continue;
+        }
+        const double a = scale * horizontal[6];
+        const double down = 1 + scale * upwards[6];
+        const bool linear = theory == Theory::linear;
+        const double gravity = linear ? down : std::hypot(a, down);
+        Body inclined = body;
+        inclined.incline -= linear ? a / down : std::atan2(a, down);
+        const Block<Digits50> other = block_in<Digits50>(
+            seen_from(begin.side[0], inclined.block(block.restitution, 9.81 * gravity)));
+        FreeRocking<theory, Digits50> rocking(
+            State<Digits50>{begin.tilt[0], begin.rate[0] / std::sqrt(gravity), begin.side[0]},
+            other);
+        const Digits50 duration = 5 / Digits50(point.frequency);
+        const bool strikes = rocking.impact_time() < duration;
+        double speed = 1;
+        if (strikes) {
+            speed = double(rocking.arc().impact_speed()) / block.slenderness;
+            rocking.strike();
+        }
+        if (rocking.impact_time() < duration || speed < 0.01) {
+            continue;
+        }
+        const State<Digits50> state = rocking.at(duration);
+        ASSERT_EQ(end.impacts[0], begin.impacts[0] + strikes);
+        // Roundings of the beginning, which grow e-fold in 1/p, at most e^2, and by the impact.
+        const double tolerance = 1e-13 / std::min(speed, 1.0);
+        EXPECT_NEAR(end.tilt[0], double(state.tilt), tolerance);
+        EXPECT_NEAR(end.rate[0], double(state.rate) * std::sqrt(gravity), tolerance);
+        EXPECT_EQ(end.side[0], double(state.side));
+        ++(strikes ? with_impact : without);
+    }
+    EXPECT_GT(without, 100);
+    EXPECT_GT(with_impact, 100);
+}
+
+TEST(TwoSides, MoveUnderAConstantAccelerationLikeABlockOnAnotherIncline)
+{
+    expect_turned_gravity<Theory::nonlinear>();
+    expect_turned_gravity<Theory::linear>();
 }
 
 std::uint8_t mirrored_region(std::uint8_t region)
