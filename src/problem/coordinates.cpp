@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace overturn {
 
@@ -79,9 +80,6 @@ constexpr double two_pi = 2 * std::numbers::pi;
 /// The values of the coordinates from which another one follows.
 using Values = std::array<double, 5>;
 
-/// The blocks of a grid.
-enum class Sides { any, equal, two };
-
 /// A coordinate that follows from at most five others; the constant default of a quantity follows
 /// from none.
 struct Derivation {
@@ -89,7 +87,6 @@ struct Derivation {
     std::array<std::string_view, 5> from;
     double (*value)(const Scene& scene, const Values& of);
     Under motion = Under::any_motion;
-    Sides sides = Sides::any;
 };
 
 const Accelerogram& record_of(const Scene& scene, double motion)
@@ -100,152 +97,17 @@ const Accelerogram& record_of(const Scene& scene, double motion)
 /// p of a side: R and the radius of gyration k.
 double frequency_parameter_of(const Scene& scene, const Values& of)
 {
-    const auto [size, gyration, _1, _2, _3] = of;
+    const double size = of[0];
+    const double gyration = of[1];
     return std::sqrt(scene.gravity * size / (gyration * gyration + size * size));
 }
 
-constexpr Derivation derivations[]{
+constexpr Derivation of_any_block[]{
     {"half_width", {"width"}, [](const Scene&, const Values& of) { return of[0] / 2; }},
     {"half_height", {"height"}, [](const Scene&, const Values& of) { return of[0] / 2; }},
-
-    // Of symmetric blocks: b and h; alpha, R and p.
-    {"slenderness",
-     {"half_width", "half_height"},
-     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); },
-     Under::any_motion,
-     Sides::equal},
     {"slenderness",
      {"aspect_ratio"},
      [](const Scene&, const Values& of) { return std::atan(1 / of[0]); }},
-    {"size",
-     {"half_width", "half_height"},
-     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
-     Under::any_motion,
-     Sides::equal},
-    {"size",
-     {"frequency_parameter"},
-     [](const Scene& scene, const Values& of) { return 3 * scene.gravity / (4 * of[0] * of[0]); },
-     Under::any_motion,
-     Sides::equal},
-    {"frequency_parameter",
-     {"size"},
-     [](const Scene& scene, const Values& of) { return frequency_parameter(of[0], scene.gravity); },
-     Under::any_motion,
-     Sides::equal},
-    {"restitution",
-     {"restitution_of_maximum", "slenderness"},
-     [](const Scene&, const Values& of) { return of[0] * largest_restitution(of[1]); },
-     Under::any_motion,
-     Sides::equal},
-    {"amplitude",
-     {"pga", "slenderness"},
-     [](const Scene& scene, const Values& of) {
-         return of[0] / uplift_threshold(scene.theory, of[1]);
-     },
-     Under::pulse,
-     Sides::equal},
-    {"pga",
-     {"amplitude", "slenderness"},
-     [](const Scene& scene, const Values& of) {
-         return of[0] * uplift_threshold(scene.theory, of[1]);
-     },
-     Under::pulse,
-     Sides::equal},
-
-    // Of blocks with two different sides: k, the height of the centre of mass, and the distances of
-    // its foot on the base from the corners; alpha, R, p and r_max.
-    {"center_offset",
-     {},
-     [](const Scene&, const Values&) { return 0.0; },
-     Under::any_motion,
-     Sides::two},
-    {"center_height",
-     {"half_height"},
-     [](const Scene&, const Values& of) { return of[0]; },
-     Under::any_motion,
-     Sides::two},
-    {"radius_of_gyration",
-     {"half_width", "half_height"},
-     [](const Scene&, const Values& of) {
-         return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
-     },
-     Under::any_motion,
-     Sides::two},
-    {"incline", {}, [](const Scene&, const Values&) { return 0.0; }, Under::any_motion, Sides::two},
-    {"base_plus",
-     {"half_width", "center_offset"},
-     [](const Scene&, const Values& of) { return of[0] - of[1]; },
-     Under::any_motion,
-     Sides::two},
-    {"base_minus",
-     {"half_width", "center_offset"},
-     [](const Scene&, const Values& of) { return of[0] + of[1]; },
-     Under::any_motion,
-     Sides::two},
-    {"slenderness_plus",
-     {"base_plus", "center_height", "incline"},
-     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) - of[2]; },
-     Under::any_motion,
-     Sides::two},
-    {"slenderness_minus",
-     {"base_minus", "center_height", "incline"},
-     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) + of[2]; },
-     Under::any_motion,
-     Sides::two},
-    {"size_plus",
-     {"base_plus", "center_height"},
-     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
-     Under::any_motion,
-     Sides::two},
-    {"size_minus",
-     {"base_minus", "center_height"},
-     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); },
-     Under::any_motion,
-     Sides::two},
-    {"frequency_parameter",
-     {"size_plus", "radius_of_gyration"},
-     frequency_parameter_of,
-     Under::any_motion,
-     Sides::two},
-    {"frequency_parameter_minus",
-     {"size_minus", "radius_of_gyration"},
-     frequency_parameter_of,
-     Under::any_motion,
-     Sides::two},
-    {"moment_kept", // J / m: the angular momentum that an impact keeps, over m omega
-     {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
-     [](const Scene&, const Values& of) {
-         const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
-         return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
-     },
-     Under::any_motion,
-     Sides::two},
-    {"gyration_over_size",
-     {"radius_of_gyration", "size_plus"},
-     [](const Scene&, const Values& of) { return of[0] / of[1]; },
-     Under::any_motion,
-     Sides::two},
-    {"largest_restitution",
-     {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
-     [](const Scene&, const Values& of) {
-         const auto [kept, k, plus, minus, _] = of;
-         return kept * kept / ((k * k + plus * plus) * (k * k + minus * minus));
-     },
-     Under::any_motion,
-     Sides::two},
-    {"restitution",
-     {"restitution_of_maximum", "largest_restitution"},
-     [](const Scene&, const Values& of) { return of[0] * of[1]; },
-     Under::any_motion,
-     Sides::two},
-    {"amplitude",
-     {"pga", "slenderness_plus", "slenderness_minus"},
-     [](const Scene& scene, const Values& of) {
-         return of[0] / uplift_threshold(scene.theory, std::min(of[1], of[2]));
-     },
-     Under::pulse,
-     Sides::two},
-
     {"scale",
      {"pga", "record_pga"},
      [](const Scene&, const Values& of) { return of[0] / of[1]; },
@@ -264,32 +126,118 @@ constexpr Derivation derivations[]{
      {"motion"},
      [](const Scene& scene, const Values& of) { return record_of(scene, of[0]).peak(); },
      Under::record},
-    {"frequency",
-     {"pulse_period", "frequency_parameter"},
-     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
-     Under::pulse,
-     Sides::equal},
-    {"frequency",
-     {"pulse_frequency", "frequency_parameter"},
-     [](const Scene&, const Values& of) { return two_pi * of[0] / of[1]; },
-     Under::pulse,
-     Sides::equal},
-    {"pulse_period",
-     {"frequency", "frequency_parameter"},
-     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
-     Under::pulse,
-     Sides::equal},
-    {"pulse_period",
-     {"pulse_frequency"},
-     [](const Scene&, const Values& of) { return 1 / of[0]; },
-     Under::pulse,
-     Sides::two},
     {"samples_per_unit",
      {"motion", "frequency_parameter"},
      [](const Scene& scene, const Values& of) {
          return 1 / (of[1] * record_of(scene, of[0]).time_step());
      },
      Under::record},
+};
+
+/// b and h; alpha, R and p.
+constexpr Derivation of_symmetric_block[]{
+    {"slenderness",
+     {"half_width", "half_height"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); }},
+    {"size",
+     {"half_width", "half_height"},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); }},
+    {"size",
+     {"frequency_parameter"},
+     [](const Scene& scene, const Values& of) { return 3 * scene.gravity / (4 * of[0] * of[0]); }},
+    {"frequency_parameter",
+     {"size"},
+     [](const Scene& scene, const Values& of) {
+         return frequency_parameter(of[0], scene.gravity);
+     }},
+    {"restitution",
+     {"restitution_of_maximum", "slenderness"},
+     [](const Scene&, const Values& of) { return of[0] * largest_restitution(of[1]); }},
+    {"amplitude",
+     {"pga", "slenderness"},
+     [](const Scene& scene, const Values& of) {
+         return of[0] / uplift_threshold(scene.theory, of[1]);
+     },
+     Under::pulse},
+    {"pga",
+     {"amplitude", "slenderness"},
+     [](const Scene& scene, const Values& of) {
+         return of[0] * uplift_threshold(scene.theory, of[1]);
+     },
+     Under::pulse},
+    {"frequency",
+     {"pulse_period", "frequency_parameter"},
+     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
+     Under::pulse},
+    {"frequency",
+     {"pulse_frequency", "frequency_parameter"},
+     [](const Scene&, const Values& of) { return two_pi * of[0] / of[1]; },
+     Under::pulse},
+    {"pulse_period",
+     {"frequency", "frequency_parameter"},
+     [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); },
+     Under::pulse},
+};
+
+/// k, the height of the centre of mass, and the distances of its foot on the base from the corners;
+/// alpha, R, p and r_max.
+constexpr Derivation of_block_with_two_sides[]{
+    {"center_offset", {}, [](const Scene&, const Values&) { return 0.0; }},
+    {"center_height", {"half_height"}, [](const Scene&, const Values& of) { return of[0]; }},
+    {"radius_of_gyration",
+     {"half_width", "half_height"},
+     [](const Scene&, const Values& of) {
+         return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
+     }},
+    {"incline", {}, [](const Scene&, const Values&) { return 0.0; }},
+    {"base_plus",
+     {"half_width", "center_offset"},
+     [](const Scene&, const Values& of) { return of[0] - of[1]; }},
+    {"base_minus",
+     {"half_width", "center_offset"},
+     [](const Scene&, const Values& of) { return of[0] + of[1]; }},
+    {"slenderness_plus",
+     {"base_plus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) - of[2]; }},
+    {"slenderness_minus",
+     {"base_minus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) + of[2]; }},
+    {"size_plus",
+     {"base_plus", "center_height"},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); }},
+    {"size_minus",
+     {"base_minus", "center_height"},
+     [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); }},
+    {"frequency_parameter", {"size_plus", "radius_of_gyration"}, frequency_parameter_of},
+    {"frequency_parameter_minus", {"size_minus", "radius_of_gyration"}, frequency_parameter_of},
+    {"moment_kept", // J / m: the angular momentum that an impact keeps, over m omega
+     {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
+         return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
+     }},
+    {"gyration_over_size",
+     {"radius_of_gyration", "size_plus"},
+     [](const Scene&, const Values& of) { return of[0] / of[1]; }},
+    {"largest_restitution",
+     {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [kept, k, plus, minus, _] = of;
+         return kept * kept / ((k * k + plus * plus) * (k * k + minus * minus));
+     }},
+    {"restitution",
+     {"restitution_of_maximum", "largest_restitution"},
+     [](const Scene&, const Values& of) { return of[0] * of[1]; }},
+    {"amplitude",
+     {"pga", "slenderness_plus", "slenderness_minus"},
+     [](const Scene& scene, const Values& of) {
+         return of[0] / uplift_threshold(scene.theory, std::min(of[1], of[2]));
+     },
+     Under::pulse},
+    {"pulse_period",
+     {"pulse_frequency"},
+     [](const Scene&, const Values& of) { return 1 / of[0]; },
+     Under::pulse},
 };
 
 /// The coordinates on the way from a coordinate to those that it may follow from.
@@ -307,11 +255,19 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
     };
     const auto is_possible = [&](const Derivation& each) {
         return each.name == name && scene.is_under(each.motion) &&
-               (each.sides == Sides::any || (each.sides == Sides::two) == grid.has_two_sides()) &&
                std::all_of(each.from.begin(), each.from.end(), is_known);
     };
-    const auto* found = std::ranges::find_if(derivations, is_possible);
-    return found == std::end(derivations) ? nullptr : found;
+    const std::span<const Derivation> of_its_sides =
+        grid.has_two_sides() ? std::span<const Derivation>(of_block_with_two_sides)
+                             : of_symmetric_block;
+    for (const std::span<const Derivation> table :
+         {std::span<const Derivation>(of_any_block), of_its_sides}) {
+        const auto found = std::ranges::find_if(table, is_possible);
+        if (found != table.end()) {
+            return &*found;
+        }
+    }
+    return nullptr;
 }
 
 /// Calls visit(offset) for every point of a box, row by row. offset: into values that vary along
@@ -429,9 +385,19 @@ std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimension
 
 std::vector<Point> Coordinates::points() const
 {
-    std::vector<Point> points(std::size_t(count_points(count_)));
+    const auto size = std::size_t(count_points(count_));
+    std::vector<Point> points(1); // as long as all coordinates are equal
     const auto fill = [&](std::string_view name, const auto& assign) {
         const CoordinateValues& coordinate = of(name);
+        if (coordinate.dimensions.empty()) {
+            for (Point& point : points) {
+                assign(point, coordinate.first());
+            }
+            return;
+        }
+        if (points.size() < size) {
+            points.resize(size, Point(points.front()));
+        }
         Point* point = points.data();
         for_each_offset(count_, coordinate.dimensions,
                         [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
@@ -483,6 +449,7 @@ std::vector<Point> Coordinates::points() const
         fill("motion",
              [](Point& point, double value) { point.record = int(Scene::record_index(value)); });
     }
+    points.resize(size, Point(points.front()));
     if (grid_.has_two_sides()) {
         for (Point& point : points) { // equal sides: as a symmetric block
             Block<double>& block = point.block;
