@@ -383,49 +383,103 @@ std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimension
     return values;
 }
 
-std::vector<Point> Coordinates::points() const
-{
-    const auto size = std::size_t(count_points(count_));
-    std::vector<Point> points(1); // as long as all coordinates are equal
-    const auto fill = [&](std::string_view name, const auto& assign) {
-        const CoordinateValues& coordinate = of(name);
+namespace {
+
+/// The points of a box, coordinate by coordinate.
+class Points {
+public:
+    Points(const Coordinates& coordinates, const Shape& count)
+        : coordinates_(coordinates), count_(count)
+    {}
+
+    /// Calls assign(point, value) for every point with its value of a coordinate.
+    template <class Assign>
+    void fill(std::string_view name, const Assign& assign)
+    {
+        const CoordinateValues& coordinate = coordinates_.of(name);
         if (coordinate.dimensions.empty()) {
-            for (Point& point : points) {
+            for (Point& point : points_) {
                 assign(point, coordinate.first());
             }
             return;
         }
-        if (points.size() < size) {
-            points.resize(size, Point(points.front()));
-        }
-        Point* point = points.data();
+        expand();
+        Point* point = points_.data();
         for_each_offset(count_, coordinate.dimensions,
                         [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
-    };
-    const bool is_recorded = scene_.is_recorded();
-    if (grid_.has_two_sides()) {
-        using B = BlockSide<double>;
-        const auto fill_side = [&](double B::*member, std::string_view plus, std::string_view minus,
-                                   double Block<double>::*of_plus) {
-            fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
-            fill(minus, [&](Point& point, double value) { point.block.other.*member = value; });
-        };
-        fill_side(&B::slenderness, "slenderness_plus", "slenderness_minus",
-                  &Block<double>::slenderness);
-        fill_side(&B::size, "size_plus", "size_minus", &Block<double>::size);
-        fill_side(&B::pace, "frequency_parameter", "frequency_parameter_minus",
-                  &Block<double>::pace);
-    } else {
+    }
+
+    void fill_symmetric_blocks()
+    {
         fill("slenderness", [](Point& point, double value) {
             point.block.slenderness = value;
             point.block.other.slenderness = value;
         });
     }
-    fill("restitution", [](Point& point, double value) { point.block.restitution = value; });
-    fill(is_recorded ? "scale" : "amplitude",
-         [](Point& point, double value) { point.amplitude = value; });
+
+    void fill_blocks_with_two_sides()
+    {
+        using B = Block<double>;
+        using Side = BlockSide<double>;
+        const auto fill_both = [&](double B::*of_plus, std::string_view plus,
+                                   double Side::*of_minus, std::string_view minus) {
+            fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
+            fill(minus, [&](Point& point, double value) { point.block.other.*of_minus = value; });
+        };
+        fill_both(&B::slenderness, "slenderness_plus", &Side::slenderness, "slenderness_minus");
+        fill_both(&B::size, "size_plus", &Side::size, "size_minus");
+        fill_both(&B::pace, "frequency_parameter", &Side::pace, "frequency_parameter_minus");
+    }
+
+    std::vector<Point> all()
+    {
+        expand();
+        return std::move(points_);
+    }
+
+private:
+    void expand()
+    {
+        const auto size = std::size_t(count_points(count_));
+        if (points_.size() < size) {
+            points_.resize(size, Point(points_.front()));
+        }
+    }
+
+    const Coordinates& coordinates_;
+    const Shape& count_;
+    std::vector<Point> points_{1}; // as long as all coordinates are equal
+};
+
+/// Blocks whose sides are equal, as symmetric ones.
+void make_symmetric(std::vector<Point>& points)
+{
+    for (Point& point : points) {
+        Block<double>& block = point.block;
+        if (block.is_symmetric()) {
+            point.frequency /= block.pace;
+            block = {block.slenderness, block.restitution};
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Point> Coordinates::points() const
+{
+    Points points(*this, count_);
+    const bool is_recorded = scene_.is_recorded();
+    const bool has_two_sides = grid_.has_two_sides();
+    if (has_two_sides) {
+        points.fill_blocks_with_two_sides();
+    } else {
+        points.fill_symmetric_blocks();
+    }
+    points.fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
+    points.fill(is_recorded ? "scale" : "amplitude",
+                [](Point& point, double value) { point.amplitude = value; });
     if (grid_.find("direction") != nullptr) {
-        fill("direction", [&](Point& point, double value) {
+        points.fill("direction", [&](Point& point, double value) {
             if (scene_.has_two_components()) {
                 point.direction = value;
             } else if (value == 180) {
@@ -433,33 +487,24 @@ std::vector<Point> Coordinates::points() const
             }
         });
     }
-    const auto fill_frequency = [&](std::string_view name, const auto& value_of) {
-        fill(name, [&](Point& point, double value) { point.frequency = value_of(value); });
-    };
-    if (!grid_.has_two_sides()) {
-        fill_frequency(is_recorded ? "samples_per_unit" : "frequency",
-                       [](double value) { return value; });
-    } else if (is_recorded) {
-        fill_frequency("motion",
-                       [&](double motion) { return 1 / record_of(scene_, motion).time_step(); });
-    } else {
-        fill_frequency("pulse_period", [](double period) { return two_pi / period; });
-    }
     if (is_recorded) {
-        fill("motion",
-             [](Point& point, double value) { point.record = int(Scene::record_index(value)); });
+        points.fill("motion", [&](Point& point, double motion) {
+            point.record = int(Scene::record_index(motion));
+            point.frequency = 1 / record_of(scene_, motion).time_step();
+        });
     }
-    points.resize(size, Point(points.front()));
-    if (grid_.has_two_sides()) {
-        for (Point& point : points) { // equal sides: as a symmetric block
-            Block<double>& block = point.block;
-            if (block.is_symmetric()) {
-                point.frequency /= block.pace;
-                block = {block.slenderness, block.restitution};
-            }
-        }
+    if (!has_two_sides) {
+        points.fill(is_recorded ? "samples_per_unit" : "frequency",
+                    [](Point& point, double value) { point.frequency = value; });
+        return points.all();
     }
-    return points;
+    if (!is_recorded) {
+        points.fill("pulse_period",
+                    [](Point& point, double period) { point.frequency = two_pi / period; });
+    }
+    std::vector<Point> all = points.all();
+    make_symmetric(all);
+    return all;
 }
 
 std::string Extent::text(std::string_view unit) const
