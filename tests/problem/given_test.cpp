@@ -297,7 +297,8 @@ TEST(GridOf, RefusesABlockWithTwoSidesThatDoesNotStand)
     expect_refused({}, block + loss + pulse + Quantities{axis("incline", {0, 0.2, 0.4})}, "incline",
                    "-0.0782");
     const Quantities wide{number("width", 1.6), number("height", 0.3), number("incline", 0.5)};
-    expect_refused({}, wide + loss + pulse, "incline", "leans by too much: its slenderness is 1.88");
+    expect_refused({}, wide + loss + pulse, "incline",
+                   "leans by too much: its slenderness is 1.88");
 }
 
 TEST(GridOf, RefusesABlockWithTwoSidesThatDoesNotRockOn)
