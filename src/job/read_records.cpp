@@ -164,21 +164,28 @@ RecordFile content_of(const Entry& entry, const std::string& file, const Reading
     }
 }
 
+/// The first component of a motion.
+struct FirstComponent {
+    const std::string& file;
+    const RecordFile& content;
+    const RecordComponent& horizontal;
+};
+
 /// The accelerations over g of another component of the motion, if there is a choice: it is of the
 /// same file, or another file. name: of this component, in messages.
 std::vector<double> other_component(const std::optional<Entry>& choice_of_it, std::string_view name,
-                                    const GivenRecord& given, const RecordFile& content,
-                                    const RecordComponent& horizontal, const Reading& reading)
+                                    const FirstComponent& first, const Reading& reading)
 {
     if (!choice_of_it) {
         return {};
     }
     const Entry& choice = *choice_of_it;
+    const auto& [file, content, horizontal] = first;
     const RecordComponent* component = chosen(content, choice);
     RecordFile other;
     if (component == nullptr) {
         if (choice.node->is_integer()) {
-            refuse_component(choice, content, given.file);
+            refuse_component(choice, content, file);
         }
         other = content_of(choice, string_of(choice), reading);
         component = &other.components.front();
@@ -212,11 +219,11 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
         refuse(given.entry, " = {} has one sample. A record needs two or more.",
                in_quotes(given.file));
     }
+    const FirstComponent first{given.file, content, *horizontal};
     auto record = std::make_shared<const Accelerogram>(
         over_gravity(*horizontal, reading.gravity),
-        other_component(given.vertical, "vertical", given, content, *horizontal, reading),
-        horizontal->time_step,
-        other_component(given.second, "second", given, content, *horizontal, reading));
+        other_component(given.vertical, "vertical", first, reading), horizontal->time_step,
+        other_component(given.second, "second", first, reading));
     if (given.second && record->second() == record->upwards()) {
         refuse(*given.second, " = {} is also the vertical component. Correct one of them.",
                component_text(*given.second));
