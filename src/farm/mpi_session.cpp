@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <span>
 #include <string_view>
+#include <thread>
 #include <unistd.h>
 
 namespace overturn {
@@ -172,6 +174,8 @@ void MpiSession::abort(int exit_code, const std::string& message) const
 {
     std::fprintf(stderr, "rank %d: %s\n", rank_, message.c_str());
     std::fflush(nullptr);
+    // The launcher of MPICH may drop what it has not read when the ranks end.
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     end_all_ranks(exit_code);
 }
 

@@ -342,6 +342,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
 {
     Outputs computed = outputs;
     computed.error = outputs.error || numerics.resolve;
+    computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
     computed.peak = outputs.peak && !computed.error;
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose

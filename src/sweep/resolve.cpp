@@ -2,6 +2,7 @@
 
 #include "overturn/integrate/more_digits.hpp"
 
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -15,9 +16,14 @@ void give_up(int point, Outcomes& outcomes)
     put(outcomes.region, point, std::uint8_t(Region::undecided));
 }
 
+/// The bounds of errors are of first order: at a loose tolerance, the error of one point in a
+/// million exceeds its bound, by a factor of up to 13 among 10^8 random points.
+constexpr double safety_of_first_pass = 16;
+
 /// Settles the points that took too many steps, for which more digits do not help, and returns
-/// those whose verdict is in doubt.
-std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points,
+/// those whose verdict is in doubt: |margin| is not larger than the bound of its error, times
+/// `safety`.
+std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& points, double safety,
                                Outcomes& outcomes)
 {
     std::vector<int> in_doubt;
@@ -27,7 +33,9 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
             if (!run.settle_low_bounces(point, outcomes)) {
                 give_up(point, outcomes);
             }
-        } else if (flags & outcome_flag::in_doubt) {
+        } else if ((flags & outcome_flag::in_doubt) ||
+                   !(safety * outcomes.error[std::size_t(point)] <
+                     std::abs(outcomes.margin[std::size_t(point)]))) {
             in_doubt.push_back(point);
         }
     }
@@ -57,14 +65,14 @@ bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
 {
-    std::vector<int> in_doubt = settle_capped(run, run.all(), outcomes);
+    std::vector<int> in_doubt = settle_capped(run, run.all(), safety_of_first_pass, outcomes);
     if (!in_doubt.empty()) {
         // Settles almost every point, still in double; if the first pass was as accurate, it still
         // completes the runs that were stopped.
         run.run(most_accurate, outcomes, in_doubt);
     }
     std::map<int, int> in_50_digits; // of each motion
-    for (const int point : settle_capped(run, in_doubt, outcomes)) {
+    for (const int point : settle_capped(run, in_doubt, 1, outcomes)) {
         bool settled = run.settle_low_bounces(point, outcomes) ||
                        (may_settle_in<long double>(run, point, outcomes) &&
                         settle_in<long double>(run, point, outcomes));

@@ -216,6 +216,24 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
     EXPECT_GT(doubted_of_fallen, 0);
 }
 
+TEST(ResolvedVerdicts, AreRightWhereTheFirstPassExceedsItsBound)
+{
+    // The bound of the first pass is less than half its margin, a twelfth of its error.
+    const Scene scene{PulseKind::cosine, Theory::linear, {.cycles = 3}};
+    const Point point{
+        {0.11492817379204712, 0.78992179750511027}, 1.0894839980764797, 1.9658077169821069};
+    const PointRun run(scene, {point}, widest_kernel());
+    const Outputs outputs{.error = true, .region = true, .margin = true};
+    const Outcomes first = outcomes_of(run, {Method::rk45, 1e-4}, outputs);
+    EXPECT_GT(first.margin[0], 2 * first.error[0]);
+    Outcomes exact(1, outputs);
+    run.run_in_more_digits<Digits50>(0, exact);
+    EXPECT_LT(exact.margin[0], first.margin[0] - 10 * first.error[0]);
+    const Outcomes resolved = outcomes_of(run, resolved_rk45, outputs);
+    EXPECT_EQ(resolved.region[0], exact.region[0]);
+    EXPECT_NEAR(resolved.margin[0], exact.margin[0], resolved.error[0]);
+}
+
 TEST(ResolvedVerdicts, AreCertainForABlockThatIsNeverLifted)
 {
     for (const double amplitude : {0.0, 0.5, 1.0}) {
