@@ -80,6 +80,18 @@ RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
     refuse_format(lines);
 }
 
+/// A comment without its marks, and with plain blanks.
+std::string words_of_comment(std::string_view line)
+{
+    std::string words(line);
+    for (const std::string_view blank : {"\u00a0", "\u2009", "\u202f"}) {
+        for (std::size_t at = 0; (at = words.find(blank, at)) != words.npos;) {
+            words.replace(at, blank.size(), " ");
+        }
+    }
+    return words.substr(std::min(words.find_first_not_of(" \t#%"), words.size()));
+}
+
 /// Refuses a file whose header or comments state another unit than that of its samples, and not
 /// this one as well, as "converted from cm/s2, units: g" does.
 void expect_no_other_unit(const RecordFile& file, const Lines& lines)
@@ -87,7 +99,7 @@ void expect_no_other_unit(const RecordFile& file, const Lines& lines)
     // Comments of a text describe its columns, as in "time [s], acceleration [g]"; the header of a
     // station contains other brackets.
     const bool is_text = file.format == "text";
-    const auto places = is_text ? UnitPlaces::title : UnitPlaces::after_units;
+    const auto places = is_text ? UnitPlaces::comment : UnitPlaces::after_units;
     for (const RecordComponent& component : file.components) {
         const auto is_same = [&](const StatedUnit& stated) {
             return stated.unit &&
@@ -97,9 +109,7 @@ void expect_no_other_unit(const RecordFile& file, const Lines& lines)
         bool is_stated = false;
         for (const std::string& line : component.header) {
             const std::string quoted = quoted_bytes(trimmed(line));
-            const std::size_t marks = is_text ? trimmed(line).find_first_not_of("#%") : 0;
-            const std::string_view words =
-                trimmed(line).substr(std::min(marks, trimmed(line).size()));
+            const std::string words = is_text ? words_of_comment(line) : line;
             for (const StatedUnit& stated : stated_units(words, places)) {
                 if (is_text && stated.is_time) {
                     lines.refuse_file("the line {} states times in {}. Give times in seconds.",

@@ -153,6 +153,22 @@ bool is_acceleration(std::string_view word)
     return is_in("a acc accel accn acceleration accelerations", word);
 }
 
+/// Whether a word is g, also with the name of an acceleration or a component, as in accg and EW_g.
+bool contains_g(std::string_view word)
+{
+    if (is_in("g's gs gn g0", word) ||
+        (word.ends_with('g') && is_acceleration(word.substr(0, word.size() - 1)))) {
+        return true;
+    }
+    for (std::size_t begin = 0, end = 0; end != word.npos; begin = end + 1) {
+        end = word.find_first_of("_-.", begin);
+        if (word.substr(begin, end - begin) == "g") {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Where a unit begins in the name of a column, such as acc_x_cm_s2, a/g or time_ms; npos if it has
 /// none.
 std::size_t unit_of_column(std::string_view name)
@@ -232,13 +248,15 @@ std::vector<Word> words_of(std::string_view line)
 /// Reads the units of one line.
 class UnitReader {
 public:
-    explicit UnitReader(std::string_view line) : words_(words_of(line)) {}
+    UnitReader(std::string_view line, UnitPlaces places) : words_(words_of(line)), places_(places)
+    {}
 
-    std::vector<StatedUnit> read(UnitPlaces places)
+    std::vector<StatedUnit> read()
     {
         std::vector<StatedUnit> units;
         while (at_ < words_.size()) {
-            if (skip_units_of() || (places == UnitPlaces::title && is_unit())) {
+            if (skip_units_of() || (places_ != UnitPlaces::after_units && is_unit()) ||
+                (places_ == UnitPlaces::comment && is_any_g())) {
                 units.push_back(take());
             } else {
                 ++at_;
@@ -288,8 +306,8 @@ private:
         if (before.find_first_of(":=([{<") != before.npos) {
             return true;
         }
-        if (const auto whole = match(0); at_ == 0 && whole && whole->end == words_.size()) {
-            return true;
+        if (places_ == UnitPlaces::comment && at_ == 0 && (words_.size() == 1 || is_multiple())) {
+            return true; // the whole line
         }
         if (at_ == 0 || !(before.empty() || before == ",")) {
             return false;
@@ -366,10 +384,38 @@ private:
         return rest->empty() ? continues(next) && begins_unit(next) : resembles_unit(*rest);
     }
 
+    /// Whether a value follows the current word, as in g = 9.81.
+    bool is_defined() const
+    {
+        return at_ + 1 < words_.size() && words_[at_ + 1].before.starts_with('=');
+    }
+
+    /// Whether the current word is g as a unit, for all that a comment shows.
+    bool is_any_g() const
+    {
+        if (!contains_g(word(at_)) || is_defined()) {
+            return false;
+        }
+        const bool is_initial =
+            words_[at_].spelling == "G" && at_ + 1 < words_.size() && words_[at_ + 1].before == ".";
+        const bool is_name =
+            at_ > 0 && continues(at_) &&
+            (is_number_like(word(at_ - 1)) || // a value
+             is_in("component comp channel station site building bldg class type", word(at_ - 1)));
+        return !is_initial && !is_name;
+    }
+
     /// Whether a unit begins with the current word: one that is expected, a multiple, or what is
     /// nothing else wherever it is, cm/s/s but not G, and not part of a value.
     bool is_unit() const
     {
+        if (places_ == UnitPlaces::comment && word(at_) == "g" && is_defined()) {
+            return false;
+        }
+        if (places_ == UnitPlaces::comment && word(at_) == "m" &&
+            words_[at_].before.ends_with('[')) { // elsewhere, an initial
+            return true;
+        }
         const bool is_named_factor = !is_number_like(word(at_)) && after_factor(word(at_));
         if ((is_expected() || is_named_factor) &&
             (match_of_phrase() || begins_unit(at_) || is_multiple())) {
@@ -387,7 +433,10 @@ private:
     StatedUnit take()
     {
         const std::size_t begin = at_;
-        const auto found = match_of_phrase();
+        auto found = match_of_phrase();
+        if (!found && places_ == UnitPlaces::comment && word(begin) != "g" && is_any_g()) {
+            found = Match{AccelerationUnit::g, begin + 1};
+        }
         at_ = found ? found->end : at_ + 1;
         while (!found && continues(at_)) {
             ++at_;
@@ -400,6 +449,7 @@ private:
     }
 
     std::vector<Word> words_;
+    UnitPlaces places_;
     std::size_t at_ = 0;
 };
 
@@ -407,7 +457,7 @@ private:
 
 std::vector<StatedUnit> stated_units(std::string_view line, UnitPlaces places)
 {
-    return UnitReader(line).read(places);
+    return UnitReader(line, places).read();
 }
 
 std::string how_to_state(std::string_view option)

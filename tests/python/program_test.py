@@ -127,6 +127,19 @@ class AResultFile(InAFolder):
         self.assertEqual(suite.motion_name.item(), "synthetic.AT2")
         self.assertIn("motion_name", suite.coords)
 
+    def test_of_two_components_has_a_fragility_over_the_peak_of_each_direction_only(self):
+        one = {"plane.size": 1, "plane.slenderness": 0.25}
+        alone = overturn.run(JOBS / "synthetic.toml", overrides=one)
+        turned = overturn.run(JOBS / "synthetic.toml", overrides={
+            **one, "scene.second_component": "synthetic_vertical.AT2", "plane.direction": {"values": [0, 30, 90]}})
+        for measure in ("pgv", "record_pga", "arias_intensity", "significant_duration"):
+            with self.assertRaisesRegex(ValueError, "first of two horizontal components"):
+                overturn.fragility(turned, measure)
+        curve = overturn.fragility(turned, "pga", bins=1, samples=1)
+        self.assertAlmostEqual(curve.edges[0], float(turned.pga.min()))
+        self.assertAlmostEqual(curve.edges[-1], float(turned.pga.max()))
+        overturn.fragility(alone, "pgv", samples=1)
+
     def test_that_is_unfinished_has_no_values_of_unmarked_tiles(self):
         with overturn.run(JOB, output="spectrum.h5") as spectrum:
             whole = spectrum.load()

@@ -198,6 +198,59 @@ TEST(AStatedUnit, InTheHeadOfAColumnMustBeTheGivenOne)
     }
 }
 
+TEST(AStatedUnit, OfGInAnyCommentMustBeTheGivenOne)
+{
+    const auto with = [](AccelerationUnit unit, const std::string& comment) {
+        return refusal_of(comment + "\n1\n", {.time_step = 0.01, .unit = unit});
+    };
+    std::mt19937_64 random(10);
+    const auto one_of = [&](const std::vector<std::string>& words) {
+        return words[random() % words.size()];
+    };
+    for (int i = 0; i < 4000; ++i) {
+        const std::string g = one_of({"g", "G", "g's", "gn"});
+        std::string words = one_of({"unit " + g,
+                                    "unit: " + g,
+                                    "a " + g,
+                                    "acc; " + g,
+                                    "acc - " + g,
+                                    "acc. " + g + ".",
+                                    "s " + g,
+                                    "s, " + g,
+                                    "sec\t" + g,
+                                    "multiples of " + g,
+                                    "fraction of " + g,
+                                    "component EW, " + g,
+                                    g,
+                                    "in " + g,
+                                    "accg",
+                                    "ag",
+                                    "EW_g",
+                                    "acc_g",
+                                    "time s acc_ns_g",
+                                    "g-units",
+                                    "g0",
+                                    "PGA 0.3 g, acceleration " + g});
+        words = one_of({"#", "# ", "%", "% ", "#\u00a0", "##"}) + words;
+        EXPECT_EQ(with(AccelerationUnit::g, words), "") << words;
+        EXPECT_NE(with(AccelerationUnit::m_per_s2, words), "") << words;
+        EXPECT_NE(with(AccelerationUnit::gal, words), "") << words;
+    }
+    for (const char* neither :
+         {"# g/10", "# 0.01 g", "# mg", "# displacement [m]", "# 1/100 of g"}) {
+        EXPECT_NE(with(AccelerationUnit::g, neither), "") << neither;
+        EXPECT_NE(with(AccelerationUnit::m_per_s2, neither), "") << neither;
+    }
+    for (const char* other :
+         {"# recorded by G. Miller", "# component G", "# PGA 0.35 g", "# g = 9.81 m/s2",
+          "# station G, 12 km", "#\u00a0m/s2", "# unit: m/s2 (g = 9.81 m/s2)"}) {
+        EXPECT_EQ(with(AccelerationUnit::m_per_s2, other), "") << other;
+    }
+    for (const char* metres : {"#\u00a0m/s2", "# unit: m/s2 (g = 9.81 m/s2)"}) {
+        EXPECT_NE(with(AccelerationUnit::g, metres), "") << metres;
+    }
+}
+
 TEST(AStatedUnit, InTheNameOfAColumnMustBeTheGivenOne)
 {
     std::mt19937_64 random(9);

@@ -143,6 +143,9 @@ def _measure(dataset, im):
     if im == "pga" and im in dataset:  # of the direction, if there are two horizontal components
         return dataset[im]
     measure = dataset[unscaled]
+    if "of the first horizontal component" in measure.attrs.get("comment", ""):
+        raise ValueError(f"im = {im!r} is that of the first of two horizontal components, in whatever direction the "
+                         "block is. Give im = \"pga\", which is that of every direction, or a variable of your own.")
     if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
         measure = measure.sel(motion=dataset["motion_number"])
     return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
