@@ -33,7 +33,7 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
             if (!run.settle_low_bounces(point, outcomes)) {
                 give_up(point, outcomes);
             }
-        } else if ((flags & outcome_flag::in_doubt) ||
+        } else if (!(flags & outcome_flag::free_fall) &&
                    !(safety * outcomes.error[std::size_t(point)] <
                      std::abs(outcomes.margin[std::size_t(point)]))) {
             in_doubt.push_back(point);

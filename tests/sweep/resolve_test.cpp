@@ -234,6 +234,22 @@ TEST(ResolvedVerdicts, AreRightWhereTheFirstPassExceedsItsBound)
     EXPECT_NEAR(resolved.margin[0], exact.margin[0], resolved.error[0]);
 }
 
+TEST(ResolvedVerdicts, AreNotSoughtWhereGravityVanishes)
+{
+    Scene scene;
+    scene.records = {std::make_shared<const Accelerogram>(std::vector<double>{0, 0.5, 0},
+                                                          std::vector<double>{0, -0.5, 0}, 0.1)};
+    const PointRun run(scene, {{{0.2, 0.9}, 1, 3}, {{0.2, 0.9}, 2, 3}, {{0.2, 0.9}, 3, 3}},
+                       widest_kernel());
+    const Outcomes outcomes = outcomes_of(run, {Method::taylor, 1e-4, true}, {.region = true}, 100);
+    EXPECT_EQ(outcomes.in_50_digits, 0);
+    EXPECT_NE(outcomes.region[0], std::uint8_t(Region::undecided));
+    for (const std::size_t i : {1, 2}) {
+        EXPECT_EQ(outcomes.region[i], std::uint8_t(Region::undecided));
+        EXPECT_EQ(outcomes.flags[i], outcome_flag::free_fall);
+    }
+}
+
 TEST(ResolvedVerdicts, AreCertainForABlockThatIsNeverLifted)
 {
     for (const double amplitude : {0.0, 0.5, 1.0}) {
