@@ -233,6 +233,7 @@ private:
         command->callback([this, execute, &options] {
             chosen = {
                 .execute = [arguments = arguments_, execute, &options] { return execute(options); },
+                // Only `run` and `boundary`, which have these options, use MPI.
                 .on_every_rank = std::same_as<Options, RunOptions>};
         });
         return *command;

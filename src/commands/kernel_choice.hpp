@@ -7,8 +7,8 @@
 
 namespace overturn {
 
-/// auto: the widest kernel that the processor supports. Throws Error if the processor does not
-/// support the kernel, or any of this build, or if it was not compiled.
+/// auto: the widest kernel of this build that the processor supports. Throws Error if the processor
+/// does not support the kernel, or any of this build, or if it was not compiled.
 Kernel kernel_called(std::string_view name);
 
 } // namespace overturn

@@ -40,7 +40,7 @@ inline std::string in_run_group(const std::string& name)
 // In the group `run`.
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
-inline constexpr char audit_checked[] = "audit_checked"; ///< of a filled spectrum, as the next
+inline constexpr char audit_checked[] = "audit_checked"; ///< of a filled spectrum, like the next
 inline constexpr char audit_wrong[] = "audit_wrong";
 inline constexpr char job_resolved[] = "job_resolved";
 inline constexpr char coordinate_checksums[] = "coordinate_checksums"; ///< lines "NAME CHECKSUM"

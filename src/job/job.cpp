@@ -112,7 +112,7 @@ Job read_job_text(std::string text, const std::string& name,
     problem.fields = read_fields(entry);
     expect_known_errors(entry, problem);
     read_points(entry, folder, is_suite, job);
-    expect_fillable(entry, problem);
+    expect_fillable(entry, problem); // before `evaluated` is added, which it would refuse
     if (problem.numerics.fill) {
         problem.fields.push_back(Field::evaluated);
     }

@@ -54,6 +54,9 @@ std::vector<double> rates_of(const PointRun& points, const Outcomes& outcomes)
     return rates;
 }
 
+/// A field of a spectrum that is not filled. `region`, `margin` and `error` are not computed here:
+/// spectrum_tile() moves them from the outcomes. A filled spectrum has its own values, see
+/// filled_tile().
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
     switch (field) {
@@ -81,8 +84,8 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                    flag(outcome_flag::free_fall, status::free_fall);
         });
     default:
-        return {}; // fields of other products, or moved from the outcomes by the caller,
-                   // because `peak` and `fall_time` read the regions
+        return {}; // moved from the outcomes later, because `peak` and `fall_time` read the
+                   // regions; or fields of other products
     }
 }
 

@@ -86,7 +86,7 @@ std::uint64_t hashed(std::uint64_t number)
 
 /// Calls visit(column) for the columns in [begin, end) that the audit of a row may check.
 /// Each column is among them with the probability `share`, by a hash of its index and that of the
-/// row: at most one in a block of columns, as hashing every point would take as long as the rest.
+/// row: at most one in a group of columns, as hashing every point would take as long as the rest.
 template <class Visitor>
 void for_each_audited(double share, std::int64_t row, std::int64_t begin, std::int64_t end,
                       const Visitor& visit)
@@ -99,17 +99,17 @@ void for_each_audited(double share, std::int64_t row, std::int64_t begin, std::i
         length *= 2;
     }
     const std::uint64_t limit = threshold(share * double(length));
-    for (std::int64_t block = begin / length; block * length < end; ++block) {
-        const std::uint64_t hash = hashed(hashed(std::uint64_t(row)) + std::uint64_t(block));
+    for (std::int64_t group = begin / length; group * length < end; ++group) {
+        const std::uint64_t hash = hashed(hashed(std::uint64_t(row)) + std::uint64_t(group));
         const std::int64_t column =
-            block * length + std::int64_t(hashed(hash) % std::uint64_t(length));
+            group * length + std::int64_t(hashed(hash) % std::uint64_t(length));
         if (hash <= limit && column >= begin && column < end) {
             visit(column);
         }
     }
 }
 
-/// The points of a tile, filled cell by cell.
+/// The points of a tile, filled cell by cell. Its rows are strengths, its columns are rates.
 class Filler {
 public:
     Filler(const Problem& problem, const Tile& tile, Kernel kernel, DropRequested drop_requested,
@@ -137,7 +137,9 @@ public:
         }
     }
 
-    /// first: the row and the column of the first point among all points of the grid.
+    /// Integrates a share of the filled points; if any of them is wrong, also all others, so that
+    /// none remains filled. first: the row and the column of the first point among all points of
+    /// the grid.
     void audit(std::array<std::int64_t, 2> first)
     {
         const std::vector<int> checked = audited(first);
@@ -340,7 +342,7 @@ private:
     const std::vector<Point> of_row_;    // at the first column
     const std::vector<Point> of_column_; // in the first row
     const std::array<int, 2> longest_;   // side of a cell along rows and columns [points]
-    const PointRun run_;                 // without points
+    const PointRun run_;                 // a template without points: see with_points()
     FilledTile filled_;
     std::vector<Node> nodes_;
     std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is

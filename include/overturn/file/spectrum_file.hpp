@@ -19,8 +19,9 @@
 
 namespace overturn {
 
-/// To be called before MPI_Init. If HDF5 is initialised later, it closes its files in MPI_Finalize,
-/// and crashes on a file that is incomplete because the disk was full.
+/// Initialises HDF5; calling it again has no effect. Whatever opens a file calls it, but a program
+/// that writes tiles must call it before MPI_Init: if HDF5 is initialised later, it closes its
+/// files in MPI_Finalize, and crashes on a file that is incomplete because the disk was full.
 void start_hdf5();
 
 /// The file at the path, or nullopt if there is none. Throws Error if the path exists and is not a

@@ -17,8 +17,8 @@ struct BlockSide {
     T pace = T(scalar_t<T>(1)); ///< p: frequency parameter
 };
 
-/// A block as seen from the side on which it rocks. The other side of a symmetric block, which is
-/// the default, is equal, and its size and pace are 1.
+/// A block as seen from the side on which it rocks. By default the block is symmetric: both sides
+/// have the same slenderness, and size and pace 1.
 template <Number T>
 struct Block {
     T slenderness;              ///< alpha of this side; of a symmetric block: arctan(b / h) [rad]
@@ -74,7 +74,8 @@ template <Number T>
 struct State {
     T tilt; ///< |theta| [rad]
     T rate; ///< d|theta| / d tau, positive outward, tau = p t with the p of the side [rad]
-    T side; ///< +1 or -1: the sign of theta
+    T side; ///< +1 or -1: the sign of theta. A positive ground acceleration pushes the block
+            ///< towards its side minus.
 };
 
 /// The largest restitution of a rocking block (Eq. 17); alpha [rad]:

@@ -11,7 +11,8 @@ template <Number T>
 struct PulseExcitation {
     PulseMotion<scalar_t<T>> motion;
     T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
-    T frequency;        ///< Omega = omega_p / p [1]
+    T frequency;        ///< omega_p per unit of Block::pace [1]; ForcedStage divides by the pace of
+                        ///< the side. Of a symmetric block, whose pace is 1, Omega = omega_p / p.
     PerLobe<T> uplifts; ///< see uplift_phases() [rad]
 
     /// Ground acceleration over g at these phases [1].
@@ -74,7 +75,7 @@ ScaledPulse<S> scaled_pulse(const PulseMotion<S>& motion, const PerLobe<FlankInP
     };
     const S to_plus = over_uplift(plus, minus);
     const S to_minus = over_uplift(minus, plus);
-    // A positive acceleration of the ground pushes the block towards minus.
+    // A positive ground acceleration pushes the block towards its side minus.
     const bool is_mirrored = amplitude < 0;
     return {acceleration,
             uplift_phases(motion, flanks,
@@ -82,7 +83,7 @@ ScaledPulse<S> scaled_pulse(const PulseMotion<S>& motion, const PerLobe<FlankInP
 }
 
 /// The excitation of a block, as seen from its side plus. amplitude: see scaled_pulse(); frequency:
-/// Omega, omega_p in the unit of Block::pace [1].
+/// see PulseExcitation.
 template <Theory theory, class S>
 PulseExcitation<S> pulse_excitation(const PulseMotion<S>& motion, const Block<S>& block,
                                     const S& amplitude, const S& frequency)

@@ -9,7 +9,7 @@
 namespace overturn {
 
 /// The regions of a spectrum; F+ and F- are the paper's "failure during the forced stage". U2+ and
-/// U2-, the side after two impacts, exist only for blocks with two different sides.
+/// U2-, overturning after two impacts, exist only for blocks with two different sides.
 enum class Region : std::uint8_t {
     S = 0,
     S_plus = 1,

@@ -29,7 +29,8 @@ struct AxisRange {
 
 using AxisList = std::vector<double>;
 
-/// Values given as a range or as a list. They ascend strictly, except for a column of a table.
+/// Values given as a range or as a list: also a single number, and a column of a table. They ascend
+/// strictly, except those of a column.
 class Axis {
 public:
     Axis() : Axis(AxisList{0}) {}

@@ -8,11 +8,15 @@ namespace overturn {
 /// The coordinates of a point, assumed to be exact.
 struct Point {
     Block<double> block; ///< as seen from its side plus
-    double amplitude;    ///< a, see scaled_pulse(); under records, the factor on the record [1]
+    /// a, see scaled_pulse(); under records, the factor on the record [1]. Negative: the mirrored
+    /// motion, which is the direction of 180 degrees.
+    double amplitude;
     /// Omega, of a block with two different sides omega_p in the unit of its pace; under records,
     /// the samples per unit of time [1]
     double frequency;
-    int record = 0;       ///< the index of its record among those of the scene, if there are any
+    /// The index of its record among those of the scene, if there are any. It counts from 0; the
+    /// coordinate `motion` counts from 1.
+    int record = 0;
     double direction = 0; ///< of the motion, if there are two horizontal components [degree]
 };
 

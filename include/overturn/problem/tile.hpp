@@ -29,7 +29,7 @@ using DropRequested = std::function<bool()>;
 class TileDropped {};
 
 /// Partitions a shape into equal tiles; those at the far edges may be smaller. Tiles are numbered
-/// from 0 in the order of the dimensions, columns fastest.
+/// from 0 in the order of the dimensions, the last dimension fastest.
 class Tiling {
 public:
     /// tile: its extents [points], as many as those of the shape, to which they are limited.

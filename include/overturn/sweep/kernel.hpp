@@ -8,9 +8,10 @@
 
 namespace overturn {
 
-/// A lane width. All of them give identical bits. one_lane computes one point at a time. On x86-64
-/// it uses the instructions of avx2 and is for debugging and comparison; elsewhere it is the only
-/// kernel.
+/// A lane width with its instruction set, as --kernel names it. Where one function is meant, a
+/// kernel is one of those compiled for this width. All widths give identical bits. one_lane
+/// computes one point at a time. On x86-64 it uses the instructions of avx2 and is for debugging
+/// and comparison; on other processors it is the only width.
 enum class Kernel { one_lane, avx2, avx512 };
 
 inline constexpr std::array<std::string_view, 3> kernel_names{"double", "avx2", "avx512"};
