@@ -27,7 +27,7 @@ void expect_no_stop(const char* when)
     }
 }
 
-void make_file(const Job& job, const std::string& path)
+void create_result_file(const Job& job, const std::string& path)
 {
     const long double bytes = spectrum_file_bytes(job);
     constexpr long double made_at_once = 1e8L;
@@ -75,7 +75,7 @@ PreparedOutput prepare_output(const Job& job, const std::string& path, const Sol
     }
     demand_place_for_sidecar(path);
     if (!exists) {
-        make_file(job, path);
+        create_result_file(job, path);
     }
     return output;
 }

@@ -58,8 +58,8 @@ double busy_seconds(const RankShare& share)
 }
 
 /// Computes and writes one tile, and measures both times.
-void do_tile(std::int64_t number, const TileWork& tile_work,
-             const std::function<bool()>& drop_requested, RankShare& share)
+void do_tile(std::int64_t number, const TileWork& tile_work, const DropRequested& drop_requested,
+             RankShare& share)
 {
     const auto start = Clock::now();
     const bool was_computed = tile_work.compute(number, drop_requested);
@@ -155,7 +155,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
     LinkToRank0 rank_0(session.communicator(), patience);
     Occasionally regular_report(std::chrono::milliseconds(patience) / messages_in_patience);
     // The computation of a tile calls it regularly, so messages are sent there, too.
-    const std::function<bool()> drop_requested = [&] {
+    const DropRequested drop_requested = [&] {
         if (regular_report.is_due()) {
             rank_0.send(report(false));
         }
@@ -200,7 +200,7 @@ public:
     {
         Occasionally communication(answer_interval);
         // The computation of a tile calls it regularly, so messages are handled there, too.
-        const std::function<bool()> drop_requested = [&] {
+        const DropRequested drop_requested = [&] {
             if (communication.is_due()) {
                 communicate();
             }

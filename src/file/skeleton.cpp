@@ -1,6 +1,6 @@
 // Creates a file in which no tile is computed, and computes its size.
 
-#include "coordinates.hpp"
+#include "coordinate_variables.hpp"
 #include "layout.hpp"
 #include "netcdf.hpp"
 #include "own_dataset.hpp"
@@ -166,7 +166,7 @@ std::string add_coordinates(hid_t file, const Job& job)
     std::vector<std::string> auxiliary;
     std::string checksums;
     constexpr std::uint64_t any_size = std::numeric_limits<std::uint64_t>::max();
-    for (Coordinate& coordinate : coordinates_of(job)) {
+    for (CoordinateVariable& coordinate : coordinate_variables_of(job)) {
         netcdf::Variable& variable = coordinate.variable;
         variable.values = coordinate.values();
         add_variable(file, variable);
@@ -227,7 +227,7 @@ long double spectrum_file_bytes(const Job& job)
     if (problem.numerics.fill) {
         bytes += 1200;
     }
-    for (const Coordinate& coordinate : coordinates_of(job)) {
+    for (const CoordinateVariable& coordinate : coordinate_variables_of(job)) {
         const netcdf::Variable& variable = coordinate.variable;
         Count bytes_of_values =
             std::visit([](const auto& values) { return Count(sizeof values[0]); }, variable.values);

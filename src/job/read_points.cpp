@@ -77,15 +77,15 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     }
     std::vector<Given> given = given_coordinates(entry, is_recorded);
     if (find(entry, "blocks")) {
-        const Entry table =
+        const Entry path =
             require(table_of(entry, "blocks"), "table", "Give the path of a table of blocks.");
-        job.blocks = read_block_table(string_of(table), folder, job.motions);
+        job.blocks = read_block_table(string_of(path), folder, job.motions);
         std::ranges::move(columns_of(*job.blocks, is_recorded), std::back_inserter(given));
     }
-    const auto table_has = [&](std::string_view name) {
+    const auto csv_has = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
-    if (is_recorded && !table_has(motion_number)) {
+    if (is_recorded && !csv_has(motion_number)) {
         const auto last = std::int64_t(job.motions.size());
         given.push_back({&quantity("motion"), "scene.record",
                          Axis(AxisRange{1, double(last), last}),
@@ -94,7 +94,7 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     try {
         job.problem.grid = grid_of(job.problem.scene, given);
     } catch (const GivenError& error) {
-        if (table_has(error.quantity()) || (job.blocks && !find(entry, "plane"))) {
+        if (csv_has(error.quantity()) || (job.blocks && !find(entry, "plane"))) {
             refuse(*job.blocks, error);
         }
         refuse_given(entry, given, error);

@@ -40,7 +40,7 @@ double least_uplift_threshold(const Scene& scene, const Point& point)
 
 } // namespace
 
-std::shared_ptr<const Accelerogram> motion_of(const Scene& scene, const Point& point)
+std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point)
 {
     const auto& record = scene.records[std::size_t(point.record)];
     return scene.has_two_components()
@@ -50,7 +50,7 @@ std::shared_ptr<const Accelerogram> motion_of(const Scene& scene, const Point& p
 
 double pga_of_unit(const Scene& scene, const Point& point)
 {
-    return scene.is_recorded() ? motion_of(scene, point)->peak()
+    return scene.is_recorded() ? directed_record(scene, point)->peak()
                                : least_uplift_threshold(scene, point);
 }
 
@@ -64,7 +64,7 @@ double lifting_pga(const Scene& scene, const Point& point)
     const UpliftThresholds thresholds(uplift_threshold(scene.theory, block.slenderness),
                                       uplift_threshold(scene.theory, block.other.slenderness));
     if (scene.is_recorded()) {
-        const auto record = motion_of(scene, point);
+        const auto record = directed_record(scene, point);
         return record->peak() * record->lifting_scale(thresholds);
     }
     // A positive acceleration of the ground lifts the block on its side minus.

@@ -273,7 +273,7 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
                 .build(view);
         };
         if (scene.is_recorded()) {
-            const auto record = motion_of(scene, point);
+            const auto record = directed_record(scene, point);
             return build(
                 record_excitation<theory>(*record, point.block, point.amplitude, point.frequency));
         }

@@ -17,17 +17,17 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The records of points, in their order; those of equal directions are the same object.
-std::vector<std::shared_ptr<const Accelerogram>> motions_of(const Scene& scene,
+std::vector<std::shared_ptr<const Accelerogram>> records_of(const Scene& scene,
                                                             const std::vector<Point>& points)
 {
     std::map<std::pair<int, double>, std::shared_ptr<const Accelerogram>> known;
-    std::vector<std::shared_ptr<const Accelerogram>> motions;
+    std::vector<std::shared_ptr<const Accelerogram>> records;
     for (const Point& point : points) {
-        auto& motion = known[{point.record, point.direction}];
-        motion = motion ? motion : motion_of(scene, point);
-        motions.push_back(motion);
+        auto& record = known[{point.record, point.direction}];
+        record = record ? record : directed_record(scene, point);
+        records.push_back(record);
     }
-    return motions;
+    return records;
 }
 
 } // namespace
@@ -97,7 +97,7 @@ PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
       are_symmetric_(are_symmetric)
 {
     if (scene.is_recorded()) {
-        motions_ = motions_of(scene_, points_);
+        records_ = records_of(scene_, points_);
     }
 }
 

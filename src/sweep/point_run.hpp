@@ -83,7 +83,7 @@ public:
     /// The record of a point; nullptr under a pulse.
     const Accelerogram* record_of(int point) const
     {
-        return motions_.empty() ? nullptr : motions_[std::size_t(point)].get();
+        return records_.empty() ? nullptr : records_[std::size_t(point)].get();
     }
 
     /// The block of a point as seen from the side on which it ended.
@@ -136,7 +136,7 @@ private:
     DropRequested drop_requested_;
     std::vector<Point> points_;
     ScaledPulses pulses_;                                      // only under a pulse
-    std::vector<std::shared_ptr<const Accelerogram>> motions_; // of the points, under records
+    std::vector<std::shared_ptr<const Accelerogram>> records_; // of the points; empty under a pulse
     bool are_symmetric_;
 };
 
@@ -146,7 +146,7 @@ private:
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes);
 
 /// The outcomes of all points of any job, resolved if its numerics ask for it. most_in_50_digits:
-/// default: all points, under a record those of Numerics.
+/// by default all points; under a record, Numerics::most_in_50_digits.
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
                      std::optional<int> most_in_50_digits = std::nullopt);
 

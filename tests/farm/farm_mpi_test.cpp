@@ -197,7 +197,7 @@ TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
     std::int64_t written = 0;
     const auto stop = [&] { return session.rank() == stopping_rank && begun >= 3; };
     const TileWork tile_work{.compute =
-                                 [&](std::int64_t, const std::function<bool()>& drop_requested) {
+                                 [&](std::int64_t, const DropRequested& drop_requested) {
                                      work_for(std::chrono::milliseconds(1));
                                      ++begun;
                                      return !drop_requested();
@@ -221,7 +221,7 @@ TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
     std::int64_t done = 0;
     // The first tile of rank 0 lasts until the workers have done all others.
     const TileWork tile_work{.compute =
-                                 [&](std::int64_t, const std::function<bool()>& drop_requested) {
+                                 [&](std::int64_t, const DropRequested& drop_requested) {
                                      while (session.rank() == 0 && session.size() > 1 &&
                                             done < count - 1) {
                                          drop_requested();

@@ -357,9 +357,9 @@ TEST(Coordinates, OfTwoComponentsHaveThePeakOfEveryDirection)
     const std::vector<Point> points = coordinates.points();
     ASSERT_EQ(points.size(), pga.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto motion = motion_of(scene, points[i]);
-        EXPECT_EQ(pga[i], motion->peak() * points[i].amplitude);
-        EXPECT_EQ(pga_of_unit(scene, points[i]), motion->peak());
+        const auto record = directed_record(scene, points[i]);
+        EXPECT_EQ(pga[i], record->peak() * points[i].amplitude);
+        EXPECT_EQ(pga_of_unit(scene, points[i]), record->peak());
         EXPECT_GT(points[i].amplitude, 0); // its mirror image is that of the direction
     }
     EXPECT_EQ(pga[0], 0.75); // of the first component

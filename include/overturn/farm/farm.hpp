@@ -4,6 +4,7 @@
 #pragma once
 
 #include "overturn/farm/mpi_session.hpp"
+#include "overturn/problem/tile.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -14,9 +15,8 @@ namespace overturn {
 
 /// Computes and writes a tile, given its number, and reports the progress.
 struct TileWork {
-    /// Calls drop_requested at least once a second, because messages are handled there, and drops
-    /// the tile if it returns true. Returns false if it was dropped.
-    std::function<bool(std::int64_t number, const std::function<bool()>& drop_requested)> compute;
+    /// Returns false if the tile was dropped because drop_requested() has returned true.
+    std::function<bool(std::int64_t number, const DropRequested& drop_requested)> compute;
     /// Called after compute() has returned true, before the next tile.
     std::function<void(std::int64_t number)> write;
     /// Called on rank 0 at intervals, with the number of tiles done by all ranks.

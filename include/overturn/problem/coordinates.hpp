@@ -29,7 +29,7 @@ std::optional<double> r_max_of(double slenderness);
 double uplift_threshold(Theory theory, double slenderness);
 
 /// The record of a point, in its direction.
-std::shared_ptr<const Accelerogram> motion_of(const Scene& scene, const Point& point);
+std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point);
 
 /// The peak ground acceleration over g of a motion of the strength 1: the amplitude of a pulse that
 /// excites the block of this point, or the scale of its record.

@@ -1,4 +1,4 @@
-#include "coordinates.hpp"
+#include "coordinate_variables.hpp"
 
 #include "layout.hpp"
 
@@ -16,7 +16,8 @@ namespace {
 
 using netcdf::Dimensions;
 
-/// The measures of a record as coordinates.
+/// The measures of a record as coordinates. If it has two horizontal components, they are those of
+/// the first one; Coordinates::of("record_pga") is that in the direction of a point.
 struct Measure {
     const char* name;
     const char* long_name;
@@ -40,7 +41,7 @@ public:
           derived_(std::make_shared<Coordinates>(job.problem.scene, grid_))
     {}
 
-    std::vector<Coordinate> all()
+    std::vector<CoordinateVariable> all()
     {
         for (std::size_t i = 0; i < dimensions_.size(); ++i) {
             add_dimension(i);
@@ -63,7 +64,7 @@ public:
         if (!job_.motions.empty()) {
             add_measures();
         }
-        std::stable_partition(all_.begin(), all_.end(), [](const Coordinate& coordinate) {
+        std::stable_partition(all_.begin(), all_.end(), [](const CoordinateVariable& coordinate) {
             return std::holds_alternative<std::vector<double>>(coordinate.variable.values);
         });
         return std::move(all_);
@@ -154,7 +155,7 @@ private:
     bool has(std::string_view name) const
     {
         return std::ranges::any_of(
-            all_, [&](const Coordinate& each) { return each.variable.name == name; });
+            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
     }
 
     /// A boundary has flips instead of strengths, and nothing that follows from these.
@@ -218,12 +219,12 @@ private:
     const Grid& grid_;
     Dimensions dimensions_;
     std::shared_ptr<Coordinates> derived_;
-    std::vector<Coordinate> all_;
+    std::vector<CoordinateVariable> all_;
 };
 
 } // namespace
 
-std::vector<Coordinate> coordinates_of(const Job& job)
+std::vector<CoordinateVariable> coordinate_variables_of(const Job& job)
 {
     return CoordinateList(job).all();
 }
