@@ -6,16 +6,14 @@
 #include "output_lines.hpp"
 #include "progress.hpp"
 #include "record_lines.hpp"
-#include "verdict_ranges.hpp"
+#include "topple_answer.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
-#include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -25,26 +23,19 @@ namespace overturn {
 
 namespace {
 
-std::string quoted(const std::string& text)
-{
-    if (!is_utf8(text)) {
-        throw Error(exit_code::usage, "{} is not UTF-8. Rename the file.", as_utf8(text));
-    }
-    return in_quotes(text);
-}
-
 /// The text of a job with a single point. If the command line gives no strength, its motion is 0.
 std::string job_text(const ToppleOptions& options)
 {
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
-    text += is_recorded ? fmt::format("record = {}\n", quoted(options.record))
-                        : fmt::format("pulse = {}\n", quoted(options.pulse.value_or("one_sine")));
+    text += is_recorded
+                ? fmt::format("record = {}\n", quoted_utf8(options.record))
+                : fmt::format("pulse = {}\n", quoted_utf8(options.pulse.value_or("one_sine")));
     if (!options.component.empty()) {
         const bool is_number =
             options.component.find_first_not_of("0123456789") == std::string::npos;
         text += fmt::format("component = {}\n",
-                            is_number ? options.component : quoted(options.component));
+                            is_number ? options.component : quoted_utf8(options.component));
     }
     text += "[plane]\n";
     text += options.scale || (is_recorded && !options.pga)
@@ -97,27 +88,12 @@ void expect_consistent(const ToppleOptions& options)
               "--restitution and --restitution-of-maximum exclude each other. Remove one.");
 }
 
-/// The answer for one restitution.
-struct RestitutionAnswer {
-    double share; ///< r / r_max; NaN if there is no r_max
-    double ratio; ///< r
-    VerdictRanges ranges;
-};
-
 /// In the order of the enumerators of Verdict.
 constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
 
-struct Answer {
-    std::optional<Verdict> verdict; ///< nullopt if not requested
-    double peak = 0;                ///< |theta| / alpha
-    double pga = 0;                 ///< of the requested point
-    double lifting_pga = 0;
-    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
-};
-
-Answer answer_of(const Job& job, const ToppleOptions& options)
+ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
 {
-    Answer answer;
+    ToppleAnswer answer;
     const Scene& scene = job.problem.scene;
     const Point point = only_point_of(job);
     const double unit = pga_of_unit(scene, point);
@@ -179,7 +155,7 @@ std::string shape_text(const Scene& scene)
     return text;
 }
 
-void print_answer(const Job& job, const ToppleOptions& options, const Answer& answer)
+void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
 {
     const auto alpha = slenderness_of_only_block(job);
     const RestitutionAnswer& requested = answer.by_restitution.front();
@@ -244,111 +220,6 @@ void print_answer(const Job& job, const ToppleOptions& options, const Answer& an
     }
 }
 
-/// JSON has neither NaN nor infinity.
-std::string json_of(double value)
-{
-    return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
-/// A list of [first, last].
-std::string json_of(const std::vector<std::pair<double, double>>& ranges)
-{
-    std::vector<std::string> list;
-    for (const auto& [first, last] : ranges) {
-        list.push_back(fmt::format("[{}, {}]", first, json_of(last)));
-    }
-    return fmt::format("[{}]", fmt::join(list, ", "));
-}
-
-std::string json_of(const RestitutionAnswer& answer)
-{
-    const VerdictRanges& ranges = answer.ranges;
-    const double end = ranges.end_of_search();
-    auto toppling = ranges.with(Verdict::topples);
-    if (!toppling.empty() && toppling.back().second == end) {
-        toppling.back().second = std::numeric_limits<double>::infinity(); // it may go on
-    }
-    const std::string coarse =
-        ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",
-                                    ranges.coarse->first, ranges.coarse->last, ranges.coarse->step)
-                      : "null";
-    return fmt::format(
-        "\"restitution\": {}, \"restitution_of_maximum\": {}, "
-        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
-        "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
-        answer.ratio, json_of(answer.share), json_of(toppling), json_of(ranges.with(Verdict::safe)),
-        json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
-}
-
-std::string json_of_motion(const Job& job, const ToppleOptions& options)
-{
-    if (job.motions.empty()) {
-        const Scene& scene = job.problem.scene;
-        std::string shape;
-        for (const auto& [name, number] : shape_numbers) {
-            if (has_number(scene.pulse, number)) {
-                shape += fmt::format(", \"{}\": {}", name, scene.shape.*number);
-            }
-        }
-        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}{}}}", name_of(scene.pulse),
-                           *options.period, shape);
-    }
-    const Motion& motion = job.motions.front();
-    return fmt::format("{{\"record\": {}, \"component\": {}, \"second_component\": {}, "
-                       "\"vertical\": {}}}",
-                       quoted(motion.file), quoted(motion.component),
-                       motion.second.empty() ? "null" : quoted(motion.second),
-                       motion.vertical.empty() ? "null" : quoted(motion.vertical));
-}
-
-void print_json(const Job& job, const ToppleOptions& options, const Answer& answer)
-{
-    const auto alpha = slenderness_of_only_block(job);
-    const auto if_requested = [&](double value) {
-        return answer.verdict ? json_of(value) : "null";
-    };
-    const auto member = [](std::string_view name, const auto& value) {
-        fmt::print("  \"{}\": {},\n", name, value);
-    };
-    const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
-    fmt::print("{{\n");
-    std::vector<std::string> of_block;
-    for (const auto& [name, value] : options.block) {
-        of_block.push_back(fmt::format("\"{}\": {}", name, value));
-    }
-    member("block", fmt::format("{{{}}}", fmt::join(of_block, ", ")));
-    member("motion", json_of_motion(job, options));
-    member("direction", options.direction.value_or(0));
-    member("theory", quoted(std::string(name_of(job.problem.scene.theory))));
-    member("topples", answer.verdict == Verdict::topples ? "true"
-                      : answer.verdict == Verdict::safe  ? "false"
-                                                         : "null");
-    member("pga", if_requested(answer.pga));
-    member("peak_of_alpha", if_requested(answer.peak));
-    member("peak_degrees",
-           alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
-    if (alpha) {
-        member("slenderness", *alpha);
-    } else {
-        member("slenderness_plus", extent_of(job, "slenderness_plus")->first);
-        member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
-    }
-    member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
-    if (!alpha) {
-        member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
-    }
-    member("gravity", job.problem.scene.gravity);
-    member("lifting_pga", json_of(answer.lifting_pga));
-    member("pga_max", options.pga_max);
-    member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
-    member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted(warning)));
-    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
-    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
-        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
-    }
-    fmt::print("\n  ]\n}}\n");
-}
-
 void write_history(const Job& job, const std::string& path)
 {
     const SoleWriter sole_writer(path);
@@ -378,7 +249,7 @@ int topple(const ToppleOptions& options)
     if (!options.history.empty()) {
         write_history(job, options.history);
     }
-    const Answer answer = answer_of(job, options);
+    const ToppleAnswer answer = answer_of(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
     if (!options.history.empty() && !options.json) {
         fmt::print("\n{0}: written; draw it with tools/plot_history {0} --units physical\n",

@@ -122,29 +122,6 @@ AxisRange read_range(const Entry& entry, const Quantity& rule)
 
 } // namespace
 
-Entry table_of(const Entry& job, std::string_view name)
-{
-    static const toml::table empty;
-    const Entry entry = find(job, name).value_or(Entry{&empty, std::string(name)});
-    expect_table(entry, keys_of(name));
-    return entry;
-}
-
-double quantity_of(const Entry& entry, const Quantity& rule)
-{
-    const double value = number_of(entry);
-    if (!rule.allows(value)) {
-        refuse(entry, "{}", rule.refusal_of(value));
-    }
-    return value;
-}
-
-double quantity_of(const Entry& table, std::string_view name, double otherwise)
-{
-    const auto entry = find(table, name);
-    return entry ? quantity_of(*entry, quantity(name)) : otherwise;
-}
-
 Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
 {
     if (entry.node->is_number()) {

@@ -27,6 +27,7 @@ struct RecordedMotions {
 /// Reads scene.record and the keys that belong to it. folder: of the job file; gravity [m/s2].
 RecordedMotions read_motions(const Entry& scene, const std::string& folder, double gravity);
 
+/// Reads [numerics].
 Numerics read_numerics(const Entry& job, bool is_recorded);
 
 /// Reads [output].
@@ -51,7 +52,7 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
 /// The columns that describe points. In a grid, `motion_number` is the quantity `motion` again.
 std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded);
 
-/// Throws Error with file, line and column, of which the latter two may be unknown.
+/// Throws Error with the file, and with line and column only if known.
 [[noreturn]] void refuse(const BlockTable& blocks, const GivenError& error);
 
 /// Reads [plane], [block] and [blocks] with the table that it names. folder: of the job file. The
@@ -60,15 +61,6 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
 
 /// The canonical text of a job: in fixed order, with all defaults.
 std::string resolved_text(const Job& job);
-
-/// A table of the job, with the keys of its name only; an empty one if it is missing.
-Entry table_of(const Entry& job, std::string_view name);
-
-/// A number in the interval of the quantity.
-double quantity_of(const Entry& entry, const Quantity& rule);
-
-/// The same for a key with the name of a quantity; `otherwise` if it is missing.
-double quantity_of(const Entry& table, std::string_view name, double otherwise);
 
 /// Reads a number, which gives an axis of one value, or an axis: a table with these keys only,
 /// { values = [...] } or { first, last, count, spacing }.

@@ -1,5 +1,7 @@
 #include "toml_reading.hpp"
 
+#include "schema.hpp"
+
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/text/error.hpp"
@@ -113,6 +115,14 @@ Entry require(const Entry& table, std::string_view name, std::string_view advice
     return *std::move(entry);
 }
 
+Entry table_of(const Entry& job, std::string_view name)
+{
+    static const toml::table empty;
+    const Entry entry = find(job, name).value_or(Entry{&empty, std::string(name)});
+    expect_table(entry, keys_of(name));
+    return entry;
+}
+
 std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_view advice)
 {
     const toml::array* array = entry.node->as_array();
@@ -156,6 +166,21 @@ double number_of(const Entry& entry)
         refuse(entry, " = {} is not finite. Give a number.", number);
     }
     return number + 0.0;
+}
+
+double quantity_of(const Entry& entry, const Quantity& rule)
+{
+    const double value = number_of(entry);
+    if (!rule.allows(value)) {
+        refuse(entry, "{}", rule.refusal_of(value));
+    }
+    return value;
+}
+
+double quantity_of(const Entry& table, std::string_view name, double otherwise)
+{
+    const auto entry = find(table, name);
+    return entry ? quantity_of(*entry, quantity(name)) : otherwise;
 }
 
 std::size_t index_of_name(const Entry& entry, Names names)

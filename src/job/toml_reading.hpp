@@ -2,6 +2,7 @@
 // that names the place, what was found, what is allowed and what to do.
 #pragma once
 
+#include "overturn/problem/quantity.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
@@ -54,6 +55,9 @@ std::optional<Entry> find(const Entry& table, std::string_view name);
 /// The same for a required entry; `advice` says what to do if it is missing.
 Entry require(const Entry& table, std::string_view name, std::string_view advice);
 
+/// A table of the job, which has only keys_of() its name; an empty one if it is missing.
+Entry table_of(const Entry& job, std::string_view name);
+
 /// The number of elements of an array, which must not be empty. For the messages, `wanted` names
 /// the required type, and `advice` says what to do if the array is empty.
 std::size_t array_size(const Entry& entry, std::string_view wanted, std::string_view advice);
@@ -65,6 +69,12 @@ std::int64_t integer_of(const Entry& entry);
 
 /// A finite number; integers are accepted, and -0 becomes 0.
 double number_of(const Entry& entry);
+
+/// A number in the interval of the quantity.
+double quantity_of(const Entry& entry, const Quantity& rule);
+
+/// The same for a key with the name of a quantity; `otherwise` if it is missing.
+double quantity_of(const Entry& table, std::string_view name, double otherwise);
 
 /// A key of a table; `otherwise` if it is missing.
 bool boolean_of(const Entry& table, std::string_view name, bool otherwise);

@@ -1,8 +1,11 @@
 #include "overturn/problem/scene.hpp"
 
+#include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/problem/quantity.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace overturn {
 
@@ -44,6 +47,12 @@ std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double
                                          rule.reason);
     }
     return rule.allows(*value) ? "" : rule.refusal_of(*value);
+}
+
+double cut_by_window(const Scene& scene)
+{
+    const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
+    return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
 }
 
 } // namespace overturn

@@ -67,8 +67,4 @@ Job read_job_text(std::string text, const std::string& name,
 /// result would be too large.
 Job boundary_of(Job spectrum);
 
-/// |f| over its peak at the ends of a Ricker wavelet's window, where it is truncated [1]; 0 for
-/// other pulses.
-double cut_by_window(const Scene& scene);
-
 } // namespace overturn

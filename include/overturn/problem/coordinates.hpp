@@ -1,5 +1,6 @@
-// The coordinates of points, given or derived: the only place where p follows from R, r from r_max,
-// alpha from b and h, and the amplitude from the peak ground acceleration.
+// The coordinates of points, given or derived. src/problem/derivations.cpp is the only place where
+// p follows from R, r from r_max, alpha from b and h, and the amplitude from the peak ground
+// acceleration.
 #pragma once
 
 #include "overturn/problem/grid.hpp"
@@ -79,7 +80,8 @@ public:
     std::vector<std::size_t> dimensions_of(std::string_view name) const;
 
     /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
-    ///   record_pga        the peak of the record over g, not scaled [1]
+    ///   record_pga        the peak of the record over g, not scaled, in the direction of the point
+    ///                     [1]; result files store that of the first component
     ///   samples_per_unit  samples of the record per time unit 1/p [1]
     ///   moment_kept, gyration_over_size  J / m [m2] and k / R+ of a block with two different sides
     const CoordinateValues& of(std::string_view name) const;

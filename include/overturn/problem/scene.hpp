@@ -73,10 +73,14 @@ struct Scene {
 /// Empty if the value is allowed.
 std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value);
 
+/// |f| over its peak at the ends of a Ricker wavelet's window, where it is truncated [1]; 0 for
+/// other pulses.
+double cut_by_window(const Scene& scene);
+
 struct Numerics {
     Method method = Method::rk45;
-    double tolerance =
-        1e-9;             ///< local error per step, over the size of the motion, at most alpha [1]
+    /// Local error per step, relative to the size of the motion or, if smaller, to alpha [1].
+    double tolerance = 1e-9;
     bool resolve = false; ///< settle verdicts in doubt with more digits
     /// The largest number of points of a tile, under each record, that are computed in 50 digits.
     /// Such a point takes 0.4 s to 1.3 s under a record of 8192 samples. Of 256 points under the
