@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace overturn {
 namespace {
@@ -25,6 +27,7 @@ TEST(Quantity, HasANameOfItsOwnAndALabelOfAtMostFortyCharacters)
 TEST(Quantity, HasTheRangeThatTheDocumentationOfJobsStates)
 {
     std::set<std::string_view> documented;
+    std::vector<const Quantity*> coordinates;
     std::ifstream page(OVERTURN_DOCS "/jobs.md");
     for (std::string line; std::getline(page, line);) {
         for (const Quantity& each : all_quantities()) {
@@ -33,6 +36,9 @@ TEST(Quantity, HasTheRangeThatTheDocumentationOfJobsStates)
             if (line.starts_with("| `") && keys.find(key) != keys.npos) {
                 documented.insert(each.name);
                 EXPECT_THAT(line, testing::HasSubstr(fmt::format(" | {} | ", each.interval)));
+                if (each.is_coordinate()) {
+                    coordinates.push_back(&each);
+                }
             }
         }
     }
@@ -41,6 +47,7 @@ TEST(Quantity, HasTheRangeThatTheDocumentationOfJobsStates)
         const bool is_given = each.role != Role::derived && !elsewhere.contains(each.name);
         EXPECT_EQ(documented.contains(each.name), is_given) << each.name;
     }
+    EXPECT_TRUE(std::ranges::is_sorted(coordinates)) << "the order of the dimensions of a result";
 }
 
 TEST(Quantity, AllowsNoValueThatIsNotANumber)
