@@ -79,7 +79,7 @@ class ABoundary(Scratch):
         result = self.overturn("boundary", "small.toml", "--set", "plane.amplitude.count=2",
                                "--set", "plane.frequency.count=10000000",
                                *(f"--set=plane.{axis}.{key}={value}"
-                                 for axis, count in (("restitution", 10000000), ("slenderness", 10000))
+                                 for axis, count in (("restitution_of_maximum", 10000000), ("slenderness", 10000))
                                  for key, value in (("first", 0.5), ("last", 0.9), ("count", count))),
                                "--set", "output.fields=[\"region\"]")
         self.assert_exit(result, 65, "whose boundaries would take 6.4e+20 bytes")
@@ -114,7 +114,6 @@ class ABoundary(Scratch):
         slow = [f"--set=plane.{axis}.values={values}" for axis, values in
                 (("frequency", [0.02]), ("restitution", [1]), ("amplitude", [1.000001, 1.2, 2]))]
         result = self.overturn("boundary", "small.toml", "-o", "slow.h5", *slow,
-                               "--set", "plane.restitution.of=absolute",
                                "--set", "plane.slenderness.values=[0.17]")
         words = "with undecided amplitudes or more flips than are stored: 1 of 1 lines"
         self.assert_exit(result, 0, f"slow.h5: {words}")

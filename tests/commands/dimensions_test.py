@@ -15,7 +15,7 @@ pulse = "one_sine"
 [plane]
 pulse_period = { first = 0.2, last = 2.0, count = 30 }
 pga = { first = 0.1, last = 5.0, count = 40 }
-restitution = { values = [0.9], of = "maximum" }
+restitution_of_maximum = 0.9
 [block]
 width = 0.6
 height = 1.8
@@ -54,8 +54,7 @@ class Dimensions(Scratch):
         for theory in ("nonlinear", "linear"):
             theory = ("--set", f"scene.theory={theory}")
             data = self.compute("run", f"{theory[1][-9:]}.h5", *theory)
-            self.assertEqual(data.region.dims,
-                             ("restitution_of_maximum", "pga", "pulse_period"))
+            self.assertEqual(data.region.dims, ("pga", "pulse_period"))
             self.assertTrue(np.allclose(data.frequency, 2 * np.pi / (P * data.pulse_period),
                                         rtol=1e-15))
             self.assertTrue((np.diff(data.frequency) < 0).all())
@@ -99,7 +98,7 @@ class Dimensions(Scratch):
         self.assertTrue(np.array_equal(data.region_above, equivalent.region_above))
 
     def test_a_history_is_that_of_the_equivalent_dimensionless_job(self):
-        at = "--at=pulse_period=0.5,pga=0.4,restitution=1"
+        at = "--at=pulse_period=0.5,pga=0.4,restitution_of_maximum=1"
         result = self.overturn("history", "job.toml", at, "-o", "h.h5")
         self.assert_exit(result, 0, "peak 0.8868 degrees, 4.81 % of alpha", "time [s]",
                          "angle [deg]", "rests after 1.88783 s")
@@ -107,7 +106,7 @@ class Dimensions(Scratch):
             frequency, amplitude = (file.attrs[name] for name in ("frequency", "amplitude"))
             self.assertAlmostEqual(file.attrs["frequency_parameter"], P, places=14)
             angle = file["angle"][:]
-        at = f"--at=frequency={frequency!r},amplitude={amplitude!r},restitution=1"
+        at = f"--at=frequency={frequency!r},amplitude={amplitude!r},restitution_of_maximum=1"
         self.assert_exit(self.overturn("history", "job.toml", at, "-o", "t.h5"), 0)
         with h5py.File(self.folder / "t.h5") as file:
             self.assertTrue(np.array_equal(file["angle"][:], angle))
@@ -117,7 +116,7 @@ class Dimensions(Scratch):
                          "r_max = 0.7225", "R = 0.9487 m", "p = 2.785 1/s (g = 9.81 m/s2)",
                          "period 0.2 to 2 s, peak 0.1 to 5 g")
         self.assertEqual(self.overturn("check", "job.toml").stderr, "")
-        r = "--set=plane.restitution={ values = [0.99], of = \"absolute\" }"
+        r = "--set=plane.restitution=0.99"
         for change, words in ((["--set=plane.pulse_frequency=100"],
                                "the period of the pulse = 0.01 s"),
                               (["--set=plane.frequency=0.05"], "the period of the pulse = 45"),
@@ -144,7 +143,7 @@ class Dimensions(Scratch):
         data = self.compute("run", "x.h5")
         column = data.region.sel(pulse_period=0.5, method="nearest")
         self.assertAlmostEqual(float(column.pulse_period), 0.5, delta=0.04)
-        self.assertEqual(column.dims, ("restitution_of_maximum", "pga"))
+        self.assertEqual(column.dims, ("pga",))
 
 
 if __name__ == "__main__":

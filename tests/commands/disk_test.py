@@ -289,7 +289,7 @@ class AnUnreadableFile(OnFaultyDisk):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
         before = checksum(self.folder / "out.h5")
         for command in (["info", "out.h5"], ["verify", "out.h5"], ["run", "small.toml", "-o", "out.h5"],
-                        ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7",
+                        ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution_of_maximum=0.7",
                          "-o", "out.h5"]):  # fmt: skip
             result = self.overturn_on_faulty_disk(*command, CRASH_AT_READ=1)
             self.assert_exit(result, 74, '"out.h5" is damaged: the HDF5 library crashes')

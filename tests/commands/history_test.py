@@ -8,7 +8,7 @@ import xarray
 
 from program import ENVIRONMENT, Scratch, checksum
 
-AT = "--at=frequency=3,amplitude=1.3,restitution=1"
+AT = "--at=frequency=3,amplitude=1.3,restitution_of_maximum=1"
 
 
 class AHistory(Scratch):
@@ -55,7 +55,7 @@ class AHistory(Scratch):
         self.assertFalse((self.folder / "history.h5").exists())
 
     def test_coordinates_may_have_spaces_around_them(self):
-        spaced = "--at= frequency = 3, amplitude=1.3 ,restitution = 1 "
+        spaced = "--at= frequency = 3, amplitude=1.3 ,restitution_of_maximum = 1 "
         self.assert_exit(self.history(spaced), 0)
         with h5py.File(self.folder / "history.h5") as file:
             self.assertEqual(file.attrs["amplitude"], 1.3)
@@ -69,7 +69,7 @@ class AHistory(Scratch):
 
     @unittest.mock.patch.dict(ENVIRONMENT, OVERTURN_UNTRAPPED="1")  # this motion overflows
     def test_refuses_a_motion_beyond_the_range_of_numbers(self):
-        result = self.history("--at", "frequency=3,amplitude=1e300,restitution=1")
+        result = self.history("--at", "frequency=3,amplitude=1e300,restitution_of_maximum=1")
         self.assert_exit(result, 65, "plane.amplitude = 1e+300", "beyond the range")
         self.assertNotIn("nan", result.stdout)
         self.assertFalse((self.folder / "history.h5").exists())
@@ -101,7 +101,7 @@ class AHistory(Scratch):
         self.assertIn("safe, no more impacts needed (S)", picture)
 
     def test_is_plotted_with_the_settings_not_shown_below_the_title(self):
-        self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution.values=[0.8]")
+        self.history(AT, "--set", "scene.pulse='half_sine'", "--set", "plane.restitution_of_maximum.values=[0.8]")
         self.assertEqual(self.tool("plot_history", "history.h5", "-o", "history.svg").returncode, 0)
         self.assertIn(">A small plane, with scene.pulse='half_sine'<",
                       (self.folder / "history.svg").read_text().replace("&apos;", "'"))

@@ -145,7 +145,7 @@ class AnInterruptedRun(ScratchWithRuns):
 class AStopInTime(ScratchWithRuns):
     def test_stops_at_once_while_its_file_is_created(self):
         command = ["run", "long.toml", "-o", "large.h5", "--set=output.fields=['region']",
-                   "--set=plane.restitution.values=[0.7]", "--set=plane.frequency.count=32000",
+                   "--set=plane.restitution_of_maximum=0.7", "--set=plane.frequency.count=32000",
                    "--set=plane.amplitude.count=32000"]
         for ranks in (None, 2):
             before = self.files()
@@ -169,7 +169,7 @@ class ASlowTile(ScratchWithRuns):
     def test_is_abandoned_by_a_stop_although_it_would_take_minutes(self):
         # Without loss, these blocks bounce until the limit of steps. One point of the scan of a
         # boundary takes a second or two because it is resolved.
-        slow = ("--set", "plane.restitution.values=[1.0]", "--set=plane.restitution.of=absolute",
+        slow = ("--set", "plane.restitution=1.0",
                 *(f"--set=plane.{axis}.{end}={value}"
                   for axis, first, last in (("frequency", 0.003, 0.0031),
                                             ("amplitude", 1.000001, 1.000002))

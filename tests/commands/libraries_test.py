@@ -22,7 +22,7 @@ pulse = "one_sine"
 [plane]
 frequency = {{ first = 0.5, last = 8.3, count = 200, spacing = "log" }}
 amplitude = {{ first = 0.57, last = 12.0, count = 150, spacing = "log" }}
-restitution = {{ values = [0.7, 1.0], of = "maximum" }}
+restitution_of_maximum = {{ values = [0.7, 1.0] }}
 [block]
 half_width = 1.0
 half_height = {height!r}

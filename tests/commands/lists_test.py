@@ -26,7 +26,7 @@ BLOCK = """
 scene.pulse = "one_sine"
 block = {{ width = {width}, height = {height} }}
 [plane]
-restitution = {{ values = [{share}], of = "maximum" }}
+restitution_of_maximum = {share}
 pga = {{ first = 0.1, last = 2.0, count = 20 }}
 pulse_period = {{ first = 0.2, last = 2.0, count = 10 }}
 [output]
@@ -70,7 +70,7 @@ class Lists(Scratch):
                 share=data.restitution_of_maximum.values[row]))
             plane = self.compute("one.toml", f"{row}.h5")
             for field in FIELDS:
-                self.assertTrue(np.array_equal(data[field].values[row], plane[field].values[0],
+                self.assertTrue(np.array_equal(data[field].values[row], plane[field].values,
                                                equal_nan=True), (row, field))
             for coordinate in ("slenderness", "restitution"):
                 self.assertEqual(float(data[coordinate][row]), plane[coordinate].item())
@@ -92,8 +92,7 @@ class Lists(Scratch):
             plane = self.compute(
                 "job.toml", f"{row}.h5", "--set", f"block.width={width!r}", "--set",
                 f"block.height={height!r}", "--set", f"plane.pga={pga!r}", "--set",
-                f"plane.pulse_period={period!r}", "--set", f"plane.restitution.values=[{share!r}]",
-                "--set", "plane.restitution.of=maximum")
+                f"plane.pulse_period={period!r}", "--set", f"plane.restitution_of_maximum={share!r}")
             self.assertEqual(float(data.margin[row]), float(plane.margin.values.item()))
             self.assertEqual(int(data.region[row]), int(plane.region.values.item()))
 

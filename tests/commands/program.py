@@ -42,7 +42,7 @@ theory = "nonlinear"
 [plane]
 frequency = {{ first = 0.5, last = 8.0, count = {columns} }}
 amplitude = {{ first = 0.5, last = 12.0, count = {rows} }}
-restitution = {{ values = {restitutions}, of = "maximum" }}
+restitution_of_maximum = {{ values = {restitutions} }}
 slenderness = {{ values = [0.1745716] }}
 [numerics]
 method = "rk45"

@@ -8,7 +8,7 @@ import unittest
 from program import (ENVIRONMENT, LONG_TILES, MPIEXEC, OVERTURN, PATIENCE, SMALL, Scratch, checksum,
                      is_mpich)
 
-A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution=0.7"]
+A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitution_of_maximum=0.7"]
 
 
 class TheCommandLine(Scratch):
@@ -75,7 +75,7 @@ class ABadJob(Scratch):
                 (["nowhere.toml"], ["nowhere.toml"]),
                 (["broken.toml:1"], ["broken.toml"]),
                 (["slendernes", "slenderness"], ["misspelt.toml"]),
-                (["1.2"], ["small.toml", "--set", "plane.restitution={ values = [1.2], of = 'absolute' }"])):
+                (["1.2"], ["small.toml", "--set", "plane.restitution=1.2"])):
             for command in ("run", "check"):
                 self.assert_refused(65, words, command, *arguments)
 

@@ -43,7 +43,7 @@ theory = "nonlinear"
 [plane]
 frequency = { first = 0.5, last = 8.0, count = 320 }
 amplitude = { first = 0.5, last = 12.0, count = 250 }
-restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
+restitution_of_maximum = { values = [0.7, 0.85, 1.0] }
 slenderness = { values = [0.1745716] }
 [numerics]
 tolerance = 1e-8
@@ -56,7 +56,7 @@ pulse = "one_sine"
 [plane]
 frequency = { first = 0.5, last = 8.0, count = 600 }
 amplitude = { first = 0.5, last = 12.0, count = 500 }
-restitution = { values = [0.7, 0.85, 1.0], of = "maximum" }
+restitution_of_maximum = { values = [0.7, 0.85, 1.0] }
 slenderness = { values = [0.1745716] }
 [numerics]
 fill = true
@@ -68,7 +68,7 @@ record = ["{JOBS}/synthetic.AT2", "{JOBS}/synthetic_vertical.AT2"]
 [plane]
 scale = {{ first = 0.5, last = 4.0, count = 150 }}
 size = {{ first = 0.2, last = 3.0, count = 120 }}
-restitution = {{ values = [0.9, 1.0], of = "maximum" }}
+restitution_of_maximum = {{ values = [0.9, 1.0] }}
 slenderness = {{ values = [0.2] }}
 """
 

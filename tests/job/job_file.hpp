@@ -34,7 +34,7 @@ pulse = "one_sine"
 [plane]
 frequency = { first = 0.1, last = 12.0, count = 10 }
 amplitude = { values = [0.5, 1.0, 2.0] }
-restitution = { values = [0.7, 0.85], of = "maximum" }
+restitution_of_maximum = { values = [0.7, 0.85] }
 slenderness = { values = [0.1745716] }
 [numerics]
 tolerance = 1e-9
@@ -51,6 +51,12 @@ inline std::string sound_job_with(int line, const std::string& text)
         begin = job.find('\n', begin) + 1;
     }
     return job.substr(0, begin) + text + job.substr(job.find('\n', begin));
+}
+
+/// The valid job with the older spelling of its restitution.
+inline std::string older_job()
+{
+    return sound_job_with(7, "restitution = { values = [0.7, 0.85], of = \"maximum\" }");
 }
 
 /// The given values of a quantity.

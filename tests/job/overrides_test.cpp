@@ -59,9 +59,12 @@ TEST(AnOverride, CreatesTablesMissingInTheFile)
 
 TEST(AnOverride, MayBeANumberForAWholeAxis)
 {
-    const Job job = job_with({"plane.restitution=0.9", "plane.frequency=3"});
-    EXPECT_EQ(axis(job, "restitution").values(), AxisList{0.9})
-        << "r itself: of = \"maximum\" is removed";
+    for (const std::string& text : {std::string(sound_job), older_job()}) {
+        const Job job = job_of(text, {"plane.restitution=0.9"});
+        EXPECT_EQ(axis(job, "restitution").values(), AxisList{0.9})
+            << "r itself: restitution_of_maximum, or of = \"maximum\", is removed";
+    }
+    const Job job = job_with({"plane.frequency=3"});
     EXPECT_EQ(axis(job, "frequency").values(), std::vector<double>{3});
 }
 
@@ -118,13 +121,13 @@ TEST(AnOverride, OfARangeReplacesTheValues)
 
 TEST(AnOverride, OfTheRestitutionValuesKeepsTheKeyOf)
 {
-    const Job job = job_with({"plane.restitution.values=[1.0]"});
+    const Job job = job_of(older_job(), {"plane.restitution.values=[1.0]"});
     EXPECT_EQ(axis(job, "restitution_of_maximum").values(), AxisList{1});
 }
 
 TEST(AnOverride, OfAWholeAxisReplacesAllOfIt)
 {
-    const Job job = job_with({"plane.restitution={values=[0.5]}"});
+    const Job job = job_of(older_job(), {"plane.restitution={values=[0.5]}"});
     EXPECT_FALSE(gives(job, "restitution_of_maximum"));
     EXPECT_EQ(axis(job, "restitution")[0], 0.5);
 }
@@ -148,7 +151,7 @@ TEST(AnOverride, OfAQuantityReplacesThoseThatItExcludes)
 {
     EXPECT_FALSE(gives(job_with({"plane.pga=0.4"}), "amplitude"));
     EXPECT_FALSE(gives(job_with({"plane.pulse_period=1", "plane.size=2"}), "frequency"));
-    const Job share = job_with({"plane.restitution_of_maximum=1"});
+    const Job share = job_of(older_job(), {"plane.restitution_of_maximum=1"});
     EXPECT_EQ(axis(share, "restitution_of_maximum").values(), AxisList{1})
         << "the other spelling is dropped";
     const Job size = job_with({"plane.frequency_parameter=1", "block.size=2"});

@@ -97,7 +97,7 @@ class OneSine(unittest.TestCase):
         # Region V is between IV and VI. Nothing else is safe between them, and for a block without
         # loss, which has no blade, the two regions are one.
         self.assertEqual(touching(self.v, self.ii), 0)
-        lossless = spectrum("07a", 'plane.restitution={ values=[1.0], of="absolute" }')
+        lossless = spectrum("07a", "plane.restitution=1.0")
         self.assertFalse(lossless.of("S+", "S-").any())
         self.assertTrue(lossless.of("U0-", "U1+")[self.v].all())
 

@@ -111,7 +111,7 @@ def spectrum(figure, *settings):
     settings = (f"plane.frequency.count={COUNT}", f"plane.amplitude.count={COUNT}",
                 f"output.fields=[{listed}]", *settings)
     with output_of("run", figure, *overrides(settings)) as file:
-        data = {name: file[name][...].squeeze() for name in fields}
+        data = {name: file[name][...] for name in fields}
         data["impacts"] = data["impacts"].astype(int)
         data["frequency"], data["amplitude"] = np.meshgrid(file["frequency"], file["amplitude"])
         return Spectrum(slenderness=file["slenderness"][...].item(),

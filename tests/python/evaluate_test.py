@@ -87,7 +87,7 @@ class TheBitsOfAPlane(WithTheSameBits):
             "numerics": {"method": "taylor"}, "output": {"fields": FIELDS},
             "plane": {"pulse_period": {"first": 0.3, "last": 2, "count": 12},
                       "pga": {"first": 0.1, "last": 1, "count": 11},
-                      "restitution": {"values": [0.9], "of": "maximum"}}})
+                      "restitution_of_maximum": 0.9}})
         outcome = overturn.evaluate(width=BLOCK["width"], height=BLOCK["height"], restitution_of_maximum=0.9,
                                     pulse_period=spectrum.pulse_period.values, pga=spectrum.pga.values[:, None],
                                     pulse="one_cosine")

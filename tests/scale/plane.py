@@ -39,7 +39,7 @@ theory = "nonlinear"
 [plane]
 frequency = {frequency}
 amplitude = {amplitude}
-restitution = {{ values = [1.0], of = "maximum" }}
+restitution_of_maximum = 1.0
 slenderness = {{ values = [0.1745716] }}
 [numerics]
 method = "{method}"
@@ -115,7 +115,7 @@ class Plane:
 
     def values(self, name, rows, columns):
         with h5py.File(self.file) as file:
-            return file[name][0, 0, rows, columns]
+            return file[name][0, rows, columns]
 
     def computed_apart(self, rows, columns):
         """Computes the regions at some rows and columns (indices) with a separate job."""
@@ -126,7 +126,7 @@ class Plane:
         job.write_text(JOB.format(**axes, **self.numerics))
         Command(self.folder, ["run", job, "-o", output]).must_end_with(0)
         with h5py.File(output) as file:
-            regions = file["region"][0, 0]
+            regions = file["region"][0]
         output.unlink()
         return regions
 

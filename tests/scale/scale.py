@@ -142,7 +142,7 @@ def mark_as_done(plane, but):
     with h5py.File(plane.file, "r+") as file:
         marks, region = file["run/checksum"][:], file["region"]
         some = int(np.flatnonzero(marks)[0])
-        demand(checksum_of(region[(0, 0, *plane.slices(some))]) == marks[some],
+        demand(checksum_of(region[(0, *plane.slices(some))]) == marks[some],
                "the checksum does not match its attribute `algorithm`")
         checksums = {}  # by shape
         for tile in set(np.flatnonzero(marks == 0).tolist()) - set(but):
@@ -166,7 +166,7 @@ def places_in_file(plane, tiles):
     """Returns (offset, size) of the values and the checksums of some tiles."""
     with h5py.File(plane.file) as file:
         checksums = file["run/checksum"].id.get_offset()
-        corners = [(0, 0, *(part.start for part in plane.slices(tile))) for tile in tiles]
+        corners = [(0, *(part.start for part in plane.slices(tile))) for tile in tiles]
         chunks = [file["region"].id.get_chunk_info_by_coord(corner) for corner in corners]
     return ([(checksums + 8 * tile, 8) for tile in tiles] +
             [(chunk.byte_offset, chunk.size) for chunk in chunks])

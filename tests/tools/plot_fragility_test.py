@@ -18,7 +18,7 @@ JOB = """
     [plane]
     size = { first = 0.5, last = 2.0, count = 4 }
     scale = { first = 0.5, last = 4.0, count = 5, spacing = "log" }
-    restitution = { values = [0.9], of = "maximum" }
+    restitution_of_maximum = 0.9
     slenderness = { first = 0.15, last = 0.3, count = 3 }
     """
 

@@ -20,7 +20,7 @@ JOB = """
     [plane]
     frequency = { values = [3.0] }
     amplitude = { values = [1.3] }
-    restitution = { values = [1.0], of = "maximum" }
+    restitution_of_maximum = 1.0
     slenderness = { values = [0.2] }
     """
 IMPACT = 1  # as numbered in the file

@@ -19,7 +19,7 @@ class TestPicturesFromPython(InOneFolder):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        for command, name, *settings in (("run", "spectrum", *FEW, "plane.restitution.values=[0.8,1]"),
+        for command, name, *settings in (("run", "spectrum", *FEW, "plane.restitution_of_maximum.values=[0.8,1]"),
                                          ("boundary", "boundary", *FEW),
                                          ("history", "history", "plane.frequency=3", "plane.amplitude=1.5")):
             run_overturn(cls.folder, command, JOBS / "smoke.toml", f"{name}.h5", *settings)

@@ -312,7 +312,7 @@ class TestAComputedFile(Picture):
         [plane]
         frequency = { first = 1.0, last = 10.0, count = 40 }
         amplitude = { first = 1.0, last = 12.0, count = 40 }
-        restitution = { values = [1.0], of = "maximum" }
+        restitution_of_maximum = 1.0
         slenderness = { values = [0.1745716] }
         """
 

@@ -57,7 +57,7 @@ class Recorded(Picture):
             [plane]
             pga = { first = 0.2, last = 1.5, count = 30 }
             size = { first = 0.3, last = 9.0, count = 20, spacing = "log" }
-            restitution = { values = [0.9, 1.0], of = "maximum" }
+            restitution_of_maximum = { values = [0.9, 1.0] }
             slenderness = { values = [0.15, 0.25] }
             [output]
             fields = ["region", "angle", "velocity", "margin", "peak", "impacts", "status"]

@@ -31,7 +31,7 @@ JOB = """
     [plane]
     pulse_period = { first = 0.3, last = 2.0, count = 7 }
     pga = { first = 0.2, last = 3.0, count = 9 }
-    restitution = { values = [1.0], of = "maximum" }
+    restitution_of_maximum = 1.0
     """
 RECORDED = """
     scene.record = "synthetic.AT2"
@@ -133,7 +133,7 @@ class TestAPhysicalBoundary(Sized):
         with h5py.File(self.folder / "boundary.h5") as file:
             for name in ("flip_amplitude", "flip_pga"):
                 self.assertGreater(np.isfinite(file[name][:]).sum(), 9)
-            flips = file["flip_amplitude"][0]
+            flips = file["flip_amplitude"][:]
         with open_result(self.folder / "boundary.h5", "overturning boundary", "") as file:
             return boundaries.Lines(plane_of(file), "physical"), flips
 
@@ -196,9 +196,9 @@ class TestAnOverlaidBoundary(Sized):
         self.overturn("run", "spectrum.h5", *spectrum)
         self.overturn("boundary", "boundary.h5", *boundary)
         with h5py.File(self.folder / "boundary.h5") as file:
-            settled = (file["region_below"][0] <= 8) & (file["region_above"][0] <= 8)
+            settled = (file["region_below"][:] <= 8) & (file["region_above"][:] <= 8)
             points = np.transpose([np.broadcast_to(across, settled.shape)[settled],
-                                   file[flips][0][settled]])
+                                   file[flips][:][settled]])
         np.testing.assert_allclose(self.dots(units), points[np.lexsort(points.T)], rtol=1e-13)
 
     def test_is_converted_to_the_axes_of_the_spectrum(self):

@@ -8,7 +8,7 @@ boundaries, histories and accuracy studies. Every number and text in a result of
 NEW, bit for bit and of the same type; dimensions of length 1 are ignored. NEW must also write the same
 bytes on several ranks and with every kernel, and both must give the same answers with `topple`.
 Attributes that differ and new coordinates are reported only. stored_values.py lists the intended
-differences between formats.
+differences between formats; programs of format 3 read the jobs in the older spelling of r / r_max.
 
 --only chooses the comparisons whose names contain NAME. A few minutes; MPIEXEC starts the ranks."""
 
@@ -17,6 +17,7 @@ import collections
 import filecmp
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -107,11 +108,23 @@ def execute(command):
     return done.returncode, (done.stdout + "".join(messages)).strip(), seconds
 
 
+def write_older_jobs(folder):
+    """Copies the jobs to a folder, for programs of format 3, which know r / r_max in an older spelling only."""
+    for jobs in FOLDERS:
+        shutil.copytree(jobs, folder / jobs)
+    for path in folder.glob("**/*.toml"):
+        path.write_text(re.sub(
+            r"\brestitution_of_maximum = (?:\{ (.*?) \}|([0-9.]+))",
+            lambda share: f'restitution = {{ {share[1] or f"values = [{share[2]}]"}, of = "maximum" }}',
+            path.read_text()))
+
+
 class Comparison:
     """Both programs, in a folder with the jobs; what was found."""
 
     def __init__(self, old, new, only):
         self.programs = {"old": old, "new": new}
+        self.folders = {"old": pathlib.Path(), "new": pathlib.Path()}  # of their jobs
         self.only = only
         self.kernels = ["double", "avx2", "avx512"]
         self.failures = 0
@@ -124,6 +137,9 @@ class Comparison:
         print(f"FAILED  {name}: {text}", flush=True)
 
     def everything(self):
+        if execute([self.programs["old"], "check", "jobs/smoke.toml"])[0] != 0:
+            self.folders["old"] = pathlib.Path("older")
+            write_older_jobs(self.folders["old"])
         folders = (pathlib.Path(folder) for folder in FOLDERS)
         jobs = {path.stem: path for folder in folders for path in sorted(folder.glob("**/*.toml"))}
         for name, job in jobs.items():
@@ -143,11 +159,11 @@ class Comparison:
         name = f"{command} {job.stem}"
         if self.only not in name:
             return
-        words = [command, job, *more, *(word for key in keys for word in ("--set", key))]
+        words = [*more, *(word for key in keys for word in ("--set", key))]
         paths = {which: pathlib.Path(f"{command}_{job.stem}_{which}.h5") for which in self.programs}
         took = {}
         for which, program in self.programs.items():
-            code, said, took[which] = execute([program, *words, "-o", paths[which]])
+            code, said, took[which] = execute([program, command, self.folders[which] / job, *words, "-o", paths[which]])
             if code != 0:
                 return self.fail(name, f"exit code {code} of the {which} program: {said}")
         print(f"{took['old']:6.2f} s {took['new']:6.2f} s  {name}", flush=True)
@@ -159,7 +175,7 @@ class Comparison:
                 self.fail(name, f"this check does not notice a flipped bit of {value}")
         self.counts[command] += 1
         if command == "run":
-            self.same_bytes(name, words, paths["new"])
+            self.same_bytes(name, [command, job, *words], paths["new"])
         for path in paths.values():
             path.unlink()
 
