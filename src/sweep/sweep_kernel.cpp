@@ -10,6 +10,7 @@
 #include "overturn/number/pack.hpp"
 
 #include <limits>
+#include <optional>
 
 namespace overturn {
 
@@ -18,6 +19,11 @@ namespace {
 using T = OVERTURN_NUMBER;
 
 constexpr int lanes = lanes_v<T>;
+
+/// Under a record, a step is so short that a series of order 8 is accurate; the bounds of errors
+/// gain from more terms.
+template <Outputs outputs>
+using Method = std::conditional_t<OVERTURN_RECORDED && outputs.error, Taylor<10>, OVERTURN_METHOD>;
 
 /// The flag in the lanes of the mask, 0 elsewhere.
 T flagged(const mask_t<T>& mask, std::uint8_t flag)
@@ -183,23 +189,44 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
                 return points.pulse_excitation();
             }
         }();
-        return ForcedStage<OVERTURN_METHOD, theory, outputs, T,
+        return ForcedStage<Method<outputs>, theory, outputs, T,
                            std::remove_const_t<decltype(excitation)>>(
             blocks, excitation, task.tolerance, task.uncertain_impact);
     };
-    int turns = turns_between_checks;
-    for (int first = 0; first < task.chosen_count; first += packs_in_turns * lanes) {
-        std::array stages{stage_from(first), stage_from(first + lanes)};
-        static_assert(stages.size() == packs_in_turns);
-        while (run_in_turns(stages, turns)) {
-            if (task.drop_requested(task.context)) {
-                return;
-            }
-            turns = turns_between_checks;
+    struct Pack {
+        std::optional<decltype(stage_from(0))> stage; ///< empty once there are no more points
+        int first;                                    ///< the index of its first point
+    };
+    std::array<Pack, packs_in_turns> packs;
+    int next = 0;
+    const auto fill = [&](Pack & pack) __attribute__((always_inline))
+    {
+        pack.stage.reset();
+        if (next < task.chosen_count) {
+            pack.stage.emplace(stage_from(next));
+            pack.first = next;
+            next += lanes;
         }
-        for (int i = 0; i < packs_in_turns; ++i) {
-            store<theory, outputs>(stages[i].end(), stages[i].block(), task, first + i * lanes,
-                                   outcomes);
+    };
+    for (Pack& pack : packs) {
+        fill(pack);
+    }
+    int turns = 0;
+    for (bool active = true; active;) {
+        active = false;
+        for (Pack& pack : packs) {
+            while (pack.stage && !pack.stage->is_active()) {
+                store<theory, outputs>(pack.stage->end(), pack.stage->block(), task, pack.first,
+                                       outcomes);
+                fill(pack);
+            }
+            if (pack.stage) {
+                pack.stage->advance();
+                active = true;
+            }
+        }
+        if (++turns % turns_between_checks == 0 && task.drop_requested(task.context)) {
+            return;
         }
     }
 }

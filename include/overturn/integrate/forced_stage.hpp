@@ -7,7 +7,7 @@
 #include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/margin_error.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
-#include "overturn/integrate/taylor_stepper.hpp"
+#include "overturn/integrate/taylor.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <optional>
@@ -47,6 +47,7 @@ public:
           now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
           lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
           is_two_sided_(any<T>(!block.is_symmetric())), rate_ratio_(rate_ratio()),
+          fastest_series_(fastest_bounce_series(block, excitation)),
           uncertain_impact_(uncertain_impact)
     {
         const Mask none = !active_;
@@ -203,6 +204,7 @@ private:
         }
         rate_ratio_ = rate_ratio();
         excitation_.frequency = sides.frequency / block_.pace;
+        fastest_series_ = fastest_bounce_series(block_, excitation_);
         stepper_.see_side(block_, excitation_.frequency);
     }
 
@@ -236,8 +238,11 @@ private:
         const State<T> after = state_after_impact<T>({zero_, now_.rate, now_.side}, rate_ratio_);
         // As measured on the side from which the block strikes, see bounces_die_out().
         const T rate = is_two_sided_ ? T(sqrt(block_.restitution) * -now_.rate) : after.rate;
-        Mask rests =
-            lanes && bounces_die_out<theory>(block_, excitation_, now_.phase, rate, now_.side);
+        Mask rests = lanes && rate <= fastest_series_;
+        if (any<T>(rests)) {
+            rests =
+                rests && bounces_die_out<theory>(block_, excitation_, now_.phase, rate, now_.side);
+        }
         if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
@@ -303,6 +308,7 @@ private:
     const bool is_two_sided_;
     std::optional<Sides> sides_;
     T rate_ratio_; // of an impact on the side on which the block rocks
+    T fastest_series_;
 
     struct NoError {};
     struct NoEvents {};
@@ -312,24 +318,6 @@ private:
         events_;
     UncertainImpact uncertain_impact_;
 };
-
-/// Advances all stages in turn until all are finished, but at most `turns` times; subtracts the
-/// turns taken from `turns`. Returns whether any stage is still active.
-template <class Stage, std::size_t count>
-bool run_in_turns(std::array<Stage, count>& stages, int& turns)
-{
-    bool active = true;
-    for (; active && turns > 0; --turns) {
-        active = false;
-        for (Stage& stage : stages) {
-            if (stage.is_active()) {
-                stage.advance();
-                active = true;
-            }
-        }
-    }
-    return active;
-}
 
 /// The forced stage of one block per lane; see ForcedStage. tolerance: largest local error per step
 /// of tilt and rate, over the size of the motion, at most alpha [1].

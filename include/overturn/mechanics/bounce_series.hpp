@@ -4,7 +4,38 @@
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
+#include <limits>
+
 namespace overturn {
+
+/// The factor on a pull on the other side; see bounces_die_out().
+template <Number T>
+T level_of_other_side(const Block<T>& block)
+{
+    using std::sqrt;
+    return sqrt(block.other.size / block.size) * (block.other.pace / block.pace);
+}
+
+/// The rate after an impact above which bounces_die_out() is false, because the ground motion has
+/// an extremum first: infinite under a pulse. Under a record, a series must end before the next
+/// sample, D frequency <= 1. The ground increases the pull on one side only, so that the weaker
+/// pull is at most that of the strongest gravity alone on one of the sides.
+template <Number T>
+T fastest_bounce_series(const Block<T>& block, const auto& excitation)
+{
+    using std::sqrt;
+    using S = scalar_t<T>;
+    const T one(S(1));
+    if constexpr (std::same_as<std::remove_cvref_t<decltype(excitation)>, PulseExcitation<T>>) {
+        return T(std::numeric_limits<S>::infinity());
+    } else {
+        const T pull =
+            excitation.strongest_gravity() *
+            greater<T>(block.slenderness, T(level_of_other_side(block) * block.other.slenderness));
+        const T rounding(S(1) + 16 * std::numeric_limits<S>::epsilon());
+        return rounding * (one - sqrt(block.restitution)) * pull / (T(S(3)) * excitation.frequency);
+    }
+}
 
 /// Per lane: whether the bounces after an impact at `phase` [rad or samples] are certain to die out
 /// before the motion ends and before the ground can lift the block. v >= 0 is the rate just after
@@ -39,8 +70,8 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));
-    // Most impacts are faster than this and need no further check. Unless the ground accelerates
-    // upwards, the weaker pull is at most alpha, so that none of them would pass it.
+    // Unless the ground accelerates upwards, the weaker pull is at most alpha, so that no faster
+    // impact would pass the check of the tilt.
     const T& alpha = block.slenderness;
     const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
     if (!any<T>(slow)) {
@@ -48,7 +79,7 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     }
     const mask_t<T> from_plus = side > zero;
     const T pace = block.other.pace / block.pace;
-    const T level = sqrt(block.other.size / block.size) * pace;
+    const T level = level_of_other_side(block);
     const auto pull_on = [&](const mask_t<T>& this_side, const auto& push) -> T {
         const T slenderness = select<T>(this_side, alpha, block.other.slenderness);
         const T pull = -rocking_acceleration<theory>(zero, slenderness, push);

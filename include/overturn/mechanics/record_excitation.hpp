@@ -84,8 +84,8 @@ struct RecordExcitation {
         const T before = motion.sample_before(phase);
         const T since = phase - before;
         const auto ramp_of = [&](const std::vector<double>& samples, const T& factor) -> Ramp<T> {
-            const T here = gathered<T>(samples.data(), before);
-            const T rise = gathered<T>(samples.data() + 1, before) - here;
+            const auto [here, next] = gathered_pair<T>(samples.data(), before);
+            const T rise = next - here;
             return {factor * Ramp<T>{here, rise}.at(since), factor * rise * rate};
         };
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
@@ -107,6 +107,13 @@ struct RecordExcitation {
     {
         using std::abs;
         return abs(acceleration) * T(S(motion.record->peak()) + S(motion.record->upwards_peak()));
+    }
+
+    /// An upper bound of the gravity over g [1].
+    T strongest_gravity() const
+    {
+        using std::abs;
+        return T(S(1)) + abs(acceleration) * T(S(motion.record->upwards_peak()));
     }
 
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the

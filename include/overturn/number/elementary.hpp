@@ -10,12 +10,6 @@
 
 namespace overturn {
 
-template <Number T>
-struct SineAndCosine {
-    T sine;
-    T cosine;
-};
-
 namespace minimax {
 
 // Minimax polynomials in t = x^2 for |x| <= 1.65, a little more than pi/2 because trial steps may
@@ -40,6 +34,19 @@ T polynomial(const std::array<double, N>& c, const T& t)
         sum = fma(sum, t, T(c[i]));
     }
     return sum;
+}
+
+/// x^n.
+template <int n, Number T>
+T power(const T& x)
+{
+    static_assert(n >= 1);
+    if constexpr (n == 1) {
+        return x;
+    } else {
+        const T half = power<n / 2>(x);
+        return n % 2 == 0 ? T(half * half) : T(half * half * x);
+    }
 }
 
 /// sin x and cos x for |x| <= pi/2 [rad]. Slightly beyond, double is smooth but less accurate.

@@ -1,4 +1,4 @@
-// The number abstraction: the physics is written once for double, SIMD lanes, long double and 50
+// The number abstraction: the physics is written once for double, SIMD lanes, 19, 31 and 50
 // digits. A new number type specialises number_traits.
 #pragma once
 
@@ -11,8 +11,9 @@
 
 namespace overturn {
 
-/// The fused multiply-add of the physics. For long double it is a product and a sum: x87 has no
-/// fma, and that of the C library takes half a microsecond.
+/// The fused multiply-add of the physics; that of other numbers is found in their namespaces. For
+/// long double it is a product and a sum: x87 has no fma, and that of the C library takes half a
+/// microsecond.
 namespace arithmetic {
 [[gnu::always_inline]] inline double fma(double a, double b, double c)
 {
@@ -42,6 +43,10 @@ struct scalar_number_traits {
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
     static T gathered(const double* from, const T& index) { return T(from[std::size_t(index)]); }
+    static std::array<T, 2> gathered_pair(const double* from, const T& index)
+    {
+        return {T(from[std::size_t(index)]), T(from[std::size_t(index) + 1])};
+    }
     template <class Body>
     static auto straight_line(const Body& body)
     {
@@ -109,6 +114,12 @@ concept Number = requires(T a, T b) {
     -a;
 };
 
+template <Number T>
+struct SineAndCosine {
+    T sine;
+    T cosine;
+};
+
 /// Loads the lanes of a number from memory.
 template <Number T>
 T load(const scalar_t<T>* lanes)
@@ -129,6 +140,13 @@ template <Number T>
 T gathered(const double* from, const T& index)
 {
     return number_traits<T>::gathered(from, index);
+}
+
+/// Lane by lane: from[index] and from[index + 1].
+template <Number T>
+std::array<T, 2> gathered_pair(const double* from, const T& index)
+{
+    return number_traits<T>::gathered_pair(from, index);
 }
 
 /// Lane by lane: `yes` where the mask is true, `no` elsewhere.

@@ -67,11 +67,51 @@ struct number_traits<xsimd::batch<double, Architecture>> {
     static pack gathered(const double* from, const pack& index)
     {
         using Signed = xsimd::batch<std::int64_t, Architecture>;
-        const integers bits = xsimd::bitwise_cast<integers>(index + pack(0x1p+52)) ^
-                              integers(number_traits<double>::two_to_52_bits);
-        return pack::gather(from, xsimd::bitwise_cast<Signed>(bits));
+        return pack::gather(from, xsimd::bitwise_cast<Signed>(whole(index)));
+    }
+    /// A pair is one load of 16 bytes.
+    static std::array<pack, 2> gathered_pair(const double* from, const pack& index)
+    {
+        alignas(64) std::uint64_t at[std::size_t(lanes)];
+        whole(index).store_aligned(at);
+        return pairs_at(from, at, Architecture());
     }
     static bool any(const mask& condition) { return xsimd::any(condition); }
+
+private:
+    static integers whole(const pack& index)
+    {
+        return xsimd::bitwise_cast<integers>(index + pack(0x1p+52)) ^
+               integers(number_traits<double>::two_to_52_bits);
+    }
+#ifdef __AVX2__
+    static __m256d two_pairs(const double* first, const double* second)
+    {
+        return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(first)),
+                                    _mm_loadu_pd(second), 1);
+    }
+    static std::array<pack, 2> pairs_at(const double* from, const std::uint64_t* at,
+                                        xsimd::fma3<xsimd::avx2>)
+    {
+        const __m256d even = two_pairs(from + at[0], from + at[2]);
+        const __m256d odd = two_pairs(from + at[1], from + at[3]);
+        return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)};
+    }
+#endif
+#ifdef __AVX512F__
+    static std::array<pack, 2> pairs_at(const double* from, const std::uint64_t* at,
+                                        xsimd::avx512dq)
+    {
+        const auto four_pairs = [&](int first) {
+            return _mm512_insertf64x4(
+                _mm512_castpd256_pd512(two_pairs(from + at[first], from + at[first + 2])),
+                two_pairs(from + at[first + 4], from + at[first + 6]), 1);
+        };
+        const __m512d even = four_pairs(0);
+        const __m512d odd = four_pairs(1);
+        return {_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd)};
+    }
+#endif
 };
 
 } // namespace overturn

@@ -1,0 +1,340 @@
+// Integrates the motion of a rocking block (Eq. 47) under a record by Taylor series. The intervals
+// between samples are short: a step nearly always spans what is left of one. An event is a root of
+// the series and ends the step. No step is repeated.
+#pragma once
+
+#include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/power_series.hpp"
+#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/taylor_errors.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
+#include "overturn/mechanics/rocking_series.hpp"
+
+namespace overturn {
+
+/// Bounds over a step in which the tilt is between 0 and pi/2.
+template <Number T>
+struct StepBounds {
+    T acceleration; ///< of |tilt''| [rad per unit^2]
+    T jolt;         ///< of |tilt'''| [rad per unit^3]
+};
+
+/// order: of the series of the rate. tolerance: bound of its last terms at the end of a step,
+/// relative to the size of the motion, or to alpha if that is smaller [1].
+template <int order, Theory theory, Number T, Outputs outputs, class Excitation>
+class RecordStepper {
+    using S = scalar_t<T>;
+    using Mask = mask_t<T>;
+    using Series = RockingSeries<order, T>;
+    static constexpr int last_terms = overturn::last_terms<order>;
+    static constexpr int known_order = outputs.error ? order_for_errors<order, theory> : order;
+
+public:
+    RecordStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
+        : excitation_(excitation), tolerance_(tolerance), errors_(rough_log2(tolerance_))
+    {
+        see_side(block, excitation.frequency);
+    }
+
+    /// The blocks rock on other sides, of which these are the properties.
+    void see_side(const Block<T>& block, const T& frequency)
+    {
+        const T one(S(1));
+        slenderness_ = block.slenderness;
+        excitation_.frequency = frequency;
+        // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
+        // change by the same share of epsilon in each of thousands of steps, and the error would
+        // exceed its bound, in which round-off is random.
+        const T fastest = power_of_two_below(T(select<T>(frequency > one, frequency, one)));
+        time_ = {one / fastest, fastest};
+        samples_per_unit_ = frequency * time_.unit;
+        units_per_sample_ = one / samples_per_unit_;
+        most_allowed_ = tolerance_ * slenderness_ * time_.unit;
+    }
+
+    void lift(const Rocking<T>&, const Mask&) {}
+    void turn(const Rocking<T>&, const Mask&) {}
+
+    /// One step in every lane; the results of inactive lanes are meaningless. so_far: the peak of
+    /// the previous steps, if it is an output.
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
+    {
+        const T zero(S(0));
+        const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
+        const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
+                                                         now.phase, samples_per_unit_);
+        const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * time_.unit),
+                                                               slenderness_, push, time_.unit);
+        const Series series = leading<order>(known);
+        const T left = (end_of_piece - now.phase) * units_per_sample_;
+        T h = longest_step(now, series, left, active);
+
+        const Mask none = active && !active;
+        const StepBounds<T> bounds = bounds_over(series, push, h);
+        const Mask suspect = active && may_meet(series, bounds, h);
+        T tilt = value_of_series(series.tilt, h);
+        T rate = value_of_series(series.rate, h);
+        StepEnd<T> end{.phase =
+                           select<T>(h == left, end_of_piece, now.phase + h * samples_per_unit_),
+                       .tilt = select<T>(tilt < zero, zero, tilt),
+                       .rate = rate * time_.per_time,
+                       .moved = active,
+                       .strikes = none,
+                       .falls = none,
+                       .broken = none};
+        if (any<T>(suspect)) {
+            const Meeting meeting = first_meeting(series, bounds, {h, tilt, rate}, suspect);
+            h = meeting.time;
+            const T phase = now.phase + (h + meeting.delay) * samples_per_unit_;
+            end = {.phase = select<T>(h == left && !meeting.happens(), end_of_piece,
+                                      lesser<T>(phase, end_of_piece)),
+                   .tilt = select<T>(meeting.tilt < zero, zero, meeting.tilt),
+                   .rate = meeting.rate * time_.per_time,
+                   .moved = active,
+                   .strikes = meeting.strikes,
+                   .falls = meeting.falls,
+                   .broken = active && !((tilt - tilt) + (rate - rate) == zero)};
+        }
+        // The tilt is nowhere farther from its values at both ends.
+        const T aside = bounds.acceleration * h * h * T(S(1) / 8);
+        if constexpr (outputs.error) {
+            const TaylorStep<known_order, T> step{known, time_, h,
+                                                  lesser<T>(now.tilt, end.tilt) - aside,
+                                                  greater<T>(now.tilt, end.tilt) + aside};
+            const std::array pushes{push.at(zero), push.at(T(h * T(S(0.5)))), push.at(h)};
+            return StepEndWithErrors<T>{end, errors_.of(step, slenderness_, pushes, end, zero)};
+        } else if constexpr (outputs.peak) {
+            const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+            return StepEndWithPeak<T>{end,
+                                      highest_tilt<T>(now.tilt, end.tilt,
+                                                      T(greater<T>(now.tilt, end.tilt) + aside),
+                                                      so_far.peak, sample_at),
+                                      T(std::numeric_limits<S>::infinity())};
+        } else {
+            return end;
+        }
+    }
+
+private:
+    /// The end of a step at `time`, which is that of the event but for the delay [units]. Without
+    /// an event, it is the end of the whole step, or comes before an event that is not yet certain.
+    struct Meeting {
+        T time;
+        T tilt; ///< at time + delay: 0 at an impact, pi/2 at a fall [rad]
+        T rate; ///< [rad per unit]
+        T delay;
+        Mask strikes;
+        Mask falls;
+
+        Mask happens() const { return strikes || falls; }
+    };
+
+    /// The motion at a time [units].
+    struct Instant {
+        T time;
+        T tilt; ///< [rad]
+        T rate; ///< [rad per unit]
+    };
+
+    static Instant instant(const Series& series, const T& time)
+    {
+        return {time, value_of_series(series.tilt, time), value_of_series(series.rate, time)};
+    }
+
+    /// The longest step, in units, of at most `left`: for the last n, rate[n] h^n is at most
+    /// the tolerance times the size of the motion, which is the larger of tilt + |rate| at the
+    /// beginning and at the end, but at most alpha; see RungeKuttaStepper.
+    T longest_step(const Rocking<T>& now, const Series& series, const T& left,
+                   const Mask& active) const
+    {
+        using std::abs;
+        const T at_start = tolerance_ * time_.unit * (now.tilt + abs(now.rate));
+        // From rest the rate grows to rate[1] h + rate[2] h^2, and h <= 1.
+        const T growth = tolerance_ * (abs(series.rate[1]) + abs(series.rate[2]));
+        T h = left;
+        while (true) {
+            T term = abs(series.rate[order]);
+            unrolled<last_terms - 1>([&]<int i>() {
+                term = greater<T>(T(term * h), T(abs(series.rate[order - 1 - i])));
+            });
+            const T allowed = lesser<T>(greater<T>(at_start, T(growth * (h * h))), most_allowed_);
+            const Mask too_long = active && term * power<order + 1 - last_terms>(h) > allowed;
+            if (!any<T>(too_long)) {
+                return h;
+            }
+            h = select<T>(too_long, h * T(S(0.5)), h);
+        }
+    }
+
+    /// With the tilt x, y = x - alpha, the gravity g and the push B, both linear in time,
+    ///
+    ///     |x''| <= |g| |y| + |B|,   |x'''| <= (|g| + |B|) |x'| + |g'| |y| + |B'|
+    StepBounds<T> bounds_over(const Series& series, const auto& push, const T& h) const
+    {
+        using arithmetic::fma;
+        using std::abs;
+        const T square = time_.unit * time_.unit;
+        const auto largest = [&](const Ramp<T>& ramp) -> T {
+            return greater<T>(abs(ramp.start), abs(ramp.at(h)));
+        };
+        const auto& horizontal = horizontal_of(push);
+        const T pushed = largest(horizontal);
+        T gravity(S(1));
+        if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
+            gravity = largest(push.gravity);
+        }
+        const T speed = abs(series.rate[0]);
+        const T stiffness = square * (gravity + pushed);
+        // |y| <= 1 would do for the sine; this is closer, and it also holds in the linear theory.
+        const T highest = fma(fma(stiffness, h, speed), h, series.tilt[0]);
+        const T farthest = greater<T>(slenderness_, highest - slenderness_);
+        const T acceleration = square * fma(gravity, farthest, pushed);
+        T change = abs(horizontal.slope);
+        if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
+            change = fma(abs(push.gravity.slope), farthest, change);
+        }
+        return {acceleration, fma(stiffness, fma(acceleration, h, speed), square * change)};
+    }
+
+    /// The lanes in which the block may strike the ground or reach pi/2 within the step.
+    static Mask may_meet(const Series& series, const StepBounds<T>& bounds, const T& h)
+    {
+        using arithmetic::fma;
+        const T straight = fma(series.rate[0], h, series.tilt[0]);
+        const T aside = bounds.acceleration * (h * h) * T(S(0.5));
+        return !(straight >= aside && straight + aside <= T(pi<S>() / 2));
+    }
+
+    /// The first impact or fall within a step that ends at `end`, in the lanes in which there may
+    /// be one.
+    ///
+    /// If the tilt decreases throughout the step, or if it accelerates towards the ground, it falls
+    /// below 0 once, if it is below 0 at the end. A lane in which neither is certain, or that may
+    /// reach pi/2, is left to first_event().
+    Meeting first_meeting(const Series& series, const StepBounds<T>& bounds, const Instant& end,
+                          const Mask& suspect) const
+    {
+        const T zero(S(0));
+        const T& h = end.time;
+        const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
+        const T& start = series.rate[0];
+        const T acceleration = slope_of_series(series.rate, h);
+        // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
+        // the bound of its slope.
+        const Mask concave = series.rate[1] + acceleration + bounds.jolt * h < zero;
+        const Mask sinks = start + end.rate + bounds.acceleration * h < zero;
+        const T aside = bounds.acceleration * (h * h) * T(S(0.5));
+        const Mask low = series.tilt[0] + start * h + aside < T(pi<S>() / 2);
+        const Mask simple =
+            suspect && low && (concave || sinks) && (series.tilt[0] > zero || start > zero);
+        const Mask none = suspect && !suspect;
+        Meeting meeting{h, end.tilt, end.rate, zero, simple && end.tilt < -noise, none};
+        Mask odd = suspect && !simple;
+        if (any<T>(meeting.strikes)) {
+            const Mask missed = approach_ground(series, bounds, end, acceleration, meeting);
+            odd = odd || missed;
+        }
+        if (any<T>(odd)) {
+            search(series, h, noise, odd, meeting);
+        }
+        return meeting;
+    }
+
+    /// Finds the impact in the lanes that strike: by Halley's method, first of the leading terms of
+    /// the series, until Newton's correction to second order is accurate: the error of its rate is
+    /// at most jolt delay^2 / 2, that of its delay jolt |delay|^3 / (6 rate). Returns the lanes in
+    /// which this fails.
+    Mask approach_ground(const Series& series, const StepBounds<T>& bounds, const Instant& end,
+                         const T& acceleration, Meeting& meeting) const
+    {
+        const T zero(S(0));
+        const T& h = end.time;
+        const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, zero), h); };
+        T time = within(halley(end, acceleration));
+        Coefficients<6, T> tilt;
+        std::copy_n(series.tilt.begin(), tilt.size(), tilt.begin());
+        Coefficients<5, T> rate;
+        std::copy_n(series.rate.begin(), rate.size(), rate.begin());
+        for (int i = 0; i < 2; ++i) {
+            time = within(halley({time, value_of_series(tilt, time), value_of_series(rate, time)},
+                                 slope_of_series(rate, time)));
+        }
+        const T enough(S(2) * std::numeric_limits<S>::epsilon());
+        Mask open = meeting.strikes;
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const Instant now = instant(series, time);
+            const auto found =
+                event_correction(now.tilt, now.rate, slope_of_series(series.rate, time));
+            const Mask close = open && now.rate < zero &&
+                               bounds.jolt * found.delay * found.delay <= enough * found.closing;
+            meeting.time = select<T>(close, time, meeting.time);
+            meeting.delay = select<T>(close, found.delay, meeting.delay);
+            meeting.rate = select<T>(close, -found.closing, meeting.rate);
+            meeting.tilt = select<T>(close, zero, meeting.tilt);
+            open = open && !close;
+            if (!any<T>(open)) {
+                break;
+            }
+            time = within(T(time + found.delay));
+        }
+        meeting.strikes = meeting.strikes && !open;
+        return open;
+    }
+
+    /// A time nearer to that at which the tilt is 0.
+    static T halley(const Instant& at, const T& acceleration)
+    {
+        using arithmetic::fma;
+        const T half(S(0.5));
+        const T square = fma(at.rate, at.rate, -half * at.tilt * acceleration);
+        return at.time - at.tilt * at.rate / square;
+    }
+
+    [[gnu::noinline]] void search(const Series& series, const T& h, const T& noise,
+                                  const Mask& lanes, Meeting& meeting) const
+    {
+        straight_line<T>([&] {
+            const T zero(S(0));
+            const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
+            const Instant there = instant(series, event.time);
+            const Gap<T> gap = gap_at(series, event.time, event.falls);
+            const T slope = slope_of_series(series.rate, event.time);
+            const auto found =
+                event_correction(gap.width, gap.rate, select<T>(event.falls, -slope, slope));
+            const Mask strikes = lanes && event.strikes && found.hits;
+            const Mask falls = lanes && event.falls && found.hits;
+            const auto put = [&](T& of_meeting, const T& without, const T& struck,
+                                 const T& fallen) {
+                of_meeting =
+                    select<T>(falls, fallen,
+                              select<T>(strikes, struck, select<T>(lanes, without, of_meeting)));
+            };
+            put(meeting.time, event.time, event.time, event.time);
+            put(meeting.tilt, there.tilt, zero, T(pi<S>() / 2));
+            put(meeting.rate, there.rate, -found.closing, found.closing);
+            put(meeting.delay, zero, found.delay, found.delay);
+            meeting.strikes = meeting.strikes || strikes;
+            meeting.falls = falls;
+            return 0;
+        });
+    }
+
+    static constexpr int most_passes = 6;
+
+    struct NoErrors {
+        explicit NoErrors(const T&) {}
+    };
+
+    T slenderness_;
+    Excitation excitation_;
+    const T tolerance_;
+    TimeUnit<T> time_; // a power of two: 1/p, or about a sample if that is shorter
+    T samples_per_unit_;
+    T units_per_sample_;
+    T most_allowed_;
+    [[no_unique_address]] std::conditional_t<outputs.error, TaylorErrors<order, theory, T>,
+                                             NoErrors>
+        errors_;
+};
+
+} // namespace overturn
