@@ -128,14 +128,18 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
     const Point& at = this->point(point);
     const Block<T> block = block_in<T>(at.block);
-    if (const Accelerogram* record = record_of(point)) {
-        return visit(record_excitation<theory>(*record, block, T(at.amplitude), T(at.frequency)));
+    if constexpr (!std::same_as<T, long double>) { // only for pulses
+        const Accelerogram* record = record_of(point);
+        if (std::same_as<T, DoubleDouble> || record != nullptr) { // the former only for records
+            return visit(
+                record_excitation<theory>(*record, block, T(at.amplitude), T(at.frequency)));
+        }
     }
     if constexpr (std::same_as<T, double>) {
         const ScaledPulse<double>& pulse = pulse_of(point);
         return visit(
             PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
-    } else {
+    } else if constexpr (!std::same_as<T, DoubleDouble>) {
         return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape), block,
                                               T(at.amplitude), T(at.frequency)));
     }
@@ -196,6 +200,9 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
 template <class T>
 void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
 {
+    if (std::same_as<T, long double> && scene_.is_recorded()) {
+        return run_in_more_digits<DoubleDouble>(point, outcomes);
+    }
     throw_if_dropped();
     if (falls_freely(point)) {
         outcomes.set_free_fall(point);

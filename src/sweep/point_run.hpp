@@ -100,8 +100,9 @@ public:
     void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
              UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
-    /// Integrates one point in more digits, T: long double or Digits50. Region, margin and error
-    /// are computed before the end is rounded to double.
+    /// Integrates one point in more digits, T: long double, in whose place points under a record
+    /// take DoubleDouble, or Digits50. Region, margin and error are computed before the end is
+    /// rounded to double.
     template <class T>
     void run_in_more_digits(int point, Outcomes& outcomes) const;
 

@@ -49,13 +49,17 @@ bool may_settle_in(const PointRun& run, int point, const Outcomes& outcomes)
 {
     const Accelerogram* record = run.record_of(point);
     const double intervals = record != nullptr ? double(record->samples() - 1) : 0;
-    return std::numeric_limits<T>::digits > std::numeric_limits<double>::digits &&
+    return (record != nullptr ||
+            std::numeric_limits<T>::digits > std::numeric_limits<double>::digits) &&
            outcomes.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + intervals;
 }
 
 template <class T>
 bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 {
+    if (!may_settle_in<T>(run, point, outcomes)) {
+        return false;
+    }
     run.run_in_more_digits<T>(point, outcomes);
     return !(outcomes.flags[std::size_t(point)] &
              (outcome_flag::in_doubt | outcome_flag::without_end));
@@ -70,12 +74,12 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
         // Settles almost every point, still in double; if the first pass was as accurate, it still
         // completes the runs that were stopped.
         run.run(most_accurate, outcomes, in_doubt);
+        in_doubt = settle_capped(run, in_doubt, 1, outcomes);
     }
     std::map<int, int> in_50_digits; // of each motion
-    for (const int point : settle_capped(run, in_doubt, 1, outcomes)) {
-        bool settled = run.settle_low_bounces(point, outcomes) ||
-                       (may_settle_in<long double>(run, point, outcomes) &&
-                        settle_in<long double>(run, point, outcomes));
+    for (const int point : in_doubt) {
+        bool settled =
+            run.settle_low_bounces(point, outcomes) || settle_in<long double>(run, point, outcomes);
         int& count = in_50_digits[run.point(point).record];
         if (!settled && may_settle_in<Digits50>(run, point, outcomes) &&
             count < most_in_50_digits) {

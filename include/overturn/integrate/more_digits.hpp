@@ -5,6 +5,7 @@
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/number/digits50.hpp"
+#include "overturn/number/double_double.hpp"
 
 #include <functional>
 
@@ -15,12 +16,19 @@ namespace overturn {
 template <class T>
 struct MoreDigits;
 
-/// 19 digits, at most a dozen microseconds per step.
+/// 19 digits, for pulses: at most a dozen microseconds per step.
 template <>
 struct MoreDigits<long double> {
     using Method = Taylor<20>;
-    using MethodForRecords = Taylor<14>; // the intervals of records are short
     static constexpr double tolerance = 1e-17;
+    static constexpr int most_steps = 20000;
+};
+
+/// 31 digits, for records, whose steps are many and short: a few microseconds per step.
+template <>
+struct MoreDigits<DoubleDouble> {
+    using Method = Taylor<20>;
+    static constexpr double tolerance = 1e-29;
     static constexpr int most_steps = 20000;
 };
 
@@ -28,19 +36,53 @@ struct MoreDigits<long double> {
 template <>
 struct MoreDigits<Digits50> {
     using Method = Taylor<30>;
-    using MethodForRecords = Taylor<20>;
     static constexpr double tolerance = 1e-30;
     static constexpr int most_steps = 2000;
 };
 
 /// Like run_forced_stage(), for one block, with the outputs impacts and error. A run that exceeds
 /// `step_limit` steps, in addition to one per interval of a record, is capped, as is one that
-/// stop_requested() ends; it is called every few milliseconds. T: long double or Digits50;
-/// PulseExcitation<T>, or RecordExcitation<T, Directions::both>. Compiled in src/integrate.
+/// stop_requested() ends; it is called every few milliseconds. T: long double under a pulse,
+/// DoubleDouble under a record, or Digits50; excitation: PulseExcitation<T>, or
+/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
 template <class T, Theory theory, class Excitation>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,
                                 double tolerance = MoreDigits<T>::tolerance,
-                                int step_limit = MoreDigits<T>::most_steps);
+                                int step_limit = MoreDigits<T>::most_steps)
+{
+    using Method = std::conditional_t<std::same_as<T, Digits50> &&
+                                          !std::same_as<Excitation, PulseExcitation<T>>,
+                                      Taylor<20>, typename MoreDigits<T>::Method>;
+    ForcedStage<Method, theory, Outputs{.impacts = true, .error = true}, T, Excitation> stage(
+        block, excitation, T(tolerance));
+    constexpr int steps_between_checks = 16;
+    const int limit = step_limit + int(excitation.motion.pieces());
+    for (int steps = 0; stage.is_active() && steps < limit; ++steps) {
+        if (steps % steps_between_checks == 0 && stop_requested && stop_requested()) {
+            break;
+        }
+        stage.advance();
+    }
+    ForcedEnd<T> end = stage.end();
+    if (stage.is_active()) {
+        end.capped = true;
+        end.error = std::numeric_limits<T>::infinity();
+        end.in_doubt = true;
+    }
+    return end;
+}
+
+/// `keyword` run_in_more_digits() for this type and excitation, in both theories.
+#define OVERTURN_MORE_DIGITS(keyword, T, ...)                                                      \
+    keyword ForcedEnd<T> run_in_more_digits<T, Theory::nonlinear>(                                 \
+        const Block<T>&, const __VA_ARGS__&, const std::function<bool()>&, double, int);           \
+    keyword ForcedEnd<T> run_in_more_digits<T, Theory::linear>(                                    \
+        const Block<T>&, const __VA_ARGS__&, const std::function<bool()>&, double, int);
+OVERTURN_MORE_DIGITS(extern template, long double, PulseExcitation<long double>)
+OVERTURN_MORE_DIGITS(extern template, DoubleDouble,
+                     RecordExcitation<DoubleDouble, Directions::both>)
+OVERTURN_MORE_DIGITS(extern template, Digits50, PulseExcitation<Digits50>)
+OVERTURN_MORE_DIGITS(extern template, Digits50, RecordExcitation<Digits50, Directions::both>)
 
 } // namespace overturn

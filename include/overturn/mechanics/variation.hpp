@@ -4,6 +4,7 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/number/unrolled.hpp"
 
 namespace overturn {
 
@@ -71,13 +72,12 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
     const T x = mean * square;
     // sum of x^n / (2n)! from n = 3 on, and of x^n / (2n + 1)! from n = 2 on.
     T even = one;
-    for (const double divisor : {380, 306, 240, 182, 132, 90, 56}) {
-        even = fma(x * T(S(1) / S(divisor)), even, one);
-    }
     T odd = one;
-    for (const double divisor : {342, 272, 210, 156, 110, 72, 42}) {
-        odd = fma(x * T(S(1) / S(divisor)), odd, one);
-    }
+    unrolled<7>([&]<int i>() {
+        constexpr int n = 20 - 2 * i;
+        even = fma(x * T(S(1) / (n * (n - 1))), even, one);
+        odd = fma(x * T(S(1) / ((n - 1) * (n - 2))), odd, one);
+    });
     even = x * x * x * T(S(1) / 720) * even;
     odd = x * x * T(S(1) / 120) * odd;
     const T tilt_by_rate = h * (fma(sixth, middle, one) + odd);
