@@ -190,9 +190,11 @@ private:
 
 } // namespace overturn
 
+namespace std {
+
 /// epsilon() covers the errors of all operations.
 template <>
-class std::numeric_limits<overturn::DoubleDouble> {
+class numeric_limits<overturn::DoubleDouble> {
     using T = overturn::DoubleDouble;
 
 public:
@@ -202,6 +204,8 @@ public:
     static T infinity() { return {std::numeric_limits<double>::infinity(), 0}; }
     static T quiet_NaN() { return std::numeric_limits<double>::quiet_NaN(); }
 };
+
+} // namespace std
 
 namespace overturn {
 
