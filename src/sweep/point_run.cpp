@@ -235,6 +235,9 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         put(outcomes.steps, point, double(end.steps));
         put(outcomes.phase, point, double(end.phase));
         put(outcomes.region, point, std::uint8_t(region_of<theory>(end, block)));
+        if (scene_.is_recorded()) {
+            put(outcomes.peak, point, double(end.peak));
+        }
     });
 }
 
@@ -351,7 +354,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.error = outputs.error || numerics.resolve;
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
-    computed.peak = outputs.peak && !computed.error;
+    computed.peak = outputs.peak && (points.scene().is_recorded() || !computed.error);
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;
@@ -365,7 +368,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
         resolve(points, most_in_50_digits.value_or(by_default), outcomes);
     }
     if (outputs.peak && !computed.peak) {
-        // A kernel computes either errors or peaks.
+        // Under a pulse, a kernel computes either errors or peaks.
         Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
         points.run(first_pass, with_peaks, points.all());
         outcomes.peak = std::move(with_peaks.peak);

@@ -20,11 +20,6 @@ using T = OVERTURN_NUMBER;
 
 constexpr int lanes = lanes_v<T>;
 
-/// Under a record, a step is so short that a series of order 8 is accurate; the bounds of errors
-/// gain from more terms.
-template <Outputs outputs>
-using Method = std::conditional_t<OVERTURN_RECORDED && outputs.error, Taylor<10>, OVERTURN_METHOD>;
-
 /// The flag in the lanes of the mask, 0 elsewhere.
 T flagged(const mask_t<T>& mask, std::uint8_t flag)
 {
@@ -56,7 +51,9 @@ template <Theory theory, Outputs outputs>
     }
     put(flags, to.flags);
     if constexpr (outputs.peak) {
-        put(end.peak, to.peak);
+        if (task.outputs.peak) {
+            put(end.peak, to.peak);
+        }
         if (task.outputs.grazes) {
             put(end.lowest_turn, to.lowest_turn);
             put(end.softest_impact, to.softest_impact);
@@ -177,36 +174,35 @@ constexpr int turns_between_checks = 4096;
 template <Theory theory, Outputs outputs, Directions directions = Directions::horizontal>
 void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 {
-    // Inlined, so that what depends on the tolerance alone is computed once.
-    const auto stage_from = [&](int first) __attribute__((always_inline))
-    {
-        const PackPoints points(task, first);
-        const Block<T> blocks = points.blocks();
-        const auto excitation = [&] {
-            if constexpr (OVERTURN_RECORDED) {
-                return points.record_excitation<theory, directions>(blocks);
-            } else {
-                return points.pulse_excitation();
-            }
-        }();
-        return ForcedStage<Method<outputs>, theory, outputs, T,
-                           std::remove_const_t<decltype(excitation)>>(
-            blocks, excitation, task.tolerance, task.uncertain_impact);
+    const auto excitation_of = [](const PackPoints& points, const Block<T>& blocks) {
+        if constexpr (OVERTURN_RECORDED) {
+            return points.record_excitation<theory, directions>(blocks);
+        } else {
+            return points.pulse_excitation();
+        }
     };
+    using Excitation =
+        decltype(excitation_of(std::declval<PackPoints>(), std::declval<Block<T>>()));
     struct Pack {
-        std::optional<decltype(stage_from(0))> stage; ///< empty once there are no more points
-        int first;                                    ///< the index of its first point
+        /// Empty once there are no more points.
+        std::optional<ForcedStage<OVERTURN_METHOD, theory, outputs, T, Excitation>> stage;
+        int first; ///< the index of its first point
     };
     std::array<Pack, packs_in_turns> packs;
     int next = 0;
+    // Inlined, so that what depends on the tolerance alone is computed once.
     const auto fill = [&](Pack & pack) __attribute__((always_inline))
     {
-        pack.stage.reset();
-        if (next < task.chosen_count) {
-            pack.stage.emplace(stage_from(next));
-            pack.first = next;
-            next += lanes;
+        if (next >= task.chosen_count) {
+            pack.stage.reset();
+            return;
         }
+        const PackPoints points(task, next);
+        const Block<T> blocks = points.blocks();
+        pack.stage.emplace(blocks, excitation_of(points, blocks), task.tolerance,
+                           task.uncertain_impact);
+        pack.first = next;
+        next += lanes;
     };
     for (Pack& pack : packs) {
         fill(pack);
@@ -235,7 +231,9 @@ template <Theory theory, Directions directions>
 SweepKernel kernel_for(const Outputs& outputs)
 {
     if (outputs.error) {
-        return sweep<theory, Outputs{.impacts = true, .error = true}, directions>;
+        // Under a record, the motion may be so sensitive that another integration has another peak.
+        return sweep<theory, Outputs{.impacts = true, .error = true, .peak = OVERTURN_RECORDED},
+                     directions>;
     }
     if (outputs.peak) {
         return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;

@@ -149,6 +149,36 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
     }
 }
 
+TEST(ResolvedVerdicts, UnderARecordComeWithThePeakOfTheMotionThatSettledThem)
+{
+    std::mt19937_64 generator(7);
+    int sensitive = 0;
+    for (int i = 0; i < 2000 && sensitive < 10; ++i) {
+        const RecordPoint point = random_record_point(generator, 150, Directions::horizontal);
+        Scene scene;
+        scene.records = {std::make_shared<const Accelerogram>(point.record)};
+        const PointRun run(scene, {{{point.block.slenderness, 1}, point.scale, point.frequency}},
+                           widest_kernel());
+        constexpr Outputs outputs{.error = true, .peak = true, .region = true, .margin = true};
+        const Outcomes in_doubles = outcomes_of(run, {Method::taylor, 1e-13}, outputs);
+        if (std::isfinite(in_doubles.error[0])) {
+            continue; // it is not sensitive
+        }
+        Outcomes exact(1, outputs);
+        run.run_in_more_digits<Digits50>(0, exact);
+        if (exact.flags[0] & outcome_flag::without_end) {
+            continue; // too many steps for 50 digits
+        }
+        ++sensitive;
+        const Outcomes resolved = outcomes_of(run, resolved_taylor, outputs);
+        EXPECT_EQ(resolved.region, exact.region);
+        // The error of the peak has no bound of its own; that of the end has been amplified more.
+        EXPECT_NEAR(resolved.peak[0], exact.peak[0],
+                    1e-6 * point.block.slenderness + resolved.error[0]);
+    }
+    EXPECT_EQ(sensitive, 10);
+}
+
 /// All points of a block of slenderness 0.2 at these amplitudes and at frequencies from 0.3 to 8.
 std::vector<Point> points_of_block(double restitution, const AxisRange& amplitudes)
 {

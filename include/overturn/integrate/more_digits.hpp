@@ -40,11 +40,11 @@ struct MoreDigits<Digits50> {
     static constexpr int most_steps = 2000;
 };
 
-/// Like run_forced_stage(), for one block, with the outputs impacts and error. A run that exceeds
-/// `step_limit` steps, in addition to one per interval of a record, is capped, as is one that
-/// stop_requested() ends; it is called every few milliseconds. T: long double under a pulse,
-/// DoubleDouble under a record, or Digits50; excitation: PulseExcitation<T>, or
-/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
+/// Like run_forced_stage(), for one block, with the outputs impacts and error, under a record also
+/// the peak. A run that exceeds `step_limit` steps, in addition to one per interval of a record, is
+/// capped, as is one that stop_requested() ends; it is called every few milliseconds. T: long
+/// double under a pulse, DoubleDouble under a record, or Digits50; excitation: PulseExcitation<T>,
+/// or RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
 template <class T, Theory theory, class Excitation>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,
@@ -54,8 +54,10 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
     using Method = std::conditional_t<std::same_as<T, Digits50> &&
                                           !std::same_as<Excitation, PulseExcitation<T>>,
                                       Taylor<20>, typename MoreDigits<T>::Method>;
-    ForcedStage<Method, theory, Outputs{.impacts = true, .error = true}, T, Excitation> stage(
-        block, excitation, T(tolerance));
+    constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
+    ForcedStage<Method, theory, Outputs{.impacts = true, .error = true, .peak = is_recorded}, T,
+                Excitation>
+        stage(block, excitation, T(tolerance));
     constexpr int steps_between_checks = 16;
     const int limit = step_limit + int(excitation.motion.pieces());
     for (int steps = 0; stage.is_active() && steps < limit; ++steps) {

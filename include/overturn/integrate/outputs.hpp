@@ -8,8 +8,8 @@ struct Outputs {
     // Updated in every step. Chosen at compile time, so that they cost nothing if not wanted.
     bool impacts = false;
     bool error = false;  ///< of the margin
-    bool peak = false;   ///< the largest tilt and how narrowly impacts were avoided; not together
-                         ///< with the error
+    bool peak = false;   ///< the largest tilt and how narrowly impacts were avoided; under a pulse,
+                         ///< not together with the error
     bool events = false; ///< for a single block only
 
     // Computed from the end of a run.

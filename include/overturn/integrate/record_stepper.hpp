@@ -97,21 +97,26 @@ public:
         }
         // The tilt is nowhere farther from its values at both ends.
         const T aside = bounds.acceleration * h * h * T(S(1) / 8);
+        const auto with_peak = [&](const auto& of_step) {
+            if constexpr (outputs.peak) {
+                const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+                const T most = greater<T>(now.tilt, end.tilt) + aside;
+                return StepEndWithPeak<T, std::remove_cvref_t<decltype(of_step)>>{
+                    of_step, highest_tilt<T>(now.tilt, end.tilt, most, so_far.peak, sample_at),
+                    T(std::numeric_limits<S>::infinity())};
+            } else {
+                return of_step;
+            }
+        };
         if constexpr (outputs.error) {
             const TaylorStep<known_order, T> step{known, time_, h,
                                                   lesser<T>(now.tilt, end.tilt) - aside,
                                                   greater<T>(now.tilt, end.tilt) + aside};
             const std::array pushes{push.at(zero), push.at(T(h * T(S(0.5)))), push.at(h)};
-            return StepEndWithErrors<T>{end, errors_.of(step, slenderness_, pushes, end, zero)};
-        } else if constexpr (outputs.peak) {
-            const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
-            return StepEndWithPeak<T>{end,
-                                      highest_tilt<T>(now.tilt, end.tilt,
-                                                      T(greater<T>(now.tilt, end.tilt) + aside),
-                                                      so_far.peak, sample_at),
-                                      T(std::numeric_limits<S>::infinity())};
+            return with_peak(
+                StepEndWithErrors<T>{end, errors_.of(step, slenderness_, pushes, end, zero)});
         } else {
-            return end;
+            return with_peak(end);
         }
     }
 

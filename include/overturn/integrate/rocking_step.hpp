@@ -35,9 +35,9 @@ struct StepEndWithErrors : StepEnd<T> {
     StepErrors<T> errors;
 };
 
-/// A step with the output `peak`.
-template <Number T>
-struct StepEndWithPeak : StepEnd<T> {
+/// A step with the output `peak`. End: StepEnd, or StepEndWithErrors.
+template <Number T, class End = StepEnd<T>>
+struct StepEndWithPeak : End {
     T peak;        ///< the largest tilt within the step [rad]
     T lowest_turn; ///< the tilt at which the block turns outward without an impact; infinite if
                    ///< it does not turn [rad]
