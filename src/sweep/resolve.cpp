@@ -43,7 +43,8 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
 }
 
 /// Whether a computation in T may settle a point. With more digits, a series of bounces takes as
-/// many steps as in double.
+/// many steps as in double. On some machines, long double is double; under a record, it is not
+/// used.
 template <class T>
 bool may_settle_in(const PointRun& run, int point, const Outcomes& outcomes)
 {

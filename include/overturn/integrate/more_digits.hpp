@@ -51,11 +51,10 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
                                 double tolerance = MoreDigits<T>::tolerance,
                                 int step_limit = MoreDigits<T>::most_steps)
 {
-    using Method = std::conditional_t<std::same_as<T, Digits50> &&
-                                          !std::same_as<Excitation, PulseExcitation<T>>,
-                                      Taylor<20>, typename MoreDigits<T>::Method>;
     constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
-    ForcedStage<Method, theory, Outputs{.impacts = true, .error = true, .peak = is_recorded}, T,
+    using Chosen = std::conditional_t<std::same_as<T, Digits50> && is_recorded, Taylor<20>,
+                                      typename MoreDigits<T>::Method>;
+    ForcedStage<Chosen, theory, Outputs{.impacts = true, .error = true, .peak = is_recorded}, T,
                 Excitation>
         stage(block, excitation, T(tolerance));
     constexpr int steps_between_checks = 16;
