@@ -174,6 +174,9 @@ constexpr int turns_between_checks = 4096;
 template <Theory theory, Outputs outputs, Directions directions = Directions::horizontal>
 void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 {
+    if (task.chosen_count == 0) {
+        return;
+    }
     const auto excitation_of = [](const PackPoints& points, const Block<T>& blocks) {
         if constexpr (OVERTURN_RECORDED) {
             return points.record_excitation<theory, directions>(blocks);
@@ -184,19 +187,15 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
     using Excitation =
         decltype(excitation_of(std::declval<PackPoints>(), std::declval<Block<T>>()));
     struct Pack {
-        /// Empty once there are no more points.
         std::optional<ForcedStage<OVERTURN_METHOD, theory, outputs, T, Excitation>> stage;
         int first; ///< the index of its first point
     };
     std::array<Pack, packs_in_turns> packs;
     int next = 0;
-    // Inlined, so that what depends on the tolerance alone is computed once.
+    // Inlined, so that what depends on the tolerance alone is computed once. After the last point,
+    // all lanes are spare.
     const auto fill = [&](Pack & pack) __attribute__((always_inline))
     {
-        if (next >= task.chosen_count) {
-            pack.stage.reset();
-            return;
-        }
         const PackPoints points(task, next);
         const Block<T> blocks = points.blocks();
         pack.stage.emplace(blocks, excitation_of(points, blocks), task.tolerance,
@@ -208,21 +207,28 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
         fill(pack);
     }
     int turns = 0;
-    for (bool active = true; active;) {
-        active = false;
+    for (int with_points = packs_in_turns; with_points > 0;) {
+        with_points = 0;
         for (Pack& pack : packs) {
-            while (pack.stage && !pack.stage->is_active()) {
+            while (!pack.stage->is_active() && pack.first < task.chosen_count) {
                 store<theory, outputs>(pack.stage->end(), pack.stage->block(), task, pack.first,
                                        outcomes);
                 fill(pack);
             }
-            if (pack.stage) {
-                pack.stage->advance();
-                active = true;
-            }
+            with_points += pack.stage->is_active();
         }
-        if (++turns % turns_between_checks == 0 && task.drop_requested(task.context)) {
-            return;
+        // A loop of its own, so that the compiler computes its constants before it.
+        for (int active = with_points; active > 0 && active == with_points;) {
+            active = 0;
+            for (Pack& pack : packs) {
+                if (pack.stage->is_active()) {
+                    pack.stage->advance();
+                    ++active;
+                }
+            }
+            if (++turns % turns_between_checks == 0 && task.drop_requested(task.context)) {
+                return;
+            }
         }
     }
 }
