@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,26 +27,54 @@ inline void say(const std::string& line)
     std::fflush(stdout);
 }
 
-/// The quantity that a column without effect probably gives: its name is misspelt, or followed by a
-/// unit, as in incline_deg. Empty if there is none, or if the points do not lack it.
+/// How many words of the two names begin with the same four letters; shorter words are equal.
+inline int shared_words(std::string_view one, std::string_view other)
+{
+    using std::views::split;
+    const auto begins_alike = [](const auto& a, const auto& b) {
+        const auto [end, _] = std::ranges::mismatch(a, b);
+        const auto length = end - a.begin();
+        return length >= 4 || (length == 3 && std::ranges::equal(a, b));
+    };
+    return int(std::ranges::count_if(one | split('_'), [&](const auto& word) {
+        return std::ranges::any_of(other | split('_'), [&](const auto& other_word) {
+            return begins_alike(word, other_word);
+        });
+    }));
+}
+
+/// The quantity that a column without effect probably gives: its name is misspelt, or has a word in
+/// common with it, as in incline_deg. Empty if there is none, or if the points do not lack it.
 inline std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 {
-    const std::vector<std::string_view> names = axis_names();
-    std::string_view meant = nearest_name(column, names);
-    for (const std::string_view name : names) {
-        meant =
-            column.starts_with(name) && column.substr(name.size()).starts_with('_') ? name : meant;
+    const auto is_lacking = [&](std::string_view name) {
+        const auto excludes = [&](const Column& given) {
+            return given.quantity->name == name || exclude_each_other(given.quantity->name, name);
+        };
+        return std::ranges::none_of(grid.numbers, excludes) &&
+               std::ranges::none_of(grid.dimensions, [&](const Dimension& each) {
+                   return std::ranges::any_of(each.columns, excludes);
+               });
+    };
+    std::vector<std::string_view> names = axis_names();
+    std::erase_if(names, [&](std::string_view name) { return !is_lacking(name); });
+    if (const std::string_view nearest = nearest_name(column, names); !nearest.empty()) {
+        return nearest;
     }
-    const auto excludes = [&](const Column& given) {
-        return given.quantity->name == meant || exclude_each_other(given.quantity->name, meant);
+    std::string_view meant;
+    int most = 0;
+    const auto look_at = [&](std::string_view word, std::string_view name) {
+        if (const int shared = shared_words(column, word); shared > most && is_lacking(name)) {
+            most = shared;
+            meant = name;
+        }
     };
-    const auto excluded = [&](const Dimension& each) {
-        return std::ranges::any_of(each.columns, excludes);
-    };
-    return std::ranges::any_of(grid.numbers, excludes) ||
-                   std::ranges::any_of(grid.dimensions, excluded)
-               ? ""
-               : meant;
+    for (const std::string_view name : names) {
+        look_at(name, name);
+    }
+    look_at("lean_tilt", "incline");
+    look_at("eccentricity", "center_offset");
+    return meant;
 }
 
 /// Prints to stderr what looks like a mistake in the units, and misspelt columns of a table.

@@ -196,7 +196,7 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                                  : fmt::format("{} at {:.{}f} g", verdict, answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
     }
-    print_row("lifts from", fmt::format("{:.4f} g", answer.lifting_pga));
+    print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
     print_row("topples", requested.ranges.text(decimals, 20) +
                              (requested.ranges.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",

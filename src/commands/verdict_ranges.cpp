@@ -43,23 +43,41 @@ FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
     return search;
 }
 
+using Ends = std::pair<double, double>;
+
+/// Rounded outwards; ranges that touch or overlap then are one.
+std::vector<Ends> rounded(const std::vector<Ends>& ranges, int decimals)
+{
+    std::vector<Ends> all;
+    for (const auto& [first, last] : ranges) {
+        const Ends next{rounded_down(first, decimals), -rounded_down(-last, decimals)};
+        if (!all.empty() && next.first <= all.back().second) {
+            all.back().second = next.second;
+        } else {
+            all.push_back(next);
+        }
+    }
+    return all;
+}
+
 /// "1.1110 to 1.6440 g" for each range, and "above 2.1300 g" if the last one reaches the end of the
 /// search; at most this many, including the last.
-std::string list_of(const std::vector<std::pair<double, double>>& ranges, int decimals,
-                    std::size_t most, double end_of_search)
+std::string list_of(const std::vector<Ends>& ranges, int decimals, std::size_t most,
+                    double end_of_search)
 {
     std::string list;
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const bool is_last = i + 1 == ranges.size();
+    const std::vector<Ends> shown = rounded(ranges, decimals);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const bool is_last = i + 1 == shown.size();
         if (i + 1 >= most && !is_last) {
             continue;
         }
         list += list.empty() ? "" : ", ";
         if (is_last && i >= most) {
-            list += fmt::format("{} more (see --json), ", ranges.size() - most);
+            list += fmt::format("{} more (see --json), ", shown.size() - most);
         }
-        const auto& [first, last] = ranges[i];
-        list += last == end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
+        const auto& [first, last] = shown[i];
+        list += last >= end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
                 : first == last
                     ? fmt::format("{:.{}f} g", first, decimals)
                     : fmt::format("{:.{}f} to {:.{}f} g", first, decimals, last, decimals);
@@ -68,6 +86,12 @@ std::string list_of(const std::vector<std::pair<double, double>>& ranges, int de
 }
 
 } // namespace
+
+double rounded_down(double value, int decimals)
+{
+    const double nearest = std::stod(fmt::format("{:.{}f}", value, decimals));
+    return nearest <= value ? nearest : nearest - std::pow(10, -decimals);
+}
 
 Verdict verdict_of(Region region)
 {
@@ -154,7 +178,8 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
     text += fmt::format(", searched up to {:.6g} g", end);
     if (coarse) {
         text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
-                            coarse->first, decimals, coarse->last, decimals, 100 * coarse->step);
+                            rounded_down(coarse->first, decimals), decimals,
+                            -rounded_down(-coarse->last, decimals), decimals, 100 * coarse->step);
     }
     return text;
 }
@@ -164,7 +189,7 @@ int VerdictRanges::decimals(double pga) const
     constexpr int most_for_ends = 7; // hundreds of ranges under a slow pulse would need more
     int decimals = 4;
     const auto look_the_same = [&](double a, double b) {
-        return a != b && fmt::format("{:.{}f}", a, decimals) == fmt::format("{:.{}f}", b, decimals);
+        return a != b && rounded_down(a, decimals) == rounded_down(b, decimals);
     };
     const auto is_unclear = [&](const VerdictRange& range) {
         return (decimals < most_for_ends && look_the_same(range.first, range.last)) ||

@@ -15,6 +15,10 @@ inline constexpr double toppling_step = 0.005;
 
 enum class Verdict { safe, topples, undecided };
 
+/// The largest number of this many decimals that is at most the value; the printed number is never
+/// above the value.
+double rounded_down(double value, int decimals);
+
 /// The verdict of the region of a block at rest after the motion.
 Verdict verdict_of(Region region);
 
@@ -42,7 +46,8 @@ struct VerdictRanges {
     double undecided_share() const;
 
     /// Such as "1.1110 to 1.6440 g, above 2.1300 g, searched up to 5 g"; at most `most` ranges of
-    /// each kind, including the last one.
+    /// each kind, including the last one. Ranges are rounded outwards, and those that touch then
+    /// are joined: what is in none of them is safe.
     std::string text(int decimals, std::size_t most) const;
 
     /// At least 4, enough to tell all ends of the ranges from the acceleration `pga`, and up to 7

@@ -119,7 +119,11 @@ class TwoSides(Scratch):
         for column, meant in (("inclin", "incline"), ("incline_deg", "incline"), ("incline_degrees", "incline"),
                               ("center_ofset", "center_offset"), ("centre_offset", "center_offset"),
                               ("radius_of_gyration_m", "radius_of_gyration"), ("directoin", "direction"),
-                              ("name", None), ("lean", None), ("weight", None), ("site", None), ("sizes", None),
+                              ("inclination", "incline"), ("lean_angle", "incline"), ("base_tilt", "incline"),
+                              ("offset", "center_offset"), ("eccentricity", "center_offset"),
+                              ("center_of_mass_height", "center_height"), ("com_height", "center_height"),
+                              ("gyration_radius", "radius_of_gyration"),
+                              ("name", None), ("weight", None), ("site", None), ("sizes", None),
                               ("restitution_from", None), ("age", None)):
             (self.folder / "blocks.csv").write_text(f"width,height,{column},restitution\n0.5,2,0.05,0.8\n")
             (self.folder / "table.toml").write_text(

@@ -38,6 +38,43 @@ TEST(VerdictRanges, TellWhatWasSearchedInWideSteps)
                                  "up to 2 %");
 }
 
+TEST(VerdictRanges, AreRoundedOutwardsSoThatWhatIsOutsideIsSafe)
+{
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(0.01, 1);
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<double> ends{uniform(generator)};
+        ends.push_back(ends.back() + 1e-3 * uniform(generator));
+        ends.push_back(ends.back() + 1e-3 * uniform(generator));
+        const VerdictRanges ranges{.all = {{0, ends[0], safe},
+                                           {ends[0], ends[1], i % 2 == 0 ? topples : undecided},
+                                           {ends[1], ends[2], safe},
+                                           {ends[2], 5, topples}}};
+        const std::string whole = ranges.text(4, 3);
+        const std::string text = whole.substr(0, whole.find(", searched"));
+        const double above = std::stod(text.substr(text.find("above ") + 6));
+        EXPECT_LE(above, ends[2]);
+        EXPECT_GT(above, ends[0] - 1e-4);
+        const std::size_t to = text.find(" to ");
+        const std::size_t before = text.find("undecided: ");
+        const double first =
+            to == std::string::npos ? above : std::stod(text.substr(before < to ? before + 11 : 0));
+        EXPECT_LE(first, ends[0]);
+        EXPECT_GT(first, ends[0] - 1e-4);
+        if (to != std::string::npos) {
+            const double last = std::stod(text.substr(to + 4));
+            EXPECT_GE(last, ends[1]);
+            EXPECT_LT(last, ends[1] + 1e-4);
+        }
+    }
+    EXPECT_EQ(
+        (VerdictRanges{.all = {{0, 0.25, safe}, {0.25, 0.5, topples}, {0.5, 5, safe}}}.text(4, 3)),
+        "0.2500 to 0.5000 g, searched up to 5 g");
+    EXPECT_EQ(rounded_down(0.3333, 4), 0.3333);
+    EXPECT_EQ(rounded_down(0.33339, 4), 0.3333);
+    EXPECT_EQ(rounded_down(-0.33331, 4), -0.3334);
+}
+
 TEST(VerdictRanges, HaveEnoughDecimalsForTheRequestedAcceleration)
 {
     std::mt19937_64 generator(1);
@@ -47,7 +84,7 @@ TEST(VerdictRanges, HaveEnoughDecimalsForTheRequestedAcceleration)
         const double pga = flip + 4 * std::pow(10, -digits);
         const VerdictRanges ranges{.all = {{0, flip, safe}, {flip, 5, topples}}};
         const int decimals = ranges.decimals(pga);
-        EXPECT_NE(fmt::format("{:.{}f}", flip, decimals), fmt::format("{:.{}f}", pga, decimals));
+        EXPECT_NE(rounded_down(flip, decimals), rounded_down(pga, decimals));
     }
     // Many narrow ranges do not make all numbers long.
     EXPECT_EQ((VerdictRanges{.all = {{0, 1, safe}, {1, 1 + 1e-12, topples}, {1 + 1e-12, 5, safe}}}

@@ -278,6 +278,11 @@ class TestSeveralSpectra(Picture):
                       ("--index", "slenderness=1", "--index", "restitution_of_maximum=0")):
             self.assert_only(U0_PLUS, self.picture(*index))
 
+    def test_an_index_given_twice_is_refused(self):
+        self.spectrum([[[[S]], [[F_MINUS]]], [[[U0_PLUS]], [[U0_MINUS]]]])
+        for again in (("--index", "slenderness=1"), ("--slenderness", "1")):
+            self.refuses(2, "slenderness is given twice", "spectrum.h5", "--index", "slenderness=0", *again)
+
     def assert_only(self, code, picture):
         self.assertGreater(np.count_nonzero(where(picture, code)), 900_000)
         for other in {S, F_MINUS, U0_PLUS, U0_MINUS} - {code}:

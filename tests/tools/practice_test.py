@@ -32,7 +32,7 @@ class TestPublishedPractice(Recorded):
     def test_is_not_judged_where_the_outcome_is_unknown(self):
         self.recorded([[S, UNDECIDED, S, NOT_COMPUTED]], computed=[[1, 1, 0, 0]])
         self.add("peak", [0.5, np.nan, 5.0, np.nan])
-        self.assertIn("0 of 1 safe points (0 %)", self.practice())
+        self.assertIn("0 of 1 safe points (0 %)\nunfinished: 2 of 4 tiles computed\n", self.practice())
 
     def test_has_no_share_without_safe_points(self):
         self.recorded([[F_MINUS]])

@@ -132,10 +132,13 @@ def subtitle(planes, units=JOB):
     for column in zip(*(spectrum_words(plane, units) for plane in planes)):
         if len(set(column)) == 1:
             words.append(escaped(column[0]))
+    return ",  ".join(words + unfinished_words(file))
+
+
+def unfinished_words(file):
+    """Returns the note on missing tiles, if there are any."""
     done, tiles = count_tiles(file)
-    if done < tiles:
-        words.append(f"unfinished: {done} of {tiles} tiles computed")
-    return ",  ".join(words)
+    return [f"unfinished: {done} of {tiles} tiles computed"] * (done < tiles)
 
 
 def heading(planes):

@@ -49,7 +49,8 @@ def chosen(file, arguments):
             first, last = value_text(file, name, 0), value_text(file, name, count - 1)
             raise ToolError(f"{option} {index} is out of range; this file has 0 to {count - 1} "
                             f"({name} {first} to {last}).", USAGE)
-        choices[name] = index
+        if choices.setdefault(name, index) != index:
+            raise ToolError(f"{option} {index}: {name} is given twice, before as {choices[name]}.", USAGE)
     return choices
 
 

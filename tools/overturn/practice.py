@@ -4,7 +4,7 @@ some of these blocks come back."""
 import numpy as np
 from matplotlib import colors
 from matplotlib.patches import Patch
-from overturn.captions import spectrum_words
+from overturn.captions import spectrum_words, unfinished_words
 from overturn.regions import SAFE
 
 COLOUR = "#1f5fe0"
@@ -37,13 +37,14 @@ class Misjudged:
         self.names = [",  ".join(spectrum_words(plane)) for plane in planes]
         self.counts = [count(plane) for plane in planes]
         self.total = share_text(*map(sum, zip(*self.counts)))
+        self.unfinished = unfinished_words(planes[0].file)
 
     def report(self):
         lines = [f"safe, although |theta| reaches alpha: {self.total}"]
         if len(self.names) > 1:
             lines += [f"  {name}:  {share_text(*each)}"
                       for name, each in zip(self.names, self.counts)]
-        return "\n".join(lines)
+        return "\n".join(lines + self.unfinished)
 
     def legend_entry(self):
         return Patch(facecolor=COLOUR, edgecolor="black", linewidth=0.5,
