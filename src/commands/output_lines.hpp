@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <ranges>
@@ -27,14 +28,16 @@ inline void say(const std::string& line)
     std::fflush(stdout);
 }
 
-/// How many words of the two names begin with the same four letters; shorter words are equal.
+/// How many words of the two names begin with the same four letters, ignoring case; shorter words
+/// are equal.
 inline int shared_words(std::string_view one, std::string_view other)
 {
     using std::views::split;
-    const auto begins_alike = [](const auto& a, const auto& b) {
-        const auto [end, _] = std::ranges::mismatch(a, b);
+    const auto lower_case = [](char letter) { return std::tolower((unsigned char)letter); };
+    const auto begins_alike = [&](const auto& a, const auto& b) {
+        const auto [end, other_end] = std::ranges::mismatch(a, b, {}, lower_case, lower_case);
         const auto length = end - a.begin();
-        return length >= 4 || (length == 3 && std::ranges::equal(a, b));
+        return length >= 4 || (length == 3 && end == a.end() && other_end == b.end());
     };
     return int(std::ranges::count_if(one | split('_'), [&](const auto& word) {
         return std::ranges::any_of(other | split('_'), [&](const auto& other_word) {

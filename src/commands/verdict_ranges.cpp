@@ -13,19 +13,31 @@ namespace overturn {
 namespace {
 
 /// Answers take seconds, even if a slow pulse has hundreds of flips. A line of usual pulses needs a
-/// few hundred amplitudes, none of them in 50 digits, in which one may take a second.
-constexpr std::size_t most_amplitudes = 2000;
+/// thousand amplitudes, none of them in 50 digits, in which one may take a second.
+constexpr std::size_t most_amplitudes = 2500;
 constexpr int most_in_50_digits = 4;
 
-/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips; see
-/// docs/boundaries.md.
+/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips, see
+/// docs/boundaries.md, but for narrow strips just above it, which slow pulses cause: there the
+/// steps are 200 times smaller.
 std::vector<double> scan(const Scene& scene, double first, double last)
 {
-    const double steps = scene.is_recorded() ? std::log(last / first) / toppling_step
-                                             : std::min((last - first) / (0.1 * first), 2000.0);
-    const std::int64_t count = 1 + std::int64_t(std::ceil(std::max(steps, 10.0)));
-    return Axis(AxisRange{first, last, count, scene.is_recorded() ? Spacing::log : Spacing::linear})
-        .values();
+    const auto values = [](double from, double to, double steps, Spacing spacing) {
+        return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
+    };
+    if (scene.is_recorded()) {
+        return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
+                      Spacing::log);
+    }
+    const double low = std::min(1.3 * first, last);
+    std::vector<double> all =
+        values(first, low, std::max((low - first) / (0.0005 * first), 10.0), Spacing::linear);
+    if (low < last) {
+        const std::vector<double> rest = values(
+            low, last, std::clamp((last - low) / (0.1 * first), 10.0, 2000.0), Spacing::linear);
+        all.insert(all.end(), rest.begin() + 1, rest.end());
+    }
+    return all;
 }
 
 FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
@@ -89,8 +101,11 @@ std::string list_of(const std::vector<Ends>& ranges, int decimals, std::size_t m
 
 double rounded_down(double value, int decimals)
 {
-    const double nearest = std::stod(fmt::format("{:.{}f}", value, decimals));
-    return nearest <= value ? nearest : nearest - std::pow(10, -decimals);
+    const auto nearest_to = [&](double number) {
+        return std::stod(fmt::format("{:.{}f}", number, decimals));
+    };
+    const double nearest = nearest_to(value);
+    return nearest <= value ? nearest : nearest_to(nearest - std::pow(10, -decimals));
 }
 
 Verdict verdict_of(Region region)
@@ -141,8 +156,8 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         }
     };
     continue_with(boundary.region_at_first, lifting);
-    for (const Flip& flip : boundary.flips) {
-        continue_with(flip.region_above, flip.amplitude());
+    for (const Flip& flip : boundary.flips) { // a flip has a width: safe ranges end before it
+        continue_with(flip.region_above, is_safe(flip.region_below) ? flip.below : flip.above);
     }
     end_last_range_at(end);
     return ranges;
@@ -175,7 +190,7 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
     const std::string undecided = list_of(with(Verdict::undecided), decimals, most, end);
     text = text.empty() ? "none" : text;
     text += undecided.empty() ? "" : "; undecided: " + undecided;
-    text += fmt::format(", searched up to {:.6g} g", end);
+    text += fmt::format(", searched up to {} g", rounded_down(end, 6));
     if (coarse) {
         text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
                             rounded_down(coarse->first, decimals), decimals,

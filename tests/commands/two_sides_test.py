@@ -123,6 +123,7 @@ class TwoSides(Scratch):
                               ("offset", "center_offset"), ("eccentricity", "center_offset"),
                               ("center_of_mass_height", "center_height"), ("com_height", "center_height"),
                               ("gyration_radius", "radius_of_gyration"),
+                              ("Inclination", "incline"), ("Lean", "incline"), ("Offset", "center_offset"),
                               ("name", None), ("weight", None), ("site", None), ("sizes", None),
                               ("restitution_from", None), ("age", None)):
             (self.folder / "blocks.csv").write_text(f"width,height,{column},restitution\n0.5,2,0.05,0.8\n")
