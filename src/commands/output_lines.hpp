@@ -33,7 +33,7 @@ inline void say(const std::string& line)
 inline int shared_words(std::string_view one, std::string_view other)
 {
     using std::views::split;
-    const auto lower_case = [](char letter) { return std::tolower((unsigned char)letter); };
+    const auto lower_case = [](unsigned char letter) { return std::tolower(letter); };
     const auto begins_alike = [&](const auto& a, const auto& b) {
         const auto [end, other_end] = std::ranges::mismatch(a, b, {}, lower_case, lower_case);
         const auto length = end - a.begin();
@@ -66,17 +66,16 @@ inline std::string_view quantity_meant_by(std::string_view column, const Grid& g
     }
     std::string_view meant;
     int most = 0;
-    const auto look_at = [&](std::string_view word, std::string_view name) {
-        if (const int shared = shared_words(column, word); shared > most && is_lacking(name)) {
+    for (const std::string_view name : names) {
+        const std::string_view other_words = name == "incline"         ? "lean_tilt"
+                                             : name == "center_offset" ? "eccentricity"
+                                                                       : "";
+        const int shared = shared_words(column, name) + shared_words(column, other_words);
+        if (shared > most) {
             most = shared;
             meant = name;
         }
-    };
-    for (const std::string_view name : names) {
-        look_at(name, name);
     }
-    look_at("lean_tilt", "incline");
-    look_at("eccentricity", "center_offset");
     return meant;
 }
 
