@@ -117,8 +117,7 @@ class Toppling(Scratch):
                                          (("0.41", "2.07"), "4.263", 0.9, 0.2101)):
             answer = self.answer("--width", size[0], "--height", size[1], "--period", period, "--pulse",
                                  "antisymmetric_ricker", "--restitution-of-maximum", str(share))
-            first, last = answer["toppling_pga"][0]
-            self.assertTrue(first < pga < last or first < pga < answer["toppling_pga"][1][1])
+            self.assertTrue(any(first < pga < (last or math.inf) for first, last in answer["toppling_pga"]))
 
     def test_under_a_record_has_the_verdict_of_the_spectrum_in_its_ranges(self):
         (self.folder / "job.toml").write_text(f"""

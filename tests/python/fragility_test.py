@@ -202,6 +202,12 @@ class TheCurve(unittest.TestCase):
         self.assertEqual(list(quarters)[-1], "many = not given")
         self.assertEqual(sum(part.sizes["block"] for part in quarters.values()), 8)
         self.assertEqual(len(quarters), 5)
+        # Numbers that differ in late digits only.
+        close = result(*graded(blocks=8)).assign_coords(date=("block", 20190101 + np.arange(8) // 2),
+                                                        number=("block", 2019001 + np.arange(8)))
+        self.assertEqual({name: part.sizes["block"] for name, part in groups_of(close, "date").items()},
+                         {f"date = {20190101 + i}": 2 for i in range(4)})
+        self.assertEqual([part.sizes["block"] for part in groups_of(close, "number").values()], [2, 2, 2, 2])
         for column in ("motion", "pgv", "scale", "mass"):
             with self.assertRaisesRegex(ValueError, "is not a property of the blocks. This result has"):
                 groups_of(data, column)

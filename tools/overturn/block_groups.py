@@ -41,11 +41,23 @@ def _labels(column, values):
     known = np.isfinite(values)
     numbers = values[known]
     if len(np.unique(numbers)) <= MOST_NUMBERS:
-        labels[known] = [f"{number:g}" for number in numbers]
+        labels[known] = _texts(numbers, 6)
         return labels
     ends = np.quantile(numbers, np.arange(1, RANGES) / RANGES)
     place = np.searchsorted(ends, numbers)
-    for each in range(RANGES):
-        some = numbers[place == each]
-        labels[np.flatnonzero(known)[place == each]] = f"{some.min():.4g} to {some.max():.4g}" if some.size else ""
+    texts = _texts(numbers, 4)
+    for each in set(place):
+        some = np.flatnonzero(place == each)
+        first, last = some[np.argmin(numbers[some])], some[np.argmax(numbers[some])]
+        labels[np.flatnonzero(known)[some]] = f"{texts[first]} to {texts[last]}"
     return labels
+
+
+def _texts(numbers, digits):
+    """Returns the numbers as texts of at least so many digits, by which different numbers differ."""
+    different = len(np.unique(numbers))
+    for enough in range(digits, 18):
+        texts = [f"{number:.{enough}g}" for number in numbers]
+        if len(set(texts)) == different:
+            break
+    return texts
