@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "output_lines.hpp"
+#include "probable_mistakes.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"

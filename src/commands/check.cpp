@@ -4,6 +4,7 @@
 #include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
+#include "probable_mistakes.hpp"
 #include "record_lines.hpp"
 
 #include "overturn/file/spectrum_file.hpp"

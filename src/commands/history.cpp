@@ -4,12 +4,14 @@
 #include "guarded_reading.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
+#include "probable_mistakes.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 

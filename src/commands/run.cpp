@@ -6,6 +6,7 @@
 #include "kernel_choice.hpp"
 #include "output_lines.hpp"
 #include "prepare_output.hpp"
+#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "record_lines.hpp"
 #include "remarks.hpp"

@@ -4,6 +4,7 @@
 #include "guarded_reading.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
+#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "record_lines.hpp"
 #include "topple_answer.hpp"

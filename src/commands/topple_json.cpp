@@ -3,6 +3,7 @@
 #include "one_point.hpp"
 #include "output_lines.hpp"
 
+#include "overturn/problem/plausibility.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
