@@ -104,7 +104,7 @@ inline std::string unused_columns(const Job& job)
     std::string names;
     if (job.blocks) {
         for (const TableColumn& column : job.blocks->table.columns) {
-            if (!job.problem.grid.has_table_column(column.name) && column.name != "motion_number") {
+            if (!job.problem.grid.has_table_column(column.name)) {
                 names += (names.empty() ? "" : ", ") + column.name;
             }
         }

@@ -52,9 +52,6 @@ public:
         if (job_.problem.product == Product::boundary) {
             add_scan(grid_.dimensions[*grid_.dimension_of(Role::strength)]);
         }
-        if (!job_.motions.empty()) {
-            add_motion_names();
-        }
         if (job_.blocks) {
             add_table(job_.blocks->table);
         }
@@ -62,7 +59,7 @@ public:
             add_derived(name);
         }
         if (!job_.motions.empty()) {
-            add_measures();
+            add_motions();
         }
         std::stable_partition(all_.begin(), all_.end(), [](const CoordinateVariable& coordinate) {
             return std::holds_alternative<std::vector<double>>(coordinate.variable.values);
@@ -175,37 +172,29 @@ private:
             [derived = derived_, name] { return derived->of(name).values; });
     }
 
-    /// The motions of the grid, or of the table.
-    Dimensions along_motions() const
+    /// Names and measures along the dimension of the motion: `motion`, `block` if the table names
+    /// the motion of each block, or none.
+    void add_motions()
     {
-        const bool is_single = grid_.find("motion") != nullptr && !grid_.dimension_of("motion");
-        return is_single ? Dimensions() : Dimensions{{"motion", std::int64_t(job_.motions.size())}};
-    }
-
-    void add_motion_names()
-    {
+        const std::optional<std::size_t> place = grid_.dimension_of("motion");
+        const Dimensions along = place ? Dimensions{dimensions_[*place]} : Dimensions();
+        std::vector<const Motion*> motions;
+        for (const double number : grid_.find("motion")->values.values()) {
+            motions.push_back(&job_.motions[Scene::record_index(number)]);
+        }
         std::vector<std::string> names;
-        for (const Motion& motion : job_.motions) {
-            names.push_back(motion.name);
+        for (const Motion* motion : motions) {
+            names.push_back(motion->name);
         }
-        add_texts("motion_name", along_motions(), std::move(names),
-                  "file of the recorded ground motion");
-    }
-
-    void add_measures()
-    {
-        if (!has("motion")) {
-            add_numbers("motion", along_motions(), 1, quantity("motion").long_name);
-        }
+        add_texts("motion_name", along, std::move(names), "file of the recorded ground motion");
         for (const Measure& measure : measures) {
-            add(measure.name, along_motions(), measure.long_name, measure.units,
-                [motions = &job_.motions, &measure] {
-                    std::vector<double> values;
-                    for (const Motion& motion : *motions) {
-                        values.push_back(motion.measures.*measure.value);
-                    }
-                    return values;
-                });
+            add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
+                std::vector<double> values;
+                for (const Motion* motion : motions) {
+                    values.push_back(motion->measures.*measure.value);
+                }
+                return values;
+            });
             std::string& comment = all_.back().variable.comment;
             comment = measure.comment;
             if (job_.problem.scene.has_two_components()) {

@@ -27,8 +27,8 @@ constexpr TextFileKind table_file{"a table", largest_table_file,
 constexpr std::string_view motion_column = "motion";
 
 /// Names of columns that the result file needs for itself; the second list: under records.
-constexpr std::array<std::string_view, 8> reserved_names{
-    "block", "motion_name", "tile", "checksum", "run_token", "crossing", motion_number, "run"};
+constexpr std::array<std::string_view, 7> reserved_names{
+    "block", "motion_name", "tile", "checksum", "run_token", "crossing", "run"};
 constexpr std::array<std::string_view, 5> reserved_under_records{
     "motion_name_length", "record_pga", "pgv", "arias_intensity", "significant_duration"};
 
@@ -197,7 +197,7 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
         const Quantity* const quantity = find_quantity(column.name);
         // Under a pulse, the motion is a column like any other.
         if (is_recorded && column.name == motion_column) {
-            column = {std::string(motion_number), motion_numbers(blocks, column, motions), {}};
+            column = {column.name, motion_numbers(blocks, column, motions), {}};
         } else if (quantity == nullptr || !quantity->is_coordinate() ||
                    quantity->role == Role::motion) {
             expect_free_name(blocks, column.name, is_recorded);
@@ -213,12 +213,9 @@ std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded)
 {
     std::vector<Given> columns;
     for (const TableColumn& column : blocks.table.columns) {
-        const bool is_motion = is_recorded && column.name == motion_number;
-        const std::string name(is_motion ? motion_column : column.name);
-        const Quantity* const quantity = find_quantity(name);
-        if (quantity != nullptr && (is_motion || quantity->role != Role::motion) &&
-            applies_to(*quantity, is_recorded)) {
-            columns.push_back({quantity, name, Axis(column.numbers), GivenAs::column});
+        const Quantity* const quantity = find_quantity(column.name);
+        if (quantity != nullptr && applies_to(*quantity, is_recorded)) {
+            columns.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});
         }
     }
     return columns;

@@ -85,7 +85,7 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
     const auto csv_has = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
-    if (is_recorded && !csv_has(motion_number)) {
+    if (is_recorded && !csv_has("motion")) {
         const auto last = std::int64_t(job.motions.size());
         given.push_back({&quantity("motion"), "scene.record",
                          Axis(AxisRange{1, double(last), last}),

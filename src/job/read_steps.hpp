@@ -39,17 +39,13 @@ void expect_known_errors(const Entry& job, const Problem& problem);
 /// Throws Error if the job asks for filling but cannot be filled.
 void expect_fillable(const Entry& entry, const Problem& problem);
 
-/// The column of a table that has the numbers of the records, from 1. It is not called `motion`,
-/// which is a column of names in the table, and a dimension of the results of a suite.
-inline constexpr std::string_view motion_number = "motion_number";
-
 /// Reads the table of the blocks of a job. file: relative to the folder. Under records, the column
-/// `motion` contains their names, or those of their files, and becomes `motion_number`. Throws
-/// Error.
+/// `motion` contains their names, or those of their files; in the result, their numbers, from 1.
+/// Throws Error.
 BlockTable read_block_table(const std::string& file, const std::string& folder,
                             const std::vector<Motion>& motions);
 
-/// The columns that describe points. In a grid, `motion_number` is the quantity `motion` again.
+/// The columns that describe points.
 std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded);
 
 /// Throws Error with the file, and with line and column only if known.

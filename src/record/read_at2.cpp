@@ -54,6 +54,19 @@ void expect_seconds(const Lines& lines, std::string_view step, std::string_view 
     }
 }
 
+/// The number of words that begin like a number.
+std::size_t count_numbers(std::string_view line)
+{
+    std::size_t count = 0;
+    for (std::string_view rest = from_word(line); !rest.empty();) {
+        const std::string_view word = first_word(rest);
+        const std::size_t digit = word.find_first_not_of("+-.");
+        count += digit != word.npos && '0' <= word[digit] && word[digit] <= '9';
+        rest = from_word(rest.substr(word.size()));
+    }
+    return count;
+}
+
 struct Sampling {
     std::size_t count;
     double time_step; ///< [s]
@@ -73,6 +86,11 @@ Sampling read_sampling(const Lines& lines)
         lines.refuse("{} lacks the number of points or the time step. Write it as in NPTS= 4000, "
                      "DT= .01 SEC.",
                      quoted_bytes(line));
+    }
+    if (count_numbers(line) > (contains(line, "DURATION") ? 3 : 2)) {
+        lines.refuse("{} has other numbers beside the number of points and the time step. Write it "
+                     "as in NPTS= 4000, DT= .01 SEC.",
+                     quoted_bytes(trimmed(line)));
     }
     const std::string_view word = first_word(step);
     expect_seconds(lines, word, step.substr(word.size()));

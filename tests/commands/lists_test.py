@@ -128,7 +128,11 @@ class Lists(Scratch):
             "0.3,0.9,1.0,b,2\n0.25,1,0.9,a.txt,4\n0.5,1.2,0.95,b.txt,1\n")
         (self.folder / "rows.toml").write_text(scene + "[blocks]\ntable = \"rows.csv\"\n")
         rows = self.compute("rows.toml", "rows.h5")
-        np.testing.assert_array_equal(rows.motion_number.values, [2, 1, 2])
+        self.assertEqual(list(rows.motion_name.values), ["b.txt", "a.txt", "b.txt"])
+        table = rows.to_dataframe()  # a row per point
+        np.testing.assert_array_equal(table.motion, [2, 1, 2])
+        for name in ("record_pga", "pgv", "arias_intensity", "significant_duration"):
+            np.testing.assert_array_equal(table[name], data[name].values[[1, 0, 1]])
         for field in ("region", "margin"):
             values = data[field].values
             np.testing.assert_array_equal(

@@ -123,8 +123,7 @@ class TheCurve(unittest.TestCase):
         data = result(*graded())
         rows = data.stack(row=("motion", "scale", "block"))
         own = xarray.Dataset({"region": ("block", rows.region.values, data.region.attrs)}, coords={
-            "motion": data.motion, "pgv": data.pgv, "scale": ("block", rows.scale.values),
-            "motion_number": ("block", rows.motion.values)})
+            **{name: ("block", rows[name].values) for name in ("motion", "pgv", "scale")}})
         first, second = (overturn.fragility(each, samples=20) for each in (data, own))
         self.assertEqual((first.median, first.motions), (second.median, second.motions))
         np.testing.assert_array_equal(first.band, second.band)

@@ -131,6 +131,15 @@ TEST(At2, IsRefusedWithFileLineAndReason)
         {"NegativePoints", at2("NPTS= -3, DT= .01 SEC"),
             "a.txt:4: NPTS is \"-3\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},
+        {"TwoTimeSteps", at2("NPTS= 3, DT= .01 SEC, DT= .02 SEC"),
+            "a.txt:4: \"NPTS= 3, DT= .01 SEC, DT= .02 SEC\" has other numbers beside the number of points and the "
+            "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
+        {"TwoTimeStepsInTheOldForm", at2("3 0.01 NPTS, DT 0.02"),
+            "a.txt:4: \"3 0.01 NPTS, DT 0.02\" has other numbers beside the number of points and the time step. "
+            "Write it as in NPTS= 4000, DT= .01 SEC."},
+        {"AFactor", at2("NPTS= 3, DT= .01 SEC, SCALE FACTOR 2"),
+            "a.txt:4: \"NPTS= 3, DT= .01 SEC, SCALE FACTOR 2\" has other numbers beside the number of points and the "
+            "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
         {"AFractionOfPoints", at2("NPTS= 3.5, DT= .01 SEC"),
             "a.txt:4: NPTS is \"3.5\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},

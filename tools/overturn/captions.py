@@ -46,15 +46,16 @@ def ground_text(file):
 
 @functools.cache
 def motion_names(file):
-    """Returns the name of each record without its folder; with it if several would be equal."""
-    paths = list(np.atleast_1d(file["motion_name"][:]))
-    names = [file_name(path) for path in paths]
-    return names if len(set(names)) == len(names) else paths
+    """Returns the name of each record by its number, without its folder; with it if several would be equal."""
+    numbers, paths = (np.atleast_1d(file[name][:]) for name in ("motion", "motion_name"))
+    names = {int(number): path for number, path in zip(numbers, paths)}
+    short = {number: file_name(path) for number, path in names.items()}
+    return short if len(set(short.values())) == len(names) else names
 
 
 def value_text(file, name, place):
     """Returns the value of a dimension at an index."""
-    return motion_names(file)[place] if name == "motion" else f"{file[name][place]:g}"
+    return motion_names(file)[file[name][place].item()] if name == "motion" else f"{file[name][place]:g}"
 
 
 def slenderness_text(alpha, units):
@@ -83,10 +84,10 @@ def block_text(plane, units):
 
 def motion_text(plane, units):
     """Returns the record and, if the picture shows its scale, its peak acceleration."""
-    number = plane.value("motion_number") or plane.value("motion")
+    number = plane.value("motion")
     if number is None:
         return ""
-    name = motion_names(plane.file)[int(number) - 1]
+    name = motion_names(plane.file)[number]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
     if "scale" not in plane.quantities(units):
@@ -149,5 +150,5 @@ def heading(planes):
         return title
     shown = {plane.value("motion") for plane in planes}
     if len(shown) == 1 and None not in shown:
-        return motion_names(file)[int(shown.pop()) - 1]
+        return motion_names(file)[shown.pop()]
     return f"{len(motion_names(file)) if None in shown else len(shown)} records"

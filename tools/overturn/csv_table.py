@@ -2,6 +2,7 @@
 
 import csv
 import itertools
+import re
 
 import numpy as np
 
@@ -27,6 +28,7 @@ To write a part of the points only, choose an index along some dimensions:
 REGION = "region"  # a column of every table
 # The names of all columns that a table may have; see docs/results.md.
 FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps", "status", "evaluated"}
+ROW = re.compile("[-+.0-9einfa,]*")  # of numbers, inf and nan
 COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block",
            "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",
            "slenderness_minus", "size_plus", "size_minus"}
@@ -56,9 +58,12 @@ def rows_of(file, choices):
 
 
 def is_own(beginning):
-    """Whether a file begins with the names of such columns, and no others."""
-    names = beginning.split(b"\n")[0].decode(errors="replace").strip().split(",")
-    return REGION in names and COLUMNS.issuperset(names) and names[-1] in FIELDS
+    """Whether a file begins with the names of such columns, dimensions first, and rows of numbers."""
+    header, *rows = beginning.decode(errors="replace").split("\n")
+    names = header.split(",")
+    fields = len(FIELDS.intersection(names))
+    return (REGION in names and COLUMNS.issuperset(names) and FIELDS.issuperset(names[-fields:])
+            and all(row.count(",") == header.count(",") and ROW.fullmatch(row) for row in rows[:-1]))
 
 
 def write(file, choices, path):

@@ -158,6 +158,12 @@ def present_as_format_4(result):
     kept = [axis for axis, name in enumerate(result.dimensions) if name not in single]
     result.dimensions = tuple(renamed(result.dimensions[axis] for axis in kept))
     result.tile = tuple(result.tile[axis] for axis in kept)
+    if "motion_number" in result.variables:  # of blocks with motions of their own
+        numbers = result.variables.pop("motion_number")
+        result.coordinates.remove("motion_number")
+        for name, each in result.variables.items():
+            if each.dimensions == ("motion",):
+                result.variables[name] = Variable(numbers.dimensions, each[:][numbers[:].astype(int) - 1], each.attrs)
     for name, new in (("half_width", "half_width"), ("half_height", "half_height"), ("half_diagonal", "size")):
         if name in result.attrs:
             value = result.attrs.pop(name)

@@ -146,17 +146,16 @@ def _measure(dataset, im):
     if "of the first horizontal component" in measure.attrs.get("comment", ""):
         raise ValueError(f"im = {im!r} is that of the first of two horizontal components, in whatever direction the "
                          "block is. Give im = \"pga\", which is that of every direction, or a variable of your own.")
-    if "motion_number" in dataset and measure.dims:  # each block has a motion of its own
-        measure = measure.sel(motion=dataset["motion_number"])
     return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
 
 
 def _is_measure(dataset, name):
-    """Whether a variable is a property of the motions. The coordinate motion is their number. Of one motion chosen by
-    isel(), only the known measures can be told from properties of the block."""
+    """Whether a variable is a property of the motions. The coordinate motion is their number. If the motions are no
+    dimension, only the known measures can be told from properties of the block."""
     if name not in dataset or name == "motion" or dataset[name].dtype.kind not in "fiu":
         return False
-    return dataset[name].dims == ("motion",) or (not dataset[name].dims and name in {*POWERS, *_NAMES.values()})
+    is_known = name in {*POWERS, *_NAMES.values()} and dataset[name].dims == dataset["motion"].dims
+    return dataset[name].dims == ("motion",) or is_known
 
 
 def _blocks(region):
@@ -187,7 +186,7 @@ def _cells(dataset, measure, limit):
         exceeding = decided & (dataset["peak"] > limit)
     else:
         raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
-    motion = dataset["motion_number"] if "motion_number" in dataset else dataset["motion"]
+    motion = dataset["motion"]
     kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]
     kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
              "undecided": ~decided & ~not_computed}
