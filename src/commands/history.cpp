@@ -113,12 +113,13 @@ Job read_job_of_one_point(const HistoryOptions& options)
 struct Units {
     explicit Units(const std::optional<double>& p)
         : per_second(p.value_or(1)), per_angle(p ? in_degrees(1) : 1), time(p ? "s" : "1/p"),
-          angle(p ? "deg" : "rad"), rate(p ? "deg/s" : "rad")
+          after(p ? "s" : "/ p"), angle(p ? "deg" : "rad"), rate(p ? "deg/s" : "rad")
     {}
 
     double per_second; ///< p [1/s]
     double per_angle;
     const char* time;
+    const char* after; ///< the unit after a number
     const char* angle;
     const char* rate;
 };
@@ -154,19 +155,29 @@ void print_events(const History& history, const Units& units)
 }
 
 void print_outcome(const History& history, const std::optional<double>& slenderness, double peak,
-                   const std::optional<double>& p)
+                   const Units& units)
 {
     const auto time = [&](double value) {
-        return std::isnan(value)   ? std::string("unknown")
-               : std::isinf(value) ? std::string("never")
-               : p                 ? fmt::format("after {:.6g} s", value / *p)
-                                   : fmt::format("after {:.6g} / p", value);
+        return std::isnan(value) ? std::string("unknown")
+               : std::isinf(value)
+                   ? std::string("never")
+                   : fmt::format("after {:.6g} {}", value / units.per_second, units.after);
     };
     print_row("region", name_of(history.region));
-    print_row("margin", fmt::format("{:.6g}, error at most {:.1g}", history.margin, history.error));
+    print_row("margin", history.is_curve_certain ? fmt::format("{:.6g}, error at most {:.1g}",
+                                                               history.margin, history.error)
+                                                 : "unknown");
     print_row("peak", peak_text(peak, slenderness));
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
+    if (!history.is_curve_certain) {
+        print_row("note",
+                  "The motion is so sensitive that doubles cannot follow it: the true motion "
+                  "may differ from these events");
+        print_row("", history.region == Region::undecided
+                          ? "and the curve. More digits do not settle the region either."
+                          : "and the curve. The region was settled with more digits.");
+    }
     if (history.shortened) {
         print_row("note", "The history is incomplete: it has too many events.");
     }
@@ -192,8 +203,9 @@ int history(const HistoryOptions& options)
     const History history = history_of_only_point(job, view);
     const auto parameter = extent_of(job, "frequency_parameter");
     const auto p = parameter ? std::optional(parameter->first) : std::nullopt; // [1/s]
-    print_outcome(history, slenderness, peak_of_only_point(job), p);
-    print_events(history, Units(p));
+    const Units units(p);
+    print_outcome(history, slenderness, peak_of_only_point(job), units);
+    print_events(history, units);
     write_history_file(options.output, job, history);
     fmt::print("\n{0}: written; draw it with tools/plot_history {0}\n", options.output);
     return exit_code::complete;

@@ -1,6 +1,7 @@
 #include "probable_mistakes.hpp"
 
 #include "overturn/job/nearest_name.hpp"
+#include "overturn/job/schema.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/text/quoting.hpp"
 
@@ -78,14 +79,23 @@ void warn_of_probable_mistakes(const Job& job)
         fmt::print(stderr, "overturn: warning: {}.\n", printable(text));
     };
     const Grid& grid = job.problem.grid;
+    const auto is_key_of_scene = [](const std::string& name) {
+        return std::ranges::count(keys_of("scene"), name) > 0;
+    };
     if (const std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
         warn(values);
     }
     for (const TableColumn& column :
          job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {
-        const std::string_view meant =
-            grid.has_table_column(column.name) ? "" : quantity_meant_by(column.name, grid);
-        if (!meant.empty()) {
+        if (grid.has_table_column(column.name)) {
+            continue;
+        }
+        if (is_key_of_scene(column.name) || find_quantity(column.name) != nullptr) {
+            warn(fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
+                             "property of the blocks under this ground motion",
+                             in_quotes(column.name), job.blocks->file));
+        } else if (const std::string_view meant = quantity_meant_by(column.name, grid);
+                   !meant.empty()) {
             warn(fmt::format("the column {} of {} has no effect (did you mean {}?)",
                              in_quotes(column.name), job.blocks->file, meant));
         }

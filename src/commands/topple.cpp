@@ -34,7 +34,8 @@ std::string job_text(const ToppleOptions& options)
                 : fmt::format("pulse = {}\n", quoted_utf8(options.pulse.value_or("one_sine")));
     if (!options.component.empty()) {
         const bool is_number =
-            options.component.find_first_not_of("0123456789") == std::string::npos;
+            options.component.find_first_not_of("0123456789") == std::string::npos &&
+            !options.component.starts_with('0');
         text += fmt::format("component = {}\n",
                             is_number ? options.component : quoted_utf8(options.component));
     }
@@ -98,6 +99,12 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     const Scene& scene = job.problem.scene;
     const Point point = only_point_of(job);
     const double unit = pga_of_unit(scene, point);
+    if (!(unit > 0)) {
+        throw Error(exit_code::job,
+                    "the record has no motion in the direction of {} degrees. Choose another "
+                    "--direction, or remove the component that is zero at all times.",
+                    options.direction.value_or(0));
+    }
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
     answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;
     if (options.pga || options.scale) {

@@ -129,6 +129,7 @@ void add_outcome(hid_t file, const Job& job, const History& history)
     write_attribute(file, "region", std::int64_t(history.region));
     write_attribute(file, "margin", history.margin);
     write_attribute(file, "margin_error", history.error);
+    write_attribute(file, "curve_is_certain", std::int64_t(history.is_curve_certain));
     write_attribute(file, "end_of_pulse", history.end_of_pulse);
     write_attribute(file, "time_of_rest", history.time_of_rest);
     write_attribute(file, "time_of_fall", history.time_of_fall);

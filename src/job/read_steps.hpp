@@ -2,8 +2,8 @@
 #pragma once
 
 #include "overturn/job/job.hpp"
+#include "overturn/job/schema.hpp"
 #include "overturn/problem/given.hpp"
-#include "schema.hpp"
 #include "toml_reading.hpp"
 
 namespace overturn {

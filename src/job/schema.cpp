@@ -1,4 +1,4 @@
-#include "schema.hpp"
+#include "overturn/job/schema.hpp"
 
 #include "overturn/job/job.hpp"
 

@@ -1,6 +1,6 @@
 #include "toml_reading.hpp"
 
-#include "schema.hpp"
+#include "overturn/job/schema.hpp"
 
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"

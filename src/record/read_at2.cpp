@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -47,7 +48,9 @@ void expect_seconds(const Lines& lines, std::string_view step, std::string_view 
     }
     const std::string_view unit = first_word(from_word(after));
     const std::string word = lower(unit.substr(0, unit.find_first_of(",;.")));
-    if (!word.empty() && 'a' <= word[0] && word[0] <= 'z' && word[0] != 's' && word != "npts") {
+    constexpr std::array<std::string_view, 7> allowed{"",     "npts",   "s",      "sec",
+                                                      "secs", "second", "seconds"};
+    if (std::ranges::count(allowed, word) == 0) {
         lines.refuse("the unit {} of the time step is not understood. Write it in seconds, as in "
                      "DT= .01 SEC.",
                      quoted_bytes(unit));
@@ -87,16 +90,18 @@ Sampling read_sampling(const Lines& lines)
                      "DT= .01 SEC.",
                      quoted_bytes(line));
     }
+    std::string_view number = first_word(step);
+    if (const std::size_t unit = number.find_first_of("sS"); unit > 0) { // as in .01SEC
+        number = number.substr(0, unit);
+    }
+    expect_seconds(lines, number, step.substr(number.size()));
     if (count_numbers(line) > (contains(line, "DURATION") ? 3 : 2)) {
         lines.refuse("{} has other numbers beside the number of points and the time step. Write it "
                      "as in NPTS= 4000, DT= .01 SEC.",
                      quoted_bytes(trimmed(line)));
     }
-    const std::string_view word = first_word(step);
-    expect_seconds(lines, word, step.substr(word.size()));
-    const std::size_t unit = word.find_first_of("sS"); // that touches it, as in .01SEC
     return {.count = count_of(lines, first_word(count), "NPTS"),
-            .time_step = time_step_of(lines, unit == 0 ? word : word.substr(0, unit))};
+            .time_step = time_step_of(lines, number)};
 }
 
 void expect_acceleration(const Lines& lines)

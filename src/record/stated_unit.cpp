@@ -3,6 +3,7 @@
 #include "lines.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace overturn {
@@ -355,8 +356,12 @@ private:
             return found;
         }
         const std::string& next = word(found->end);
+        const bool is_number_next =
+            found->end + 1 < words_.size() &&
+            std::isdigit(static_cast<unsigned char>(word(found->end + 1).front()));
         const bool is_changed = // also behind a comma or a bracket
-            is_in("divided multiplied scaled", next) ||
+            is_in("divided factor multiplied multiply scale scaled times", next) ||
+            (next == "x" && is_number_next) ||
             (continues(found->end) &&
              (is_in("per times x squared", next) || next.find_first_of("/*^") == 0));
         return is_changed ? std::nullopt : found;

@@ -1,5 +1,7 @@
 #include "overturn/sweep/history.hpp"
 
+#include "point_run.hpp"
+
 #include "overturn/integrate/forced_path.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/problem/coordinates.hpp"
@@ -266,7 +268,7 @@ private:
 
 History history_of(const Scene& scene, const Point& point, const HistoryView& view)
 {
-    return with_theory(scene.theory, [&]<Theory theory>() {
+    History history = with_theory(scene.theory, [&]<Theory theory>() {
         const auto build = [&](const auto& excitation) {
             return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(point,
                                                                                      excitation)
@@ -280,6 +282,14 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
         return build(pulse_excitation<theory>(pulse_motion<double>(scene.pulse, scene.shape),
                                               point.block, point.amplitude, point.frequency));
     });
+    history.is_curve_certain = history.error < std::abs(history.margin);
+    if (!history.is_curve_certain) {
+        const PointRun run(scene, {point}, widest_kernel());
+        history.region = Region(outcomes_of(run, most_accurate, {.region = true}).region.front());
+        history.time_of_rest = unknown;
+        history.time_of_fall = unknown;
+    }
+    return history;
 }
 
 } // namespace overturn

@@ -271,6 +271,30 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--pga", "0.4",
                                        shell_setup="exec > /dev/full"), 74, "cannot write to stdout")
 
+    def test_writes_a_history_with_the_settled_verdict_of_a_motion_too_sensitive_for_doubles(self):
+        found = set()
+        for size, scale in ((1, 1.287248322147651), (2, 1.0939597315436242)):
+            text = self.topple("--record", str(JOBS / "synthetic.AT2"), "--slenderness", "0.24497866312686414",
+                               "--restitution", "1", "--size", str(size), "--scale", str(scale), "--history", "h.h5")
+            verdict = re.search("verdict +(topples|does not topple|undecided)", text).group(1)
+            found.add(verdict)
+            with h5py.File(self.folder / "h.h5") as file:
+                region = int(file.attrs["region"])
+                self.assertEqual(verdict, "undecided" if region == 254 else
+                                 "topples" if region >= 3 else "does not topple")
+                self.assertFalse(file.attrs["curve_is_certain"])
+                self.assertTrue(math.isnan(file.attrs["time_of_fall"]) and math.isnan(file.attrs["time_of_rest"]))
+        self.assertIn("topples", found)  # although the curve stays upright
+
+    def test_in_a_direction_without_motion_is_refused(self):
+        for name, direction in (("zero.AT2", 90), ("zero.AT2", 270)):
+            head, *_ = (JOBS / "synthetic.AT2").read_text().split(" SEC\n")
+            (self.folder / name).write_text(head + " SEC\n" + "0\n" * 2001)
+            shutil.copy(JOBS / "synthetic.AT2", self.folder / "one.AT2")
+            self.assert_exit(self.overturn("topple", *STATUE, "--record", "one.AT2", "--direction", str(direction),
+                                           "--set", "scene.second_component='zero.AT2'", "--scale", "1"),
+                             65, f"no motion in the direction of {direction} degrees")
+
     def test_warns_of_other_units(self):
         for wrong, words in ((("--width", "62", "--height", "210", "--period", "0.5"), "R = 109"),
                              ((*STATUE, "--period", "600"), "the period of the pulse = 600 s"),

@@ -115,6 +115,14 @@ class TwoSides(Scratch):
         self.assert_exit(self.overturn("run", "table.toml", "-o", "table.h5"), 0,
                          "columns without effect: centre_offset, lean")
 
+    def test_warn_of_columns_that_are_keys_of_the_motion(self):
+        for column in ("pulse", "cycles", "gravity", "theory", "scale", "motion", "damping_remark"):
+            (self.folder / "blocks.csv").write_text(f"width,height,restitution,{column}\n0.5,2,0.8,3\n")
+            (self.folder / "table.toml").write_text(
+                'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\nplane = { pulse_period = 0.5, pga = 0.3 }\n')
+            result = self.overturn("check", "table.toml")
+            self.assertEqual("no effect: it is a key of the job" in result.stderr, column != "damping_remark", column)
+
     def test_warn_of_columns_that_are_misspelt(self):
         for column, meant in (("inclin", "incline"), ("incline_deg", "incline"), ("incline_degrees", "incline"),
                               ("center_ofset", "center_offset"), ("centre_offset", "center_offset"),

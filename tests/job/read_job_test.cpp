@@ -1,7 +1,7 @@
 #include "overturn/job/job.hpp"
 
 #include "job_file.hpp"
-#include "schema.hpp"
+#include "overturn/job/schema.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <fmt/format.h>

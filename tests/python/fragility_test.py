@@ -305,6 +305,9 @@ class AnEdgeCase(unittest.TestCase):
     def test_what_is_no_field_or_no_limit_is_refused(self):
         whole = result(*graded())
         plain = xarray.DataArray(whole.region.values, dims=whole.region.dims)
+        data = result(*graded())
+        with self.assertRaisesRegex(ValueError, "values between the region codes"):
+            overturn.fragility(data.interp(scale=data.scale.values[:-1] * 1.03))
         with self.assertRaisesRegex(ValueError, "region has no flag_meanings"):
             overturn.fragility(whole.assign(region=plain))
         with self.assertRaisesRegex(ValueError, "limit = nan"):

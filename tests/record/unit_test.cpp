@@ -56,7 +56,7 @@ const std::vector<Group> groups{
           "ACCELERATION IN FT/S/S", "ACCELERATION IN IN/SEC/SEC", "ACCELERATION IN SI UNITS", "ACCELERATION IN COUNTS",
           "ACCELERATION IN CM", "ACCELERATION IN CM/S/S * 10", "ACCELERATION IN UNITS OF G (CM/S/S)", "UNITS: MG",
           "ACCELERATION IN CM/S/S/S", "ACCELERATION IN VOLTS", "ACCELERATION TIME SERIES N/kg", "ACCELERATION TIME SERIES SI",
-          "ACCELERATION TIME SERIES [10^-3 G]", "ACCELERATION TIME SERIES IN UNITS OF G (SCALED BY 10)", "ACCELERATION G X 100", "UNITS OF G (DIVIDED BY 10)", "UNITS OF G, SCALED TO 0.1", "UNITS: CM/S/S, MULTIPLIED BY 2",
+          "ACCELERATION TIME SERIES [10^-3 G]", "ACCELERATION TIME SERIES IN UNITS OF G (SCALED BY 10)", "ACCELERATION G X 100", "IN UNITS OF G. MULTIPLY BY 2.0", "IN UNITS OF G (X 10)", "UNITS OF G. SCALE FACTOR 1000", "ACCELERATION (G) FACTOR=0.5", "UNITS OF G (DIVIDED BY 10)", "UNITS OF G, SCALED TO 0.1", "UNITS: CM/S/S, MULTIPLIED BY 2",
           "SPECTRAL ACCELERATION (G)", "ACCELERATION IN MGAL", "ACCELERATION IN CM/S**3", "UNITS OF 0.1 G",
           "ACCELERATION, % OF G", "ACCELERATION, MICRO-G", "ACCELERATION IN CMSS", "ACCELERATION PERCENT G",
           // a title without a unit, or with words that resemble one
@@ -296,7 +296,8 @@ TEST(AStatedUnit, OfTheTimeStepIsSeconds)
     for (const char* seconds : {"0.01 SEC", "0.01 sec,", "0.01", ".0100 S", "0.01SEC"}) {
         EXPECT_EQ(component_of(text(seconds)).time_step, 0.01) << seconds;
     }
-    for (const char* other : {"10 MSEC", "100 Hz", "10 ms"}) {
+    for (const char* other :
+         {"10 MSEC", "100 Hz", "10 ms", "0.01 SEC/2", "0.01SEC*1E-3", "200 SPS", "0.01 SAMPLES"}) {
         EXPECT_NE(refusal_of(text(other)), "") << other;
     }
 }

@@ -1,9 +1,11 @@
 #include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/history.hpp"
+#include "point_run.hpp"
 #include "support/every_scene.hpp"
 #include "support/given_values.hpp"
 #include "support/random_point.hpp"
+#include "support/random_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +44,31 @@ int count(const History& history, EventKind kind, double until)
         std::count_if(history.events.begin(), history.events.end(), [&](const HistoryEvent& found) {
             return found.kind == kind && found.after.time <= until;
         }));
+}
+
+TEST(History, ThatDoublesCannotFollowHasTheSettledRegionAndUnknownTimes)
+{
+    std::mt19937_64 generator(7);
+    int uncertain = 0;
+    int corrected = 0;
+    for (int i = 0; uncertain < 40; ++i) {
+        const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
+        Scene scene;
+        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        const Point point{{drawn.block.slenderness, 1}, drawn.scale, drawn.frequency};
+        const PointRun run(scene, {point}, widest_kernel());
+        const Outcomes path = outcomes_of(run, {Method::taylor, 1e-12}, {.region = true});
+        const Outcomes settled = outcomes_of(run, most_accurate, {.region = true});
+        const History history = history_of(scene, point);
+        EXPECT_EQ(history.region, Region(settled.region[0])) << i;
+        EXPECT_EQ(history.is_curve_certain, history.error < std::abs(history.margin)) << i;
+        if (!history.is_curve_certain) {
+            ++uncertain;
+            corrected += path.region != settled.region;
+            EXPECT_TRUE(std::isnan(history.time_of_fall) && std::isnan(history.time_of_rest)) << i;
+        }
+    }
+    EXPECT_GT(corrected, 0);
 }
 
 TEST(History, HasTheEndStateOfTheSpectrum)

@@ -175,6 +175,9 @@ def _cells(dataset, measure, limit):
     if "flag_meanings" not in region.attrs:
         raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points by "
                          "sel() or isel(); do not compute with region codes.")
+    if region.dtype.kind == "f" and bool((region.notnull() & (region % 1 != 0)).any()):
+        raise ValueError("region has values between the region codes, as after interp(). Choose points by sel() or "
+                         "isel().")
     meanings = dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
     not_computed = region == meanings["not_computed"]
     # NaN, as after where(), and unknown codes are no verdicts.

@@ -47,11 +47,14 @@ struct History {
     std::vector<HistoryEvent> events;   ///< those up to the last sample
     double end_of_pulse;                ///< [1/p]
     double time_of_rest; ///< after which the block is not lifted again [1/p]; may be infinite
-    double time_of_fall; ///< [1/p]; infinite if the block never lies flat; NaN if undecided
+    double time_of_fall; ///< [1/p]; infinite if the block never lies flat
+    /// Settled with more digits if the error of the margin exceeds it.
     Region region;
-    double margin;
-    double error;   ///< error bound of the margin
-    bool shortened; ///< the history could not be computed to its end
+    double margin;         ///< of the curve
+    double error;          ///< error bound of the margin
+    bool is_curve_certain; ///< otherwise the true motion may differ, and time_of_rest and
+                           ///< time_of_fall are NaN
+    bool shortened;        ///< the history could not be computed to its end
 };
 
 /// The history of a point under a pulse, or under the first record of the scene. The forced stage

@@ -186,8 +186,13 @@ def describe(file, units=JOB):
     """Returns the point and its outcome in one line."""
     attributes = file.attrs
     region = int(attributes["region"])
-    outcome = (f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})"
-               if region in REGIONS and region != UNDECIDED else "undecided")
+    is_certain = attributes["margin_error"] < abs(attributes["margin"])
+    is_decided = region in REGIONS and region != UNDECIDED
+    if not is_certain and "curve_is_certain" not in attributes:
+        is_decided = False  # before 2.0, the region was that of the curve
+    outcome = f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})" if is_decided else "undecided"
+    if not is_certain:
+        outcome += "; the curve is uncertain"
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     shown = point_of(file, units)
     point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
