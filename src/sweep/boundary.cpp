@@ -124,9 +124,7 @@ public:
                            line_.point.block.is_symmetric());
         const Outcomes outcomes = outcomes_of(
             run, numerics, {.impacts = true, .region = true, .margin = true}, left_in_50_digits_);
-        if (left_in_50_digits_) {
-            *left_in_50_digits_ -= outcomes.in_50_digits;
-        }
+        left_in_50_digits_ -= outcomes.in_50_digits;
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back({amplitudes[i], Region(outcomes.region[i]), outcomes.margin[i],
@@ -211,7 +209,7 @@ private:
     Kernel kernel_;
     std::vector<Probe> undecided_;
     std::size_t computed_ = 0;
-    std::optional<int> left_in_50_digits_ = search.most_in_50_digits;
+    int left_in_50_digits_ = search.most_in_50_digits;
     std::optional<CoarseSearch> coarse_;
 };
 

@@ -10,11 +10,12 @@ namespace overturn {
     SweepKernel kernel_##isa##_runge_kutta(Theory, const Outputs&, Directions);                    \
     SweepKernel kernel_##isa##_taylor_14(Theory, const Outputs&, Directions);                      \
     SweepKernel kernel_##isa##_taylor_20(Theory, const Outputs&, Directions);                      \
-    SweepKernel kernel_##isa##_recorded(Theory, const Outputs&, Directions);
+    SweepKernel kernel_##isa##_recorded(Theory, const Outputs&, Directions);                       \
+    SweepKernel kernel_##isa##_recorded_31(Theory, const Outputs&, Directions);
 #define OVERTURN_LIST(isa)                                                                         \
     {                                                                                              \
         kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,            \
-            kernel_##isa##_recorded                                                                \
+            kernel_##isa##_recorded, kernel_##isa##_recorded_31                                    \
     }
 
 OVERTURN_DECLARE(double)
@@ -24,7 +25,7 @@ OVERTURN_DECLARE(avx512)
 namespace {
 
 /// The compiled kernels, in the order of Integrator; null pointers for kernels not compiled.
-constexpr std::array<SweepKernelChoice, 4> compiled(Kernel kernel)
+constexpr std::array<SweepKernelChoice, 5> compiled(Kernel kernel)
 {
     switch (kernel) {
 #ifdef OVERTURN_KERNEL_double

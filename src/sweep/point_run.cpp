@@ -129,8 +129,7 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
     const Point& at = this->point(point);
     const Block<T> block = block_in<T>(at.block);
     if constexpr (!std::same_as<T, long double>) { // only for pulses
-        const Accelerogram* record = record_of(point);
-        if (std::same_as<T, DoubleDouble> || record != nullptr) { // the former only for records
+        if (const Accelerogram* record = record_of(point)) {
             return visit(
                 record_excitation<theory>(*record, block, T(at.amplitude), T(at.frequency)));
         }
@@ -139,7 +138,7 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         const ScaledPulse<double>& pulse = pulse_of(point);
         return visit(
             PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
-    } else if constexpr (!std::same_as<T, DoubleDouble>) {
+    } else {
         return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape), block,
                                               T(at.amplitude), T(at.frequency)));
     }
@@ -155,6 +154,19 @@ void PointRun::throw_if_dropped() const
 void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
                    UncertainImpact uncertain_impact) const
 {
+    run_to({integrator_of(scene_, numerics), numerics.tolerance, uncertain_impact}, outcomes,
+           chosen);
+}
+
+void PointRun::run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const
+{
+    constexpr double tolerance = 1e-29;
+    run_to({Integrator::recorded_31, tolerance, UncertainImpact::go_on}, outcomes, chosen);
+}
+
+void PointRun::run_to(const Accuracy& accuracy, Outcomes& outcomes,
+                      const std::vector<int>& chosen) const
+{
     const auto is_dropped = [](const void* requested) {
         const auto& drop_requested = *static_cast<const DropRequested*>(requested);
         return drop_requested && drop_requested();
@@ -166,9 +178,9 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
                               .are_symmetric = are_symmetric_,
                               .pulse_of_point = pulses_.of_point.data(),
                               .pulses = pulses_.pulses.data(),
-                              .tolerance = numerics.tolerance,
+                              .tolerance = accuracy.tolerance,
                               .outputs = outcomes.outputs,
-                              .uncertain_impact = uncertain_impact,
+                              .uncertain_impact = accuracy.uncertain_impact,
                               .chosen = points.data(),
                               .chosen_count = int(points.size()),
                               .drop_requested = is_dropped,
@@ -176,7 +188,7 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
         const Directions directions = record != nullptr && !record->upwards().empty()
                                           ? Directions::both
                                           : Directions::horizontal;
-        sweep_kernel(kernel_, integrator_of(scene_, numerics), scene_.theory, outcomes.outputs,
+        sweep_kernel(kernel_, accuracy.integrator, scene_.theory, outcomes.outputs,
                      directions)(task, outcomes.pointers());
         throw_if_dropped(); // if dropped, some outcomes may be missing
     };
@@ -200,9 +212,6 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
 template <class T>
 void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
 {
-    if (std::same_as<T, long double> && scene_.is_recorded()) {
-        return run_in_more_digits<DoubleDouble>(point, outcomes);
-    }
     throw_if_dropped();
     if (falls_freely(point)) {
         outcomes.set_free_fall(point);
@@ -348,7 +357,7 @@ std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
 }
 
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
-                     std::optional<int> most_in_50_digits)
+                     int most_in_50_digits)
 {
     Outputs computed = outputs;
     computed.error = outputs.error || numerics.resolve;
@@ -363,9 +372,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     points.run(first_pass, outcomes, points.all(),
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
-        const int by_default =
-            points.scene().is_recorded() ? numerics.most_in_50_digits : points.size();
-        resolve(points, most_in_50_digits.value_or(by_default), outcomes);
+        resolve(points, most_in_50_digits, outcomes);
     }
     if (outputs.peak && !computed.peak) {
         // Under a pulse, a kernel computes either errors or peaks.

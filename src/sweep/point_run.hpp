@@ -7,7 +7,7 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/tile.hpp"
 
-#include <optional>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -100,9 +100,12 @@ public:
     void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
              UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
-    /// Integrates one point in more digits, T: long double, in whose place points under a record
-    /// take DoubleDouble, or Digits50. Region, margin and error are computed before the end is
-    /// rounded to double.
+    /// The same in 31 digits, under records only. Region, margin and error are computed before the
+    /// end is rounded to double.
+    void run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const;
+
+    /// Integrates one point in more digits, T: long double, only under a pulse, or Digits50.
+    /// Region, margin and error are computed before the end is rounded to double.
     template <class T>
     void run_in_more_digits(int point, Outcomes& outcomes) const;
 
@@ -118,6 +121,13 @@ public:
 
 private:
     void throw_if_dropped() const;
+
+    struct Accuracy {
+        Integrator integrator;
+        double tolerance;
+        UncertainImpact uncertain_impact;
+    };
+    void run_to(const Accuracy& accuracy, Outcomes& outcomes, const std::vector<int>& chosen) const;
 
     /// Whether gravity vanishes or is reversed at some time of the record.
     bool falls_freely(int point) const;
@@ -142,13 +152,13 @@ private:
 };
 
 /// Integrates again, with more and more digits, the points whose verdict is in doubt; those that
-/// remain in doubt get outcome_flag::unresolved. most_in_50_digits: of the points under one motion.
-/// Defined in resolve.cpp.
+/// remain in doubt get outcome_flag::unresolved. most_in_50_digits: the largest number of points
+/// computed in 50 digits. Defined in resolve.cpp.
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes);
 
 /// The outcomes of all points of any job, resolved if its numerics ask for it. most_in_50_digits:
-/// by default all points; under a record, Numerics::most_in_50_digits.
+/// see resolve(); by default, no point depends on the others.
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
-                     std::optional<int> most_in_50_digits = std::nullopt);
+                     int most_in_50_digits = std::numeric_limits<int>::max());
 
 } // namespace overturn

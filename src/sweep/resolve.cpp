@@ -2,9 +2,10 @@
 
 #include "overturn/integrate/more_digits.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 
 namespace overturn {
 
@@ -42,26 +43,19 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
     return in_doubt;
 }
 
-/// Whether a computation in T may settle a point. With more digits, a series of bounces takes as
-/// many steps as in double. On some machines, long double is double; under a record, it is not
-/// used.
-template <class T>
-bool may_settle_in(const PointRun& run, int point, const Outcomes& outcomes)
+/// With more digits, a series of bounces takes as many steps as in double.
+constexpr int most_steps_in_31_digits = 20000;
+
+/// Whether a point took at most this number of steps, in addition to one per interval of a record.
+bool is_short(const PointRun& run, int point, int most_steps, const Outcomes& outcomes)
 {
     const Accelerogram* record = run.record_of(point);
     const double intervals = record != nullptr ? double(record->samples() - 1) : 0;
-    return (record != nullptr ||
-            std::numeric_limits<T>::digits > std::numeric_limits<double>::digits) &&
-           outcomes.steps[std::size_t(point)] <= MoreDigits<T>::most_steps + intervals;
+    return outcomes.steps[std::size_t(point)] <= most_steps + intervals;
 }
 
-template <class T>
-bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
+bool is_settled(int point, const Outcomes& outcomes)
 {
-    if (!may_settle_in<T>(run, point, outcomes)) {
-        return false;
-    }
-    run.run_in_more_digits<T>(point, outcomes);
     return !(outcomes.flags[std::size_t(point)] &
              (outcome_flag::in_doubt | outcome_flag::without_end));
 }
@@ -71,22 +65,38 @@ bool settle_in(const PointRun& run, int point, Outcomes& outcomes)
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
 {
     std::vector<int> in_doubt = settle_capped(run, run.all(), safety_of_first_pass, outcomes);
-    if (!in_doubt.empty()) {
-        // Settles almost every point, still in double; if the first pass was as accurate, it still
-        // completes the runs that were stopped.
-        run.run(most_accurate, outcomes, in_doubt);
-        in_doubt = settle_capped(run, in_doubt, 1, outcomes);
+    if (in_doubt.empty()) {
+        return;
     }
-    std::map<int, int> in_50_digits; // of each motion
+    // Settles almost every point, still in double; if the first pass was as accurate, it still
+    // completes the runs that were stopped.
+    run.run(most_accurate, outcomes, in_doubt);
+    in_doubt = settle_capped(run, in_doubt, 1, outcomes);
+    std::erase_if(in_doubt, [&](int point) { return run.settle_low_bounces(point, outcomes); });
+    if (run.scene().is_recorded()) {
+        std::vector<int> chosen;
+        std::ranges::copy_if(in_doubt, std::back_inserter(chosen), [&](int point) {
+            return is_short(run, point, most_steps_in_31_digits, outcomes);
+        });
+        run.run_in_31_digits(outcomes, chosen);
+        std::erase_if(in_doubt, [&](int point) { return is_settled(point, outcomes); });
+    } else if (std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits) {
+        std::erase_if(in_doubt, [&](int point) {
+            if (!is_short(run, point, MoreDigits<long double>::most_steps, outcomes)) {
+                return false;
+            }
+            run.run_in_more_digits<long double>(point, outcomes);
+            return is_settled(point, outcomes);
+        });
+    }
+    // Under a record, steps are up to twice as long as in 31 digits.
+    const int longest = MoreDigits<Digits50>::most_steps * (run.scene().is_recorded() ? 2 : 1);
     for (const int point : in_doubt) {
-        bool settled =
-            run.settle_low_bounces(point, outcomes) || settle_in<long double>(run, point, outcomes);
-        int& count = in_50_digits[run.point(point).record];
-        if (!settled && may_settle_in<Digits50>(run, point, outcomes) &&
-            count < most_in_50_digits) {
-            ++count;
+        bool settled = false;
+        if (outcomes.in_50_digits < most_in_50_digits && is_short(run, point, longest, outcomes)) {
             ++outcomes.in_50_digits;
-            settled = settle_in<Digits50>(run, point, outcomes);
+            run.run_in_more_digits<Digits50>(point, outcomes);
+            settled = is_settled(point, outcomes);
         }
         if (!settled) {
             give_up(point, outcomes);

@@ -7,6 +7,7 @@
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
+#include "overturn/number/double_double.hpp"
 #include "overturn/number/pack.hpp"
 
 #include <limits>
@@ -17,6 +18,9 @@ namespace overturn {
 namespace {
 
 using T = OVERTURN_NUMBER;
+using S = scalar_t<T>;
+
+constexpr bool has_31_digits = !std::same_as<S, double>;
 
 constexpr int lanes = lanes_v<T>;
 
@@ -45,7 +49,15 @@ template <Theory theory, Outputs outputs>
     T flags = flagged(end.fell, outcome_flag::fell) + flagged(end.rested, outcome_flag::rested) +
               flagged(end.capped, outcome_flag::capped) +
               flagged(end.not_finite, outcome_flag::not_finite);
-    if constexpr (outputs.error) {
+    if constexpr (has_31_digits) {
+        // The margin is rounded to double.
+        using std::abs;
+        const T margin = abs(margin_of<theory>(end, block));
+        const T error = select<T>(end.error < T(std::numeric_limits<double>::infinity()),
+                                  end.error + margin * T(0x1p-53), end.error);
+        flags = flags + flagged(!(error < margin), outcome_flag::in_doubt);
+        put(error, to.error);
+    } else if constexpr (outputs.error) {
         flags = flags + flagged(end.in_doubt, outcome_flag::in_doubt);
         put(end.error, to.error);
     }
@@ -89,16 +101,16 @@ struct PackPoints {
         for (int i = 0; i < lanes; ++i) {
             const int last = task.chosen_count - 1;
             point[i] = task.chosen[first + i < last ? first + i : last];
-            spare[i] = first + i > last ? std::numeric_limits<double>::infinity() : 0;
+            spare[i] = first + i > last ? std::numeric_limits<S>::infinity() : S(0);
         }
     }
 
     template <class Value>
     T gathered(const Value& value) const
     {
-        double values[lanes];
+        S values[lanes];
         for (int i = 0; i < lanes; ++i) {
-            values[i] = value(point[i]);
+            values[i] = S(value(point[i]));
         }
         return load<T>(values);
     }
@@ -127,7 +139,7 @@ struct PackPoints {
     template <Theory theory, Directions directions>
     RecordExcitation<T, directions> record_excitation(const Block<T>& blocks) const
     {
-        return {.motion = record_motion<double>(*task.record),
+        return {.motion = record_motion<S>(*task.record),
                 .acceleration =
                     select<T>(load<T>(spare) == T(0.0),
                               gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
@@ -136,26 +148,28 @@ struct PackPoints {
                 .to_minus = uplift_acceleration<theory>(blocks.other.slenderness)};
     }
 
-    PulseExcitation<T> pulse_excitation() const
+    /// N: T, as a parameter because kernels for records do not compile this.
+    template <Number N>
+    PulseExcitation<N> pulse_excitation() const
     {
         const auto pulse_of = [&](int i) -> const ScaledPulse<double>& {
             return task.pulses[task.pulse_of_point[i]];
         };
         const ScaledPulse<double>& first = pulse_of(point[0]);
         const bool share_pulse = &first == &pulse_of(point[lanes - 1]); // then all lanes do
-        const auto of_pulse = [&](const auto& value) -> T {
-            return share_pulse ? T(value(first))
+        const auto of_pulse = [&](const auto& value) -> N {
+            return share_pulse ? N(value(first))
                                : gathered([&](int i) { return value(pulse_of(i)); });
         };
-        PulseExcitation<T> excitation{
+        PulseExcitation<N> excitation{
             .motion = task.pulse,
             .acceleration =
                 of_pulse([](const ScaledPulse<double>& pulse) { return pulse.acceleration; }),
             .frequency = gathered([&](int i) { return task.points[i].frequency; }),
             .uplifts = {}};
-        const T never_in_spare = load<T>(spare);
+        const N never_in_spare = load<N>(spare);
         for (int lobe = 0; lobe < first.uplifts.count; ++lobe) {
-            const T uplift = of_pulse(
+            const N uplift = of_pulse(
                 [&](const ScaledPulse<double>& pulse) { return pulse.uplifts.values[lobe]; });
             excitation.uplifts.push_back(uplift + never_in_spare);
         }
@@ -164,7 +178,7 @@ struct PackPoints {
 
     const KernelTask& task;
     int point[lanes];
-    double spare[lanes]; ///< infinite in spare lanes
+    S spare[lanes]; ///< infinite in spare lanes
 };
 
 /// Steps of a pack between two calls of drop_requested(): a few milliseconds. A pack may take a
@@ -181,7 +195,7 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
         if constexpr (OVERTURN_RECORDED) {
             return points.record_excitation<theory, directions>(blocks);
         } else {
-            return points.pulse_excitation();
+            return points.pulse_excitation<T>();
         }
     };
     using Excitation =
@@ -198,7 +212,7 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
     {
         const PackPoints points(task, next);
         const Block<T> blocks = points.blocks();
-        pack.stage.emplace(blocks, excitation_of(points, blocks), task.tolerance,
+        pack.stage.emplace(blocks, excitation_of(points, blocks), S(task.tolerance),
                            task.uncertain_impact);
         pack.first = next;
         next += lanes;
@@ -236,30 +250,36 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 template <Theory theory, Directions directions>
 SweepKernel kernel_for(const Outputs& outputs)
 {
-    if (outputs.error) {
+    if (has_31_digits || outputs.error) {
         // Under a record, the motion may be so sensitive that another integration has another peak.
         return sweep<theory, Outputs{.impacts = true, .error = true, .peak = OVERTURN_RECORDED},
                      directions>;
     }
-    if (outputs.peak) {
-        return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;
-    }
-    // Counting impacts costs little beside a step under a record.
-    if (OVERTURN_RECORDED || outputs.impacts) {
-        return sweep<theory, Outputs{.impacts = true}, directions>;
+    if constexpr (!has_31_digits) {
+        if (outputs.peak) {
+            return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;
+        }
+        // Counting impacts costs little beside a step under a record.
+        if (OVERTURN_RECORDED || outputs.impacts) {
+            return sweep<theory, Outputs{.impacts = true}, directions>;
+        }
     }
     // Under a record this is not reached, and compiles no further kernel.
-    return sweep<theory, Outputs{.impacts = bool(OVERTURN_RECORDED)}, directions>;
+    return sweep<
+        theory,
+        Outputs{.impacts = bool(OVERTURN_RECORDED), .error = has_31_digits, .peak = has_31_digits},
+        directions>;
 }
 
 template <Theory theory>
 SweepKernel kernel_for(const Outputs& outputs, Directions directions)
 {
-    // Only records have a vertical motion: for pulses no further kernel is compiled.
+    // Only records have a vertical motion: for pulses no further kernel is compiled. In 31 digits,
+    // one for both is almost as fast.
     constexpr Directions both = OVERTURN_RECORDED ? Directions::both : Directions::horizontal;
-    return directions == Directions::horizontal
-               ? kernel_for<theory, Directions::horizontal>(outputs)
-               : kernel_for<theory, both>(outputs);
+    constexpr Directions fewest = has_31_digits ? both : Directions::horizontal;
+    return directions == Directions::horizontal ? kernel_for<theory, fewest>(outputs)
+                                                : kernel_for<theory, both>(outputs);
 }
 
 } // namespace

@@ -2,12 +2,17 @@
 #include "support/linear_reference.hpp"
 #include "support/record_point.hpp"
 
+#include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/number/digits50.hpp"
+#include "overturn/number/double_double.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <vector>
 
 namespace overturn {
 namespace {
@@ -95,6 +100,45 @@ TEST(RecordInLinearTheory, PeakIsThatOfItsClosedForm)
         EXPECT_NEAR(peak, double(exact.peak), (4 * end.error + 1e-11) * point.block.slenderness)
             << i;
     }
+}
+
+/// The margin under a record, and its error bound, in 50 digits.
+template <class Method, class T>
+std::array<Digits50, 2> margin_in(const RecordPoint& point, double tolerance)
+{
+    constexpr Theory theory = Theory::nonlinear;
+    constexpr Outputs outputs{.impacts = true, .error = true, .peak = true};
+    const Block<T> block = block_in<T>(point.block);
+    const auto end = run_forced_stage<Method, theory, outputs>(
+        block, record_excitation<theory>(point.record, block, T(point.scale), T(point.frequency)),
+        T(tolerance));
+    const auto exactly = [](const T& x) -> Digits50 {
+        if constexpr (std::same_as<T, Digits31>) {
+            return Digits50(x.high()) + x.low();
+        } else {
+            return x;
+        }
+    };
+    return {exactly(margin_of<theory>(end, block)), exactly(end.error)};
+}
+
+TEST(RecordIn31Digits, HasTheMarginOf50DigitsWithinItsError)
+{
+    std::mt19937_64 generator(24);
+    std::vector<double> errors;
+    for (int i = 0; i < 60; ++i) {
+        const RecordPoint point = random_record_point(
+            generator, 25, i % 2 == 0 ? Directions::horizontal : Directions::both);
+        const auto [exact, rest] = margin_in<Taylor<20>, Digits50>(point, 1e-36);
+        const auto [margin, error] = margin_in<Taylor<16>, Digits31>(point, 1e-29);
+        errors.push_back(double(error));
+        if (errors.back() < infinity) {
+            EXPECT_LE(double(abs(margin - exact)), double(error + rest)) << i;
+        }
+    }
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[30], 1e-25); // as in 31 digits, after growing with exp(p t) and at impacts
+    EXPECT_LT(errors[55], infinity);
 }
 
 /// A constant acceleration, horizontal a and upwards v, turns the direction of gravity:

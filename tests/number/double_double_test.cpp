@@ -10,9 +10,9 @@
 namespace overturn {
 namespace {
 
-using Limits = std::numeric_limits<DoubleDouble>;
+using Limits = std::numeric_limits<Digits31>;
 
-Digits50 exactly(const DoubleDouble& x)
+Digits50 exactly(const Digits31& x)
 {
     return Digits50(x.high()) + Digits50(x.low());
 }
@@ -20,10 +20,10 @@ Digits50 exactly(const DoubleDouble& x)
 /// Numbers of very different sizes with digits in both parts.
 class RandomNumbers {
 public:
-    DoubleDouble operator()()
+    Digits31 operator()()
     {
         const double high = std::ldexp(mantissa_(generator_), exponent_(generator_));
-        return DoubleDouble(high) + DoubleDouble(high * 0x1p-54 * mantissa_(generator_));
+        return Digits31(high) + Digits31(high * 0x1p-54 * mantissa_(generator_));
     }
 
 private:
@@ -39,8 +39,8 @@ double worst(const Computed& computed, const Reference& reference)
     RandomNumbers number;
     double largest = 0;
     for (int i = 0; i < 20000; ++i) {
-        const DoubleDouble a = number();
-        const DoubleDouble b = number();
+        const Digits31 a = number();
+        const Digits31 b = number();
         const Digits50 expected = reference(exactly(a), exactly(b));
         const Digits50 error = (exactly(computed(a, b)) - expected) / expected;
         largest = std::max(largest, double(abs(error)));
@@ -78,10 +78,10 @@ TEST(DoubleDouble, QuotientsAndRootsAreWithinEpsilon)
 
 TEST(DoubleDouble, SumsThatCancelKeepTheirLastDigits)
 {
-    const DoubleDouble third = DoubleDouble(1) / DoubleDouble(3);
-    const DoubleDouble left = (third + third) + third - DoubleDouble(1);
+    const Digits31 third = Digits31(1) / Digits31(3);
+    const Digits31 left = (third + third) + third - Digits31(1);
     EXPECT_LT(std::abs(double(left)), 4 * u_squared);
-    EXPECT_EQ(double((DoubleDouble(1) + DoubleDouble(0x1p-100)) - DoubleDouble(1)), 0x1p-100);
+    EXPECT_EQ(double((Digits31(1) + Digits31(0x1p-100)) - Digits31(1)), 0x1p-100);
 }
 
 TEST(DoubleDouble, SineAndCosineAreAccurateTo31Digits)
@@ -92,7 +92,7 @@ TEST(DoubleDouble, SineAndCosineAreAccurateTo31Digits)
         double error = 0;
         for (int i = 0; i < 5000; ++i) {
             const double high = uniform(generator);
-            const DoubleDouble x = DoubleDouble(high) + DoubleDouble(high * 0x1.23p-55);
+            const Digits31 x = Digits31(high) + Digits31(high * 0x1.23p-55);
             const auto [sine, cosine] = sine_and_cosine(x);
             error = std::max({error, std::abs(double(exactly(sine) - sin(exactly(x)))),
                               std::abs(double(exactly(cosine) - cos(exactly(x))))});
@@ -104,7 +104,7 @@ TEST(DoubleDouble, SineAndCosineAreAccurateTo31Digits)
 TEST(DoubleDouble, TheSineOfASmallAngleIsAccurateToTheLastDigit)
 {
     for (const double x : {1e-300, 1e-20, 1e-8, 1e-3}) {
-        const Digits50 sine = exactly(sine_and_cosine(DoubleDouble(x)).sine);
+        const Digits50 sine = exactly(sine_and_cosine(Digits31(x)).sine);
         EXPECT_LT(std::abs(double((sine - sin(Digits50(x))) / sin(Digits50(x)))),
                   double(Limits::epsilon()))
             << x;
@@ -113,20 +113,20 @@ TEST(DoubleDouble, TheSineOfASmallAngleIsAccurateToTheLastDigit)
 
 TEST(DoubleDouble, PiIsThatOf31Digits)
 {
-    EXPECT_LT(std::abs(double(exactly(pi<DoubleDouble>()) - pi<Digits50>())), 2 * u_squared);
+    EXPECT_LT(std::abs(double(exactly(pi<Digits31>()) - pi<Digits50>())), 2 * u_squared);
 }
 
 TEST(DoubleDouble, ComparesByBothParts)
 {
-    const DoubleDouble one(1);
-    const DoubleDouble more = one + DoubleDouble(0x1p-80);
+    const Digits31 one(1);
+    const Digits31 more = one + Digits31(0x1p-80);
     EXPECT_TRUE(one < more && more > one && one <= more && more >= one && !(one == more));
     EXPECT_TRUE(one <= one && one >= one && one == one && !(one < one));
-    const DoubleDouble infinity = Limits::infinity();
+    const Digits31 infinity = Limits::infinity();
     EXPECT_TRUE(more < infinity && infinity == infinity && -infinity < one);
-    const DoubleDouble unknown = Limits::quiet_NaN();
+    const Digits31 unknown = Limits::quiet_NaN();
     EXPECT_FALSE(unknown < one || unknown > one || unknown <= one || unknown == unknown);
-    EXPECT_EQ(double(floor(one - DoubleDouble(0x1p-80))), 0);
+    EXPECT_EQ(double(floor(one - Digits31(0x1p-80))), 0);
     EXPECT_EQ(double(ceil(more)), 2);
 }
 

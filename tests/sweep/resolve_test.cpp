@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace overturn {
 namespace {
@@ -136,16 +137,63 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
     const Point block{{point.block.slenderness, 1}, point.scale, point.frequency};
     const std::vector<Point> points(3, block);
-    Numerics numerics = resolved_taylor;
-    EXPECT_EQ(numerics.most_in_50_digits, 32);
-    numerics.most_in_50_digits = 1;
-    const Outcomes outcomes =
-        outcomes_of(PointRun(scene, points, widest_kernel()), numerics, {.region = true});
-    EXPECT_EQ(outcomes.in_50_digits, 1);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::uint8_t flags = i == 0 ? 0 : outcome_flag::unresolved | outcome_flag::in_doubt;
-        EXPECT_EQ(outcomes.flags[i], flags) << i;
-        EXPECT_EQ(Region(outcomes.region[i]) == Region::undecided, i > 0) << i;
+    const PointRun run(scene, points, widest_kernel());
+    for (const int most : {1, 3}) {
+        const Outcomes outcomes = outcomes_of(run, resolved_taylor, {.region = true}, most);
+        EXPECT_EQ(outcomes.in_50_digits, most);
+        for (int i = 0; i < run.size(); ++i) {
+            const std::uint8_t flags =
+                i < most ? 0 : outcome_flag::unresolved | outcome_flag::in_doubt;
+            EXPECT_EQ(outcomes.flags[std::size_t(i)], flags) << i;
+            EXPECT_EQ(Region(outcomes.region[std::size_t(i)]) == Region::undecided, i >= most);
+        }
+    }
+}
+
+TEST(PointsIn31Digits, AreTheSameOnEveryKernel)
+{
+    std::mt19937_64 generator(8);
+    for (const Directions directions : {Directions::horizontal, Directions::both}) {
+        const RecordPoint drawn = random_record_point(generator, 60, directions);
+        Scene scene;
+        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        std::vector<Point> points;
+        for (int i = 0; i < 21; ++i) {
+            points.push_back({{drawn.block.slenderness, 0.7 + 0.01 * i},
+                              drawn.scale * (1 - 0.02 * i),
+                              drawn.frequency * (1 + 0.01 * i)});
+        }
+        std::vector<int> chosen;
+        for (int i = 0; i < 21; i += 1 + i % 2) {
+            chosen.push_back(i);
+        }
+        constexpr Outputs outputs{.impacts = true,
+                                  .error = true,
+                                  .peak = true,
+                                  .region = true,
+                                  .margin = true,
+                                  .steps = true};
+        std::optional<Outcomes> first;
+        for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
+            if (!runs_here(kernel)) {
+                continue;
+            }
+            Outcomes found(21, outputs);
+            PointRun(scene, points, kernel).run_in_31_digits(found, chosen);
+            if (!first) {
+                first = found;
+            }
+            for (const int i : chosen) {
+                const auto k = std::size_t(i);
+                EXPECT_EQ(found.tilt[k], first->tilt[k]);
+                EXPECT_EQ(found.margin[k], first->margin[k]);
+                EXPECT_EQ(found.error[k], first->error[k]);
+                EXPECT_EQ(found.peak[k], first->peak[k]);
+                EXPECT_EQ(found.steps[k], first->steps[k]);
+                EXPECT_EQ(found.region[k], first->region[k]);
+                EXPECT_EQ(found.flags[k], first->flags[k]);
+            }
+        }
     }
 }
 

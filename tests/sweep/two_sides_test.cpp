@@ -161,7 +161,7 @@ Outcomes end_under(Theory theory, const Accelerogram& record, std::size_t sample
     scene.records = {std::make_shared<const Accelerogram>(
         first(record.horizontal()), first(record.upwards()), record.time_step())};
     Outcomes outcomes(1, all_outputs);
-    PointRun(scene, {point}, widest_kernel()).run_in_more_digits<long double>(0, outcomes);
+    PointRun(scene, {point}, widest_kernel()).run_in_31_digits(outcomes, {0});
     return outcomes;
 }
 

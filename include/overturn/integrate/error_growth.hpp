@@ -17,10 +17,11 @@ inline const S unknown_error = S(0x1p+200);
 /// The local errors of a step, and the quantities that propagate errors over it.
 template <Number T>
 struct StepErrors {
-    Variation<T> variation; ///< of the end with respect to the beginning
-    T tilt;                 ///< bound of the local error of the tilt [rad]
-    T rate;                 ///< bound of the local error of the rate [rad]
-    T acceleration;         ///< at the end [rad]
+    using E = estimate_t<T>;
+    Variation<E> variation; ///< of the end with respect to the beginning
+    E tilt;                 ///< bound of the local error of the tilt [rad]
+    E rate;                 ///< bound of the local error of the rate [rad]
+    E acceleration;         ///< at the end [rad]
     T turning_tilt;         ///< the tilt where the rate changes its sign, see turning_tilt() [rad]
 };
 

@@ -11,6 +11,7 @@ namespace overturn {
 template <Theory theory, Number T>
 class MarginError {
     using S = scalar_t<T>;
+    using E = estimate_t<T>;
     using Mask = mask_t<T>;
 
 public:
@@ -26,18 +27,22 @@ public:
     {
         using arithmetic::fma;
         using std::abs;
-        const T rounding(std::numeric_limits<S>::epsilon());
-        const T rate = abs(now.rate) + abs(step.rate);
-        const T acceleration = excitation.largest_acceleration() + block.slenderness;
+        const E rounding(scalar_t<E>(std::numeric_limits<S>::epsilon()));
+        const E end_rate = estimate_of(step.rate);
+        const E rate = abs(E(estimate_of(now.rate))) + abs(end_rate);
+        const E acceleration =
+            estimate_of(T(excitation.largest_acceleration() + block.slenderness));
         // A constant rounding error, e.g. that of the peak of the pulse, adds up; those of the
         // phase and the state are random.
-        const T duration = (step.phase - now.phase) / excitation.frequency;
-        const T late = abs(step.phase) / excitation.frequency;
+        const E frequency = estimate_of(excitation.frequency);
+        const E duration = E(estimate_of(T(step.phase - now.phase))) / frequency;
+        const E late = abs(E(estimate_of(step.phase))) / frequency;
         growth_.pass(step.errors.variation, lanes);
         growth_.add(fma(rounding * duration, rate, step.errors.tilt),
                     fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
-        growth_.add_round_off({rounding * step.tilt, rounding * rate, rounding * late}, step.rate,
-                              step.errors.acceleration, lanes);
+        growth_.add_round_off(
+            {rounding * E(estimate_of(step.tilt)), rounding * rate, rounding * late}, end_rate,
+            step.errors.acceleration, lanes);
 
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;
@@ -46,7 +51,7 @@ public:
         const Mask inward = lanes && ((now.rate < zero_ && step.rate > zero_) || dips);
         const Mask outward = lanes && now.rate > zero_ && step.rate < zero_;
         if (any<T>(inward || outward)) {
-            const T radius = growth_.bound(T(S(1)), zero_);
+            const T radius = bound(T(S(1)), zero_);
             const Mask met =
                 (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
             doubtful_ = doubtful_ || met;
@@ -66,15 +71,18 @@ public:
         const T after =
             rocking_acceleration<theory>(zero_, block.other.slenderness, mirrored(push));
         const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
-        const T square_error = growth_.bound(T(before + before), T(speed + speed));
+        const T square_error = bound(T(before + before), T(speed + speed));
         const T share = select<T>(rests, T(S(64)), T(S(4)));
-        const T radius = growth_.bound(T(S(1)), zero_);
+        const T radius = bound(T(S(1)), zero_);
         const Mask known =
             share * square_error < speed * speed && T(S(4)) * radius < block.slenderness;
         doubtful_ = doubtful_ || (lanes && !(known && now.rate < zero_));
         growth_.forget(doubtful_); // it would only grow until it overflows
         const T pace = block.other.pace / block.pace;
-        growth_.pass(variation_over_impact<T>(rate_ratio, pace, speed, before, after), lanes);
+        growth_.pass(variation_over_impact<E>(estimate_of(rate_ratio), estimate_of(pace),
+                                              estimate_of(speed), estimate_of(before),
+                                              estimate_of(after)),
+                     lanes);
     }
 
     /// The end of the lanes, at `now`, with its error and whether its verdict is in doubt.
@@ -85,7 +93,7 @@ public:
         using std::abs;
         using std::sqrt;
         const T one(S(1));
-        const T radius = growth_.bound(one, zero_);
+        const T radius = bound(one, zero_);
         const T largest = separatrix_rate<theory>(zero_, block.slenderness);
         const Distance standing = distance_to_separatrix(block, now, radius, largest);
         // An impact on this side i changes the margin by the factor sqrt(r W_i / W_j), one on the
@@ -100,9 +108,9 @@ public:
         // 2 v d(rate) - 2 a d(tilt).
         const auto push = now.side * excitation.ground(now.phase);
         const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
-        const T lying = (growth_.bound(T(pull + pull), T(now.rate + now.rate)) +
-                         roundings() * now.rate * now.rate) /
-                        (largest * largest);
+        const T lying =
+            (bound(T(pull + pull), T(now.rate + now.rate)) + roundings() * now.rate * now.rate) /
+            (largest * largest);
         // Whether it is uncertain that the block falls before the pulse ends.
         const T left = (excitation.motion.end - now.phase) / excitation.frequency;
         const Mask either =
@@ -113,7 +121,7 @@ public:
         const Mask barely = fell && !(T(S(4)) * standing.error < abs(standing.margin) &&
                                       lying * largest * largest < now.rate * now.rate);
         const T error = select<T>(fell, lying, standing.error + near_impact);
-        const Mask known = growth_.bound(one, one) < T(unknown_error<S> * S(0x1p-100));
+        const Mask known = bound(one, one) < T(unknown_error<S> * S(0x1p-100));
         const Mask unknown =
             doubtful_ || end.is_stopped() || either || barely || !known || !(error == error);
         end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
@@ -122,6 +130,11 @@ public:
     }
 
 private:
+    T bound(const T& by_tilt, const T& by_rate) const
+    {
+        return T(growth_.bound(estimate_of(by_tilt), estimate_of(by_rate)));
+    }
+
     static T roundings() { return T(8 * std::numeric_limits<S>::epsilon()); }
 
     struct Distance {
@@ -143,7 +156,7 @@ private:
         };
         const T above = (safe.outward - now.rate) / largest;
         const T below = inward.distance(now.rate) / largest;
-        const T above_error = growth_.bound(slope, -one) / largest + round_off(safe.outward);
+        const T above_error = bound(slope, -one) / largest + round_off(safe.outward);
         const T below_error =
             error_of_limit(inward, {safe.outward, slope, radius, largest}, now.rate) / largest +
             round_off(inward.limit);
@@ -167,7 +180,7 @@ private:
         const auto with_gradient = [&](const T& c) -> T {
             const T limit = inward.limit_at(c);
             const T gradient = c / select<T>(limit > zero_, limit, at.largest);
-            return growth_.bound(T(at.slope * gradient), one);
+            return bound(T(at.slope * gradient), one);
         };
         const T error =
             greater<T>(with_gradient(at.c - at.radius), with_gradient(at.c + at.radius));
@@ -189,9 +202,9 @@ private:
         const auto with_gradient = [&](const T& c, const T& limit) -> T {
             const T divisor = select<T>(limit == zero_, at.largest, T(abs(limit)));
             const T gradient = abs(c) / divisor;
-            const T inwards = growth_.bound(T(at.slope * gradient), one);
-            const T outwards = growth_.bound(T(at.slope * gradient), -one);
-            const T of_rate = growth_.bound(zero_, one);
+            const T inwards = bound(T(at.slope * gradient), one);
+            const T outwards = bound(T(at.slope * gradient), -one);
+            const T of_rate = bound(zero_, one);
             return lost / divisor +
                    select<T>(rate > of_rate, outwards,
                              select<T>(rate < -of_rate, inwards, greater<T>(inwards, outwards)));
@@ -199,11 +212,11 @@ private:
         const T regular =
             greater<T>(with_gradient(at.c - at.radius, low), with_gradient(at.c + at.radius, high));
         const Mask is_regular = (low > zero_ && high > zero_) || (low < zero_ && high < zero_);
-        return select<T>(is_regular, regular, (high - low) + growth_.bound(zero_, one));
+        return select<T>(is_regular, regular, (high - low) + bound(zero_, one));
     }
 
     T zero_ = T(S(0));
-    ErrorGrowth<T> growth_;
+    ErrorGrowth<E> growth_;
     Mask doubtful_ = !(zero_ == zero_); // see is_doubtful()
 };
 

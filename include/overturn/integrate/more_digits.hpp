@@ -5,7 +5,6 @@
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/number/digits50.hpp"
-#include "overturn/number/double_double.hpp"
 
 #include <functional>
 
@@ -24,14 +23,6 @@ struct MoreDigits<long double> {
     static constexpr int most_steps = 20000;
 };
 
-/// 31 digits, for records, whose steps are many and short: a few microseconds per step.
-template <>
-struct MoreDigits<DoubleDouble> {
-    using Method = Taylor<20>;
-    static constexpr double tolerance = 1e-29;
-    static constexpr int most_steps = 20000;
-};
-
 /// At least 25 digits at the end of a pulse, after about a hundred steps of half a millisecond.
 template <>
 struct MoreDigits<Digits50> {
@@ -43,8 +34,9 @@ struct MoreDigits<Digits50> {
 /// Like run_forced_stage(), for one block, with the outputs impacts and error, under a record also
 /// the peak. A run that exceeds `step_limit` steps, in addition to one per interval of a record, is
 /// capped, as is one that stop_requested() ends; it is called every few milliseconds. T: long
-/// double under a pulse, DoubleDouble under a record, or Digits50; excitation: PulseExcitation<T>,
-/// or RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
+/// double, only under a pulse, or Digits50; excitation: PulseExcitation<T>, or
+/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate. Under a record, a kernel
+/// integrates in 31 digits.
 template <class T, Theory theory, class Excitation>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,
@@ -81,8 +73,6 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
     keyword ForcedEnd<T> run_in_more_digits<T, Theory::linear>(                                    \
         const Block<T>&, const __VA_ARGS__&, const std::function<bool()>&, double, int);
 OVERTURN_MORE_DIGITS(extern template, long double, PulseExcitation<long double>)
-OVERTURN_MORE_DIGITS(extern template, DoubleDouble,
-                     RecordExcitation<DoubleDouble, Directions::both>)
 OVERTURN_MORE_DIGITS(extern template, Digits50, PulseExcitation<Digits50>)
 OVERTURN_MORE_DIGITS(extern template, Digits50, RecordExcitation<Digits50, Directions::both>)
 

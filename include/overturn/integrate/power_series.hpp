@@ -25,19 +25,42 @@ T sum_of_powers(const T& t, const Term& term)
     return count % 2 == 1 ? fma(lower, t, upper) : fma(upper, t, lower);
 }
 
+/// The same, but only full_terms in all digits of T.
+template <int first, int count, Number T, class Term>
+T sum_of_small_powers(const T& t, const Term& term)
+{
+    constexpr int full = full_terms<T, first + count>;
+    if constexpr (full < first + count) {
+        using E = estimate_t<T>;
+        const T rest(
+            sum_of_powers<full, first + count - full>(E(estimate_of(t)), [&]<int k>() -> E {
+                return estimate_of(term.template operator()<k>());
+            }));
+        return sum_of_powers<first, full - first + 1>(t, [&]<int k>() -> T {
+            if constexpr (k < full) {
+                return term.template operator()<k>();
+            } else {
+                return rest;
+            }
+        });
+    } else {
+        return sum_of_powers<first, count>(t, term);
+    }
+}
+
 /// The value at t.
 template <Number T, std::size_t count>
 T value_of_series(const std::array<T, count>& c, const T& t)
 {
-    return sum_of_powers<0, int(count)>(t, [&]<int k>() -> const T& { return c[k]; });
+    return sum_of_small_powers<0, int(count)>(t, [&]<int k>() -> const T& { return c[k]; });
 }
 
 /// The value of the derivative at t.
 template <Number T, std::size_t count>
 T slope_of_series(const std::array<T, count>& c, const T& t)
 {
-    return sum_of_powers<1, int(count) - 1>(t,
-                                            [&]<int k>() -> T { return c[k] * T(scalar_t<T>(k)); });
+    return sum_of_small_powers<1, int(count) - 1>(
+        t, [&]<int k>() -> T { return c[k] * T(scalar_t<T>(k)); });
 }
 
 /// An upper bound of the absolute value of the derivative over [0, t], t >= 0.

@@ -28,6 +28,7 @@ inline constexpr double loosest_record_tolerance = 1e-10;
 template <int order, Theory theory, Number T, Outputs outputs, class Excitation>
 class RecordStepper {
     using S = scalar_t<T>;
+    using E = estimate_t<T>; // for what is not the motion itself
     using Mask = mask_t<T>;
     using Series = RockingSeries<order, T>;
     static constexpr int last_terms = overturn::last_terms<order>;
@@ -36,7 +37,7 @@ class RecordStepper {
 public:
     RecordStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
         : excitation_(excitation), tolerance_(lesser<S>(tolerance, S(loosest_record_tolerance))),
-          errors_(rough_log2(tolerance_))
+          errors_(estimate_of(T(rough_log2(tolerance_))))
     {
         see_side(block, excitation.frequency);
     }
@@ -54,7 +55,7 @@ public:
         time_ = {one / fastest, fastest};
         samples_per_unit_ = frequency * time_.unit;
         units_per_sample_ = one / samples_per_unit_;
-        most_allowed_ = tolerance_ * slenderness_ * time_.unit;
+        most_allowed_ = estimate_of(T(tolerance_ * slenderness_ * time_.unit));
     }
 
     void lift(const Rocking<T>&, const Mask&) {}
@@ -104,11 +105,16 @@ public:
         const T aside = bounds.acceleration * h * h * T(S(1) / 8);
         const auto with_peak = [&](const auto& of_step) {
             if constexpr (outputs.peak) {
-                const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+                const auto& rough = estimate_of(series);
+                const auto sample_at = [&](const E& share) {
+                    return sample_of(rough, E(estimate_of(h)), share);
+                };
                 const T most = greater<T>(now.tilt, end.tilt) + aside;
+                const E peak =
+                    highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt), estimate_of(most),
+                                    estimate_of(so_far.peak), sample_at);
                 return StepEndWithPeak<T, std::remove_cvref_t<decltype(of_step)>>{
-                    of_step, highest_tilt<T>(now.tilt, end.tilt, most, so_far.peak, sample_at),
-                    T(std::numeric_limits<S>::infinity())};
+                    of_step, T(peak), T(std::numeric_limits<S>::infinity())};
             } else {
                 return of_step;
             }
@@ -118,8 +124,9 @@ public:
                                                   lesser<T>(now.tilt, end.tilt) - aside,
                                                   greater<T>(now.tilt, end.tilt) + aside};
             const std::array pushes{push.at(zero), push.at(T(h * T(S(0.5)))), push.at(h)};
-            return with_peak(
-                StepEndWithErrors<T>{end, errors_.of(step, slenderness_, pushes, end, zero)});
+            return with_peak(StepEndWithErrors<T>{
+                end, errors_.of(step, slenderness_, pushes, end,
+                                error_of_estimates(series, E(estimate_of(h))))});
         } else {
             return with_peak(end);
         }
@@ -140,15 +147,18 @@ private:
     };
 
     /// The motion at a time [units].
-    struct Instant {
-        T time;
-        T tilt; ///< [rad]
-        T rate; ///< [rad per unit]
+    template <Number N>
+    struct InstantIn {
+        N time;
+        N tilt; ///< [rad]
+        N rate; ///< [rad per unit]
     };
+    using Instant = InstantIn<T>;
 
-    static Instant instant(const Series& series, const T& time)
+    template <Number N>
+    static InstantIn<N> instant(const auto& tilt, const auto& rate, const N& time)
     {
-        return {time, value_of_series(series.tilt, time), value_of_series(series.rate, time)};
+        return {time, value_of_series(tilt, time), value_of_series(rate, time)};
     }
 
     /// The longest step, in units, of at most `left`: for the last n, rate[n] h^n is at most
@@ -158,21 +168,46 @@ private:
                    const Mask& active) const
     {
         using std::abs;
-        const T at_start = tolerance_ * time_.unit * (now.tilt + abs(now.rate));
+        const E tolerance = estimate_of(T(tolerance_));
+        const E speed = estimate_of(T(abs(now.rate)));
+        const E at_start =
+            tolerance * E(estimate_of(time_.unit)) * (E(estimate_of(now.tilt)) + speed);
+        const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
         // From rest the rate grows to rate[1] h + rate[2] h^2, and h <= 1.
-        const T growth = tolerance_ * (abs(series.rate[1]) + abs(series.rate[2]));
-        T h = left;
+        const E growth = tolerance * (size_of(1) + size_of(2));
+        T length = left;
         while (true) {
-            T term = abs(series.rate[order]);
-            unrolled<last_terms - 1>([&]<int i>() {
-                term = greater<T>(T(term * h), T(abs(series.rate[order - 1 - i])));
-            });
-            const T allowed = lesser<T>(greater<T>(at_start, T(growth * (h * h))), most_allowed_);
-            const Mask too_long = active && term * power<order + 1 - last_terms>(h) > allowed;
-            if (!any<T>(too_long)) {
-                return h;
+            const E h = estimate_of(length);
+            E term = size_of(order);
+            unrolled<last_terms - 1>(
+                [&]<int i>() { term = greater<E>(E(term * h), size_of(order - 1 - i)); });
+            const E allowed = lesser<E>(greater<E>(at_start, E(growth * (h * h))), most_allowed_);
+            E largest = term * power<order + 1 - last_terms>(h);
+            if constexpr (full_terms<T, order + 1> <= order) {
+                largest = greater<E>(largest, error_of_estimates(series, h));
             }
-            h = select<T>(too_long, h * T(S(0.5)), h);
+            const Mask too_long = active && largest > allowed;
+            if (!any<T>(too_long)) {
+                return length;
+            }
+            length = select<T>(too_long, length * T(S(0.5)), length);
+        }
+    }
+
+    /// A bound of the error of the terms that are estimates, see full_terms [rad per unit]. Their
+    /// roundings are at most a few units of the last place of the largest of them. One term may be
+    /// small by chance; the one before it is larger by much more than its weight here.
+    static E error_of_estimates(const Series& series, const E& h)
+    {
+        constexpr int first = full_terms<T, order + 1>;
+        if constexpr (first > order) {
+            return E(0.0);
+        } else {
+            using std::abs;
+            const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
+            const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
+            return E(16 * std::numeric_limits<scalar_t<E>>::epsilon()) * power<first - 1>(h) *
+                   greater<E>(terms, E(size_of(first + 1) * (h * h)));
         }
     }
 
@@ -258,21 +293,28 @@ private:
                          const T& acceleration, Meeting& meeting) const
     {
         const T zero(S(0));
-        const T& h = end.time;
-        const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, zero), h); };
-        T time = within(halley(end, acceleration));
-        Coefficients<6, T> tilt;
-        std::copy_n(series.tilt.begin(), tilt.size(), tilt.begin());
-        Coefficients<5, T> rate;
-        std::copy_n(series.rate.begin(), rate.size(), rate.begin());
+        const auto& rough = estimate_of(series);
+        Coefficients<6, E> tilt;
+        std::copy_n(rough.tilt.begin(), tilt.size(), tilt.begin());
+        Coefficients<5, E> rate;
+        std::copy_n(rough.rate.begin(), rate.size(), rate.begin());
+        const E h = estimate_of(end.time);
+        const auto nearer = [&](const InstantIn<E>& at, const E& slope) -> E {
+            return lesser<E>(greater<E>(halley(at, slope), E(0.0)), h);
+        };
+        E guess =
+            nearer({h, estimate_of(end.tilt), estimate_of(end.rate)}, estimate_of(acceleration));
         for (int i = 0; i < 2; ++i) {
-            time = within(halley({time, value_of_series(tilt, time), value_of_series(rate, time)},
-                                 slope_of_series(rate, time)));
+            guess = nearer(instant(tilt, rate, guess), slope_of_series(rate, guess));
         }
+        const auto within = [&](const T& time) {
+            return lesser<T>(greater<T>(time, zero), end.time);
+        };
+        T time = within(T(guess));
         const T enough(S(2) * std::numeric_limits<S>::epsilon());
         Mask open = meeting.strikes;
         for (int pass = 0; pass < most_passes; ++pass) {
-            const Instant now = instant(series, time);
+            const Instant now = instant(series.tilt, series.rate, time);
             const auto found =
                 event_correction(now.tilt, now.rate, slope_of_series(series.rate, time));
             const Mask close = open && now.rate < zero &&
@@ -292,11 +334,11 @@ private:
     }
 
     /// A time nearer to that at which the tilt is 0.
-    static T halley(const Instant& at, const T& acceleration)
+    static E halley(const InstantIn<E>& at, const E& acceleration)
     {
         using arithmetic::fma;
-        const T half(S(0.5));
-        const T square = fma(at.rate, at.rate, -half * at.tilt * acceleration);
+        const E half(0.5);
+        const E square = fma(at.rate, at.rate, -half * at.tilt * acceleration);
         return at.time - at.tilt * at.rate / square;
     }
 
@@ -306,7 +348,7 @@ private:
         straight_line<T>([&] {
             const T zero(S(0));
             const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
-            const Instant there = instant(series, event.time);
+            const Instant there = instant(series.tilt, series.rate, event.time);
             const Gap<T> gap = gap_at(series, event.time, event.falls);
             const T slope = slope_of_series(series.rate, event.time);
             const auto found =
@@ -332,7 +374,7 @@ private:
     static constexpr int most_passes = 6;
 
     struct NoErrors {
-        explicit NoErrors(const T&) {}
+        explicit NoErrors(const E&) {}
     };
 
     T slenderness_;
@@ -341,7 +383,7 @@ private:
     TimeUnit<T> time_; // a power of two: 1/p, or about a sample if that is shorter
     T samples_per_unit_;
     T units_per_sample_;
-    T most_allowed_;
+    E most_allowed_;
     [[no_unique_address]] std::conditional_t<outputs.error, TaylorErrors<order, theory, T>,
                                              NoErrors>
         errors_;

@@ -48,22 +48,23 @@ struct TaylorStep {
 
 template <int order, Theory theory, Number T>
 class TaylorErrors {
-    using S = scalar_t<T>;
+    using E = estimate_t<T>;
+    using S = scalar_t<E>;
     using Mask = mask_t<T>;
     static constexpr int known_order = order_for_errors<order, theory>;
     static constexpr int last_terms = overturn::last_terms<order>;
 
 public:
-    explicit TaylorErrors(const T& log2_tolerance)
+    explicit TaylorErrors(const E& log2_tolerance)
     {
-        const T one(S(1));
+        const E one(S(1));
         unrolled<last_terms>([&]<int i>() {
             constexpr int k = order + 1 - last_terms + i;
-            T ratio = rough_power_of_two(T(log2_tolerance * T(S(1) / k)));
+            E ratio = rough_power_of_two(E(log2_tolerance * E(S(1) / k)));
             if constexpr (theory == Theory::linear) {
-                ratio = lesser<T>(ratio, T(S(1) / 3));
+                ratio = lesser<E>(ratio, E(S(1) / 3));
             }
-            following_per_[i] = T(S(2)) / (one - ratio);
+            following_per_[i] = E(S(2)) / (one - ratio);
             unrolled<known_order + 1 - k>(
                 [&]<int>() { following_per_[i] = following_per_[i] * ratio; });
         });
@@ -72,42 +73,46 @@ public:
     /// pushes: at the beginning, in the middle and at the end of the step. beyond: a bound of the
     /// contribution of the push to the rate beyond the known series [rad per unit].
     StepErrors<T> of(const TaylorStep<known_order, T>& step, const T& slenderness,
-                     const auto& pushes, const StepEnd<T>& end, const T& beyond) const
+                     const auto& pushes, const StepEnd<T>& end, const E& beyond) const
     {
         using arithmetic::fma;
-        const auto& [known, time_unit, h, lowest, highest] = step;
-        const auto& [unit, per_time] = time_unit;
-        const T left_out = truncation_error(known, h, beyond);
-        const RockingSeries<order, T> series = leading<order>(known);
-        const auto stiffness = [&](const T& tilt, const auto& push) -> T {
-            return rocking_stiffness<theory>(tilt, slenderness, push);
+        const auto& known = estimate_of(step.known);
+        const E h = estimate_of(step.h);
+        const E unit = estimate_of(step.time.unit);
+        const E per_time = estimate_of(step.time.per_time);
+        const E left_out = truncation_error(known, h, beyond);
+        const auto stiffness = [&](const E& tilt, const auto& push) -> E {
+            return rocking_stiffness<theory>(tilt, E(estimate_of(slenderness)), estimate_of(push));
         };
-        const auto tilt_at_turn = [&, &h = h](const Mask& turns, const T& share) -> T {
-            const T zero(S(0));
-            const T one(S(1));
-            T time = h * share;
+        const RockingSeries<order, T> series = leading<order>(step.known);
+        const auto& rough = estimate_of(series);
+        const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
+            const E zero(S(0));
+            const E one(S(1));
+            E time = h * E(estimate_of(share));
             for (int i = 0; i < 3; ++i) { // Newton's method; the estimate alone would be too rough
-                const T slope = slope_of_series(series.rate, time);
-                const T newton = time - value_of_series(series.rate, time) /
-                                            select<T>(turns && slope != zero, slope, one);
-                time = select<T>(turns, lesser<T>(greater<T>(newton, zero), h), zero);
+                const E slope = slope_of_series(rough.rate, time);
+                const E newton = time - value_of_series(rough.rate, time) /
+                                            select<E>(turns && slope != zero, slope, one);
+                time = select<E>(turns, lesser<E>(greater<E>(newton, zero), h), zero);
             }
-            return value_of_series(series.tilt, time);
+            return value_of_series(series.tilt, T(time)); // to the square of the error of the time
         };
-        const T duration = h * unit;
-        const T longest = T(S(longest_variation));
-        const T unknown = select<T>(duration > longest, T(unknown_error<S>), T(S(0)));
-        const T acceleration = slope_of_series(series.rate, h);
+        const E duration = h * unit;
+        const E longest = E(S(longest_variation));
+        const E unknown = select<E>(duration > longest, E(unknown_error<S>), E(S(0)));
+        const E acceleration = slope_of_series(rough.rate, h);
         const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
-                                   {end.rate * unit, acceleration}, h);
-        return {.variation = variation_over<T>(
-                    lesser<T>(duration, longest), stiffness(known.tilt[0], pushes[0]),
-                    stiffness(value_of_series(series.tilt, T(h * T(S(0.5)))), pushes[1]),
-                    stiffness(end.tilt, pushes[2])),
-                .tilt = left_out * h * T(S(1) / (order + 2)),
+                                   {end.rate * step.time.unit, T(acceleration)}, step.h);
+        return {.variation = variation_over<E>(
+                    lesser<E>(duration, longest), stiffness(known.tilt[0], pushes[0]),
+                    stiffness(value_of_series(rough.tilt, E(h * E(S(0.5)))), pushes[1]),
+                    stiffness(estimate_of(end.tilt), pushes[2])),
+                .tilt = left_out * h * E(S(1) / (order + 2)),
                 .rate = fma(left_out, per_time, unknown),
                 .acceleration = acceleration * (per_time * per_time),
-                .turning_tilt = turning_tilt<T>(slenderness, turns, lowest, highest, tilt_at_turn)};
+                .turning_tilt =
+                    turning_tilt<T>(slenderness, turns, step.lowest, step.highest, tilt_at_turn)};
     }
 
 private:
@@ -122,29 +127,29 @@ private:
     /// follow are not. In the linear theory, the terms of the motion decrease faster than any
     /// geometric series; after the known terms, the ratio is at most a third. The bound is twice
     /// the sum; in one of 10^7 points it was too small.
-    T truncation_error(const RockingSeries<known_order, T>& known, const T& h,
-                       const T& beyond) const
+    E truncation_error(const RockingSeries<known_order, E>& known, const E& h,
+                       const E& beyond) const
     {
         using std::abs;
-        T next = beyond;
-        T following(S(0));
-        T power = h;
+        E next = beyond;
+        E following(S(0));
+        E power = h;
         unrolled<order - last_terms>([&]<int>() { power = power * h; });
         unrolled<last_terms + known_order - order>([&]<int i>() {
             constexpr int k = order + 1 - last_terms + i;
-            const T term = abs(known.rate[k]) * power;
+            const E term = abs(known.rate[k]) * power;
             power = power * h;
             if constexpr (k > order) {
                 next = next + term;
             } else {
-                following = greater<T>(following, T(term * following_per_[i]));
+                following = greater<E>(following, E(term * following_per_[i]));
             }
         });
-        const T sum = next + following;
+        const E sum = next + following;
         return sum + sum;
     }
 
-    std::array<T, last_terms> following_per_; // see truncation_error()
+    std::array<E, last_terms> following_per_; // see truncation_error()
 };
 
 } // namespace overturn

@@ -20,6 +20,12 @@ struct Ground {
 };
 
 template <Number T>
+Ground<estimate_t<T>> estimate_of(const Ground<T>& ground)
+{
+    return {estimate_of(ground.horizontal), estimate_of(ground.gravity)};
+}
+
+template <Number T>
 T mirrored(const T& ground)
 {
     return -ground;
@@ -57,6 +63,12 @@ struct Ramp {
     }
 };
 
+template <Number T>
+Ramp<estimate_t<T>> estimate_of(const Ramp<T>& ramp)
+{
+    return {estimate_of(ramp.start), estimate_of(ramp.slope)};
+}
+
 /// The push of a piece on which the accelerations are linear: see rocking_series().
 template <Number T>
 struct LinearPush {
@@ -72,6 +84,17 @@ struct LinearPushAndGravity {
 
     Ground<T> at(const T& t) const { return {horizontal.at(t), gravity.at(t)}; }
 };
+
+template <Number T>
+LinearPush<estimate_t<T>> estimate_of(const LinearPush<T>& push)
+{
+    return {estimate_of(push.horizontal)};
+}
+template <Number T>
+LinearPushAndGravity<estimate_t<T>> estimate_of(const LinearPushAndGravity<T>& push)
+{
+    return {estimate_of(push.horizontal), estimate_of(push.gravity)};
+}
 
 /// The horizontal part of a push.
 template <class Push>

@@ -1,35 +1,83 @@
-// DoubleDouble: an unevaluated sum of two doubles, with 31 decimal digits.
+// DoubleDouble: an unevaluated sum of two doubles, or of two packs, with 31 decimal digits.
 // Algorithms: Hida, Li & Bailey, "Algorithms for quad-double precision floating point arithmetic",
 // 15th IEEE Symposium on Computer Arithmetic (2001); Joldes, Muller & Popescu, ACM Transactions on
 // Mathematical Software 44 (2017) 15.
 #pragma once
 
+#include "overturn/number/elementary.hpp"
 #include "overturn/number/number.hpp"
 #include "overturn/number/unrolled.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <concepts>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 
 namespace overturn {
 
-/// high + low, |low| at most half an ulp of high. A sum or product with an infinity is NaN.
+/// 1 / n! for n = 2, 3, ...: high and low.
+inline constexpr double inverse_factorials[][2] = {
+    {0x1p-1, 0x0p+0},
+    {0x1.5555555555555p-3, 0x1.5555555555555p-57},
+    {0x1.5555555555555p-5, 0x1.5555555555555p-59},
+    {0x1.1111111111111p-7, 0x1.1111111111111p-63},
+    {0x1.6c16c16c16c17p-10, -0x1.f49f49f49f49fp-65},
+    {0x1.a01a01a01a01ap-13, 0x1.a01a01a01a01ap-73},
+    {0x1.a01a01a01a01ap-16, 0x1.a01a01a01a01ap-76},
+    {0x1.71de3a556c734p-19, -0x1.c154f8ddc6cp-73},
+    {0x1.27e4fb7789f5cp-22, 0x1.cbbc05b4fa99ap-76},
+    {0x1.ae64567f544e4p-26, -0x1.c062e06d1f209p-80},
+    {0x1.1eed8eff8d898p-29, -0x1.2aec959e14c06p-83},
+    {0x1.6124613a86d09p-33, 0x1.f28e0cc748ebep-87},
+    {0x1.93974a8c07c9dp-37, 0x1.05d6f8a2efd1fp-92},
+    {0x1.ae7f3e733b81fp-41, 0x1.1d8656b0ee8cbp-97},
+    {0x1.ae7f3e733b81fp-45, 0x1.1d8656b0ee8cbp-101},
+    {0x1.952c77030ad4ap-49, 0x1.ac981465ddc6cp-103},
+    {0x1.6827863b97d97p-53, 0x1.eec01221a8b0bp-107},
+    {0x1.2f49b46814157p-57, 0x1.2650f61dbdcb4p-112},
+    {0x1.e542ba4020225p-62, 0x1.ea72b4afe3c2fp-120},
+    {0x1.71b8ef6dcf572p-66, -0x1.d043ae40c4647p-120},
+};
+
+/// high + low, |low| at most half an ulp of high. A sum or product with an infinity is NaN. D:
+/// double or Pack; all operations have the same bits in a double and in every lane of a pack.
+template <class D>
 class DoubleDouble {
+    using Mask = mask_t<D>;
+
 public:
     DoubleDouble() = default;
     template <class Value>
         requires std::is_arithmetic_v<Value>
-    DoubleDouble(Value value) : high_(double(value)), low_(0)
+    DoubleDouble(Value value) : high_(double(value)), low_(0.0)
     {}
-    DoubleDouble(double high, double low) : high_(high), low_(low) {}
+    DoubleDouble(const D& high, const D& low) : high_(high), low_(low) {}
+    /// The same in every lane.
+    template <class Lane>
+        requires(std::same_as<Lane, double> && !std::same_as<D, double>)
+    DoubleDouble(const DoubleDouble<Lane>& value) : high_(value.high()), low_(value.low())
+    {}
 
-    double high() const { return high_; }
-    double low() const { return low_; }
+    static DoubleDouble select(const Mask& condition, const DoubleDouble& yes,
+                               const DoubleDouble& no)
+    {
+        return {overturn::select<D>(condition, yes.high_, no.high_),
+                overturn::select<D>(condition, yes.low_, no.low_)};
+    }
+
+    explicit DoubleDouble(const D& high)
+        requires(!std::same_as<D, double>)
+        : high_(high), low_(0.0)
+    {}
+
+    const D& high() const { return high_; }
+    const D& low() const { return low_; }
 
     template <class Value>
-        requires std::is_arithmetic_v<Value>
+        requires(std::is_arithmetic_v<Value> && std::same_as<D, double>)
     explicit operator Value() const
     {
         return Value(high_) + Value(low_);
@@ -55,125 +103,136 @@ public:
     [[gnu::always_inline]] friend DoubleDouble operator*(const DoubleDouble& a,
                                                          const DoubleDouble& b)
     {
+        using arithmetic::fma;
         const DoubleDouble high = exact_product(a.high_, b.high_);
-        const double low = arithmetic::fma(a.high_, b.low_, a.low_ * b.high_);
+        const D low = fma(a.high_, b.low_, a.low_ * b.high_);
         return exact_sum_of_ordered(high.high_, high.low_ + low);
     }
     [[gnu::always_inline]] friend DoubleDouble operator/(const DoubleDouble& a,
                                                          const DoubleDouble& b)
     {
-        const double first = a.high_ / b.high_;
-        const DoubleDouble rest = a - b * DoubleDouble(first);
-        const double second = rest.high_ / b.high_;
-        const double third = (rest - b * DoubleDouble(second)).high_ / b.high_;
-        return exact_sum_of_ordered(first, second) + DoubleDouble(third);
+        const D first = a.high_ / b.high_;
+        const DoubleDouble rest = a - b * of(first);
+        const D second = rest.high_ / b.high_;
+        const D third = (rest - b * of(second)).high_ / b.high_;
+        return exact_sum_of_ordered(first, second) + of(third);
+    }
+    /// The error is below epsilon (|a b| + |c|); half the time of a product and a sum.
+    [[gnu::always_inline]] friend DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b,
+                                                   const DoubleDouble& c)
+    {
+        using arithmetic::fma;
+        const DoubleDouble product = exact_product(a.high_, b.high_);
+        const DoubleDouble sum = exact_sum(product.high_, c.high_);
+        const D low = fma(a.high_, b.low_, fma(a.low_, b.high_, product.low_));
+        return exact_sum_of_ordered(sum.high_, sum.low_ + (low + c.low_));
     }
 
-    friend bool operator==(const DoubleDouble& a, const DoubleDouble& b)
+    friend Mask operator==(const DoubleDouble& a, const DoubleDouble& b)
     {
-        return a.high_ == b.high_ && (a.low_ == b.low_ || std::isinf(a.high_));
+        using std::abs;
+        return a.high_ == b.high_ &&
+               (a.low_ == b.low_ || abs(a.high_) == D(std::numeric_limits<double>::infinity()));
     }
-    friend bool operator<(const DoubleDouble& a, const DoubleDouble& b)
+    friend Mask operator!=(const DoubleDouble& a, const DoubleDouble& b) { return !(a == b); }
+    friend Mask operator<(const DoubleDouble& a, const DoubleDouble& b)
     {
         return a.high_ < b.high_ || (a.high_ == b.high_ && a.low_ < b.low_);
     }
-    friend bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
-    friend bool operator<=(const DoubleDouble& a, const DoubleDouble& b)
+    friend Mask operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+    friend Mask operator<=(const DoubleDouble& a, const DoubleDouble& b)
     {
         return a.high_ < b.high_ || (a.high_ == b.high_ && !(a.low_ > b.low_));
     }
-    friend bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
+    friend Mask operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
 
-    friend DoubleDouble abs(const DoubleDouble& x) { return x.high_ < 0 ? -x : x; }
+    friend DoubleDouble abs(const DoubleDouble& x) { return select(x.high_ < D(0.0), -x, x); }
     friend DoubleDouble floor(const DoubleDouble& x)
     {
-        const double high = std::floor(x.high_);
-        return high == x.high_ ? exact_sum_of_ordered(high, std::floor(x.low_)) : high;
+        using std::floor;
+        const D high = floor(x.high_);
+        return select(high == x.high_, exact_sum_of_ordered(high, floor(x.low_)), of(high));
     }
     friend DoubleDouble ceil(const DoubleDouble& x) { return -floor(-x); }
-    friend DoubleDouble ldexp(const DoubleDouble& x, int exponent)
-    {
-        return x.times_power_of_two(std::ldexp(1.0, exponent));
-    }
     friend DoubleDouble sqrt(const DoubleDouble& x)
     {
-        if (!(x.high_ > 0)) {
-            return std::sqrt(x.high_);
-        }
-        const double root = std::sqrt(x.high_);
-        return exact_sum_of_ordered(root, (x - exact_product(root, root)).high_ / (2 * root));
+        using std::sqrt;
+        const D root = sqrt(x.high_);
+        const D rest = (x - exact_product(root, root)).high_;
+        return select(x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)), of(root));
     }
 
-    // To the accuracy of a double: for step sizes and first approximations.
-    friend int ilogb(const DoubleDouble& x) { return std::ilogb(x.high_); }
-    friend DoubleDouble log2(const DoubleDouble& x) { return std::log2(x.high_); }
+    /// To the accuracy of a double.
     friend DoubleDouble cbrt(const DoubleDouble& x) { return std::cbrt(x.high_); }
-    friend DoubleDouble pow(const DoubleDouble& x, const DoubleDouble& y)
-    {
-        return std::pow(x.high_, y.high_);
-    }
 
     /// sin x and cos x for |x| < 2^20 [rad]; the errors are below 1e-31.
     static std::array<DoubleDouble, 2> of_angle(const DoubleDouble& x)
     {
         // Reduced by multiples of pi/2 in three parts, of which the first two have so few bits that
         // their products are exact; then by a quarter of the rest, whose angle is doubled twice.
+        using std::floor;
+        using std::nearbyint;
         constexpr std::array half_pi{0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
-        const double turns = std::nearbyint(x.high_ * 0x1.45f306dc9c883p-1);
-        const DoubleDouble rest =
-            ((x - DoubleDouble(turns * half_pi[0])) - DoubleDouble(turns * half_pi[1])) -
-            exact_product(turns, half_pi[2]);
+        const D turns = nearbyint(x.high_ * D(0x1.45f306dc9c883p-1));
+        const DoubleDouble rest = ((x - of(turns * D(half_pi[0]))) - of(turns * D(half_pi[1]))) -
+                                  exact_product(turns, D(half_pi[2]));
         const auto [sine, cosine_less_one] =
             doubled(doubled(series_of_sine(rest.times_power_of_two(0.25))));
         const DoubleDouble cosine = cosine_less_one + DoubleDouble(1);
-        switch (std::int64_t(turns) & 3) {
-        case 0: return {sine, cosine};
-        case 1: return {cosine, -sine};
-        case 2: return {-sine, -cosine};
-        default: return {-cosine, sine};
-        }
+        const D quadrant = turns - D(4.0) * floor(turns * D(0.25));
+        const Mask is_odd = quadrant == D(1.0) || quadrant == D(3.0);
+        const DoubleDouble of_sine = select(is_odd, cosine, sine);
+        const DoubleDouble of_cosine = select(is_odd, sine, cosine);
+        return {select(quadrant >= D(2.0), -of_sine, of_sine),
+                select(quadrant == D(1.0) || quadrant == D(2.0), -of_cosine, of_cosine)};
     }
-
-    static DoubleDouble pi() { return {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53}; }
 
 private:
-    DoubleDouble times_power_of_two(double factor) const { return {high_ * factor, low_ * factor}; }
+    [[gnu::always_inline]] static DoubleDouble of(const D& high) { return {high, D(0.0)}; }
 
-    [[gnu::always_inline]] static DoubleDouble exact_sum_of_ordered(double larger, double smaller)
+    DoubleDouble times_power_of_two(double factor) const
     {
-        const double sum = larger + smaller;
+        return {high_ * D(factor), low_ * D(factor)};
+    }
+
+    [[gnu::always_inline]] static DoubleDouble exact_sum_of_ordered(const D& larger,
+                                                                    const D& smaller)
+    {
+        const D sum = larger + smaller;
         return {sum, smaller - (sum - larger)};
     }
-    [[gnu::always_inline]] static DoubleDouble exact_sum(double a, double b)
+    [[gnu::always_inline]] static DoubleDouble exact_sum(const D& a, const D& b)
     {
-        const double sum = a + b;
-        const double of_b = sum - a;
+        const D sum = a + b;
+        const D of_b = sum - a;
         return {sum, (a - (sum - of_b)) + (b - of_b)};
     }
-    [[gnu::always_inline]] static DoubleDouble exact_product(double a, double b)
+    [[gnu::always_inline]] static DoubleDouble exact_product(const D& a, const D& b)
     {
-        const double product = a * b;
-        return {product, arithmetic::fma(a, b, -product)};
+        using arithmetic::fma;
+        const D product = a * b;
+        return {product, fma(a, b, -product)};
     }
 
     /// sin x and cos x - 1 for |x| <= 0.2.
     static std::array<DoubleDouble, 2> series_of_sine(const DoubleDouble& x)
     {
-        const DoubleDouble square = x * x;
-        DoubleDouble sine(0);
-        DoubleDouble cosine_less_one(0);
-        unrolled<10>([&]<int i>() {
-            constexpr int n = 20 - 2 * i;
-            // 1 - x^2 / (n (n + 1)) (...), and likewise for the cosine.
-            sine = -square * inverse(n * (n + 1)) * (sine + DoubleDouble(1));
-            cosine_less_one = -square * inverse(n * (n - 1)) * (cosine_less_one + DoubleDouble(1));
+        const DoubleDouble minus_square = -(x * x);
+        DoubleDouble sine = inverse_factorial(21);
+        DoubleDouble cosine = inverse_factorial(20);
+        unrolled<9>([&]<int i>() {
+            constexpr int n = 18 - 2 * i;
+            sine = fma(sine, minus_square, inverse_factorial(n + 1));
+            cosine = fma(cosine, minus_square, inverse_factorial(n));
         });
-        return {x + x * sine, cosine_less_one};
+        return {fma(x * minus_square, sine, x), minus_square * cosine};
     }
 
-    [[gnu::always_inline]] static DoubleDouble inverse(int n)
+    /// 1 / n! for 2 <= n <= 21.
+    [[gnu::always_inline]] static DoubleDouble inverse_factorial(int n)
     {
-        return DoubleDouble(1) / DoubleDouble(n);
+        const auto& [high, low] = inverse_factorials[std::size_t(n - 2)];
+        return {D(high), D(low)};
     }
 
     /// The sine, and the cosine less 1, of the double angle.
@@ -184,9 +243,101 @@ private:
         return {(sine + product).times_power_of_two(2), (sine * sine).times_power_of_two(-2)};
     }
 
-    double high_;
-    double low_;
+    D high_;
+    D low_;
 };
+
+/// 31 digits in one lane.
+using Digits31 = DoubleDouble<double>;
+
+template <class D>
+struct number_traits<DoubleDouble<D>> {
+    using number = DoubleDouble<D>;
+    using scalar = Digits31;
+    using mask = mask_t<D>;
+    static constexpr int lanes = lanes_v<D>;
+    static number select(const mask& condition, const number& yes, const number& no)
+    {
+        return number::select(condition, yes, no);
+    }
+    static number lesser(const number& a, const number& b) { return select(a < b, a, b); }
+    static number greater(const number& a, const number& b) { return select(a > b, a, b); }
+    static number pi() { return {D(0x1.921fb54442d18p+1), D(0x1.1a62633145c07p-53)}; }
+    static bool any(const mask& condition) { return overturn::any<D>(condition); }
+    static number load(const scalar* from)
+    {
+        double high[std::size_t(lanes)];
+        double low[std::size_t(lanes)];
+        for (int i = 0; i < lanes; ++i) {
+            high[i] = from[i].high();
+            low[i] = from[i].low();
+        }
+        return {overturn::load<D>(high), overturn::load<D>(low)};
+    }
+    static void store(scalar* to, const number& value)
+    {
+        const auto high = lanes_of(value.high());
+        const auto low = lanes_of(value.low());
+        for (std::size_t i = 0; i < high.size(); ++i) {
+            to[i] = {high[i], low[i]};
+        }
+    }
+    static number gathered(const double* from, const number& index)
+    {
+        return {overturn::gathered<D>(from, index.high()), D(0.0)};
+    }
+    static std::array<number, 2> gathered_pair(const double* from, const number& index)
+    {
+        const auto [here, next] = overturn::gathered_pair<D>(from, index.high());
+        return {number(here, D(0.0)), number(next, D(0.0))};
+    }
+    template <class Body>
+    [[gnu::flatten]] static auto straight_line(const Body& body)
+    {
+        return body();
+    }
+};
+
+template <class D>
+struct estimate_traits<DoubleDouble<D>> {
+    using type = D;
+};
+template <class D>
+const D& estimate_of(const DoubleDouble<D>& x)
+{
+    return x.high();
+}
+template <class D, std::size_t count>
+std::array<D, count> estimate_of(const std::array<DoubleDouble<D>, count>& x)
+{
+    std::array<D, count> high;
+    std::ranges::transform(x, high.begin(), [](const auto& each) { return each.high(); });
+    return high;
+}
+
+template <class D>
+SineAndCosine<DoubleDouble<D>> sine_and_cosine(const DoubleDouble<D>& x)
+{
+    const auto [sine, cosine] = DoubleDouble<D>::of_angle(x);
+    return {sine, cosine};
+}
+
+// To the accuracy of a double: for step sizes.
+template <class D>
+DoubleDouble<D> rough_log2(const DoubleDouble<D>& x)
+{
+    return {rough_log2(x.high()), D(0.0)};
+}
+template <class D>
+DoubleDouble<D> rough_power_of_two(const DoubleDouble<D>& x)
+{
+    return {rough_power_of_two(x.high()), D(0.0)};
+}
+template <class D>
+DoubleDouble<D> power_of_two_below(const DoubleDouble<D>& x)
+{
+    return {power_of_two_below(x.high()), D(0.0)};
+}
 
 } // namespace overturn
 
@@ -194,8 +345,8 @@ namespace std {
 
 /// epsilon() covers the errors of all operations.
 template <>
-class numeric_limits<overturn::DoubleDouble> {
-    using T = overturn::DoubleDouble;
+class numeric_limits<overturn::Digits31> {
+    using T = overturn::Digits31;
 
 public:
     static constexpr bool is_specialized = true;
@@ -206,38 +357,3 @@ public:
 };
 
 } // namespace std
-
-namespace overturn {
-
-[[gnu::always_inline]] inline DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b,
-                                               const DoubleDouble& c)
-{
-    return a * b + c;
-}
-
-template <>
-struct number_traits<DoubleDouble> : scalar_number_traits<DoubleDouble> {
-    static DoubleDouble pi() { return DoubleDouble::pi(); }
-};
-
-/// Both at once; preferred to the template of elementary.hpp.
-inline SineAndCosine<DoubleDouble> sine_and_cosine(const DoubleDouble& x)
-{
-    const auto [sine, cosine] = DoubleDouble::of_angle(x);
-    return {sine, cosine};
-}
-inline DoubleDouble sin(const DoubleDouble& x)
-{
-    return sine_and_cosine(x).sine;
-}
-inline DoubleDouble cos(const DoubleDouble& x)
-{
-    return sine_and_cosine(x).cosine;
-}
-inline DoubleDouble tan(const DoubleDouble& x)
-{
-    const auto [sine, cosine] = sine_and_cosine(x);
-    return sine / cosine;
-}
-
-} // namespace overturn

@@ -114,6 +114,26 @@ concept Number = requires(T a, T b) {
     -a;
 };
 
+/// The number in which errors, peaks and step sizes are computed: T, except that doubles are enough
+/// beside more digits in lanes.
+template <class T>
+struct estimate_traits {
+    using type = T;
+};
+template <class T>
+using estimate_t = typename estimate_traits<T>::type;
+
+/// Of the terms of a power series, the number of those that need all digits of T: the others are so
+/// small that their estimates suffice.
+template <class T, int count>
+inline constexpr int full_terms = std::same_as<T, estimate_t<T>> ? count : count / 2;
+
+template <class T>
+const T& estimate_of(const T& x)
+{
+    return x;
+}
+
 template <Number T>
 struct SineAndCosine {
     T sine;

@@ -82,12 +82,8 @@ struct Numerics {
     /// Local error per step, relative to the size of the motion or, if smaller, to alpha [1].
     double tolerance = 1e-9;
     bool resolve = false; ///< settle verdicts in doubt with more digits
-    /// The largest number of points of a tile, under each record, that are computed in 50 digits.
-    /// Such a point takes 0.4 s to 1.3 s under a record of 8192 samples. Of 256 points under the
-    /// GeoNet record WTMC, at most 5 need them if r = r_max, and 26 if r = 1.
-    int most_in_50_digits = 32;
-    bool fill = false;   ///< integrate only points near the boundaries of regions, see fill.hpp
-    double audit = 1e-3; ///< share of the filled points that are integrated as well
+    bool fill = false;    ///< integrate only points near the boundaries of regions, see fill.hpp
+    double audit = 1e-3;  ///< share of the filled points that are integrated as well
 };
 
 /// For answers about single points and for references.
@@ -108,10 +104,9 @@ constexpr bool knows_errors(const Numerics& numerics)
            numerics.tolerance <= largest_rk45_tolerance_with_error;
 }
 
-/// The methods for which kernels are compiled, with the order of a Taylor series. Recorded ground
-/// motions use order 14, whose steps are as long as the interval between two samples: a lower order
-/// is hardly faster.
-enum class Integrator { runge_kutta, taylor_14, taylor_20, recorded };
+/// The methods for which kernels are compiled: Taylor series with their order, and those for
+/// recorded ground motions in double and in 31 digits.
+enum class Integrator { runge_kutta, taylor_14, taylor_20, recorded, recorded_31 };
 
 /// Order 14 takes less time than 20 for errors above 1e-8 under the one-sine pulse, and above 1e-10
 /// to 1e-12 under the others. For an error of 1e-9 under the one-sine pulse, order 20 needs a

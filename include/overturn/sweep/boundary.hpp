@@ -34,9 +34,8 @@ struct FlipSearch {
     double finest_step;
     double flip_width; ///< of the two amplitudes of a flip, unless they are adjacent doubles
     std::size_t most_flips = std::numeric_limits<std::size_t>::max();
-    /// The largest number of amplitudes that are computed in 50 digits; default: no limit, except
-    /// that of Numerics in each step of the search under a record.
-    std::optional<int> most_in_50_digits{};
+    /// The largest number of amplitudes that are computed in 50 digits.
+    int most_in_50_digits = std::numeric_limits<int>::max();
     /// After this many amplitudes, no further steps are halved; after as many again, no strips are
     /// searched for between neighbours.
     std::size_t most_amplitudes = std::numeric_limits<std::size_t>::max();

@@ -24,8 +24,7 @@ struct TileFields {
 
 /// Computes a tile of the stored fields. Of a spectrum that is not filled, the values of a point
 /// depend only on the point, the scene and the numerics, not on the shape of the tile, the other
-/// points, or the kernel; except that under a record with `resolve`, whether a point is left
-/// undecided also depends on the other points of the tile, see Numerics::most_in_50_digits.
+/// points, or the kernel.
 ///
 /// Of a boundary, a tile has the flips of one line in ascending order. Values are NaN and
 /// no_flip after the last flip, except that region_below of a line without flips is the region at
