@@ -89,11 +89,10 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
             return is_settled(point, outcomes);
         });
     }
-    // Under a record, steps are up to twice as long as in 31 digits.
-    const int longest = MoreDigits<Digits50>::most_steps * (run.scene().is_recorded() ? 2 : 1);
     for (const int point : in_doubt) {
         bool settled = false;
-        if (outcomes.in_50_digits < most_in_50_digits && is_short(run, point, longest, outcomes)) {
+        if (outcomes.in_50_digits < most_in_50_digits &&
+            is_short(run, point, MoreDigits<Digits50>::most_steps, outcomes)) {
             ++outcomes.in_50_digits;
             run.run_in_more_digits<Digits50>(point, outcomes);
             settled = is_settled(point, outcomes);

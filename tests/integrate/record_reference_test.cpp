@@ -130,7 +130,7 @@ TEST(RecordIn31Digits, HasTheMarginOf50DigitsWithinItsError)
         const RecordPoint point = random_record_point(
             generator, 25, i % 2 == 0 ? Directions::horizontal : Directions::both);
         const auto [exact, rest] = margin_in<Taylor<20>, Digits50>(point, 1e-36);
-        const auto [margin, error] = margin_in<Taylor<16>, Digits31>(point, 1e-29);
+        const auto [margin, error] = margin_in<Taylor<20>, Digits31>(point, 1e-29);
         errors.push_back(double(error));
         if (errors.back() < infinity) {
             EXPECT_LE(double(abs(margin - exact)), double(error + rest)) << i;
