@@ -190,6 +190,9 @@ std::vector<double> other_component(const std::optional<Entry>& choice_of_it, st
         other = content_of(choice, string_of(choice), reading);
         component = &other.components.front();
     }
+    if (std::ranges::all_of(component->acceleration, [](double value) { return value == 0; })) {
+        refuse(choice, " is zero at all times. Remove it.");
+    }
     if (component->time_step != horizontal.time_step ||
         component->acceleration.size() != horizontal.acceleration.size()) {
         refuse(choice,

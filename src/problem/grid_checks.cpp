@@ -239,6 +239,15 @@ void expect_directions(const Scene& scene, const Grid& grid)
             refuse("direction", " is missing. Two horizontal components need a direction in "
                                 "degrees, from the first component towards the second one.");
         }
+        const auto is_zero = [](const std::vector<double>& values) {
+            return std::ranges::all_of(values, [](double value) { return value == 0; });
+        };
+        for (const auto& record : scene.records) {
+            if (is_zero(record->horizontal()) || is_zero(record->second())) {
+                refuse("direction", " needs two horizontal components, but one of them is zero at "
+                                    "all times. Correct it, or give the other one alone.");
+            }
+        }
     } else if (const Column* directions = grid.find("direction")) {
         for (const double value : directions->values.values()) {
             if (value != 0 && value != 180) {

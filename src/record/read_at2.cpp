@@ -81,7 +81,8 @@ Sampling read_sampling(const Lines& lines)
     const std::string_view line = lines.line();
     std::string_view count = from_value(line, "NPTS");
     std::string_view step = from_value(line, "DT");
-    if (count.empty() && step.empty() && contains(line, "DT")) {
+    const bool is_old = count.empty() && step.empty() && contains(line, "DT");
+    if (is_old) {
         count = from_word(line);
         step = from_word(count.substr(first_word(count).size()));
     }
@@ -94,7 +95,18 @@ Sampling read_sampling(const Lines& lines)
     if (const std::size_t unit = number.find_first_of("sS"); unit > 0) { // as in .01SEC
         number = number.substr(0, unit);
     }
-    expect_seconds(lines, number, step.substr(number.size()));
+    std::string_view after = step.substr(number.size());
+    if (is_old) {
+        for (const std::string_view key : {"npts", "dt"}) {
+            const std::string_view word = first_word(from_word(after));
+            if (lower(word) != key) {
+                lines.refuse("{} is not understood. Write it as in NPTS= 4000, DT= .01 SEC.",
+                             quoted_bytes(trimmed(line)));
+            }
+            after = from_word(after).substr(word.size());
+        }
+    }
+    expect_seconds(lines, number, after);
     if (count_numbers(line) > (contains(line, "DURATION") ? 3 : 2)) {
         lines.refuse("{} has other numbers beside the number of points and the time step. Write it "
                      "as in NPTS= 4000, DT= .01 SEC.",
@@ -115,11 +127,33 @@ void expect_acceleration(const Lines& lines)
     }
 }
 
+/// Refuses a number or per cent behind the unit in the title: it is probably
+/// a factor on the samples. Corner frequencies of filters and the peak may follow.
+void expect_no_factor(const Lines& title_line, std::string_view unit)
+{
+    const std::string_view title = title_line.line();
+    const std::size_t place = title.find(unit);
+    if (place == title.npos) {
+        return;
+    }
+    const std::string rest = lower(title.substr(place + unit.size()));
+    const std::string_view checked =
+        std::string_view(rest).substr(0, std::min(rest.find("filter"), rest.find("peak")));
+    if (checked.find_first_of("0123456789%") != checked.npos ||
+        checked.find("percent") != checked.npos) {
+        title_line.refuse(
+            "the unit {} may be changed by what follows it. State the unit of the samples: "
+            "{}.",
+            quoted_bytes(unit), how_to_state("units"));
+    }
+}
+
 /// The unit that the header states; nullopt if it states none, or one that is not understood
 /// although another is given.
 std::optional<AccelerationUnit> unit_of_header(Lines lines,
                                                const std::optional<AccelerationUnit>& given)
 {
+    const Lines before = lines;
     std::optional<StatedUnit> found;
     while (lines.number() < header_lines && lines.next()) {
         // The first two lines name the database and the station.
@@ -141,6 +175,9 @@ std::optional<AccelerationUnit> unit_of_header(Lines lines,
                          quoted_bytes(stated.text), reason,
                          fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
         }
+    }
+    if (found && !given) {
+        expect_no_factor(ahead_by(before, unit_line), found->text);
     }
     return found ? found->unit : std::nullopt;
 }

@@ -286,6 +286,8 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
     if (!history.is_curve_certain) {
         const PointRun run(scene, {point}, widest_kernel());
         history.region = Region(outcomes_of(run, most_accurate, {.region = true}).region.front());
+        history.margin = unknown;
+        history.error = infinity;
         history.time_of_rest = unknown;
         history.time_of_fall = unknown;
     }

@@ -250,12 +250,14 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
 template <Theory theory, Directions directions>
 SweepKernel kernel_for(const Outputs& outputs)
 {
-    if (has_31_digits || outputs.error) {
-        // Under a record, the motion may be so sensitive that another integration has another peak.
-        return sweep<theory, Outputs{.impacts = true, .error = true, .peak = OVERTURN_RECORDED},
-                     directions>;
-    }
-    if constexpr (!has_31_digits) {
+    // Under a record, the motion may be so sensitive that another integration has another peak.
+    constexpr Outputs with_errors{.impacts = true, .error = true, .peak = OVERTURN_RECORDED};
+    if constexpr (has_31_digits) {
+        return sweep<theory, with_errors, directions>;
+    } else {
+        if (outputs.error) {
+            return sweep<theory, with_errors, directions>;
+        }
         if (outputs.peak) {
             return sweep<theory, Outputs{.impacts = true, .peak = true}, directions>;
         }
@@ -263,12 +265,9 @@ SweepKernel kernel_for(const Outputs& outputs)
         if (OVERTURN_RECORDED || outputs.impacts) {
             return sweep<theory, Outputs{.impacts = true}, directions>;
         }
+        // Under a record this is not reached, and compiles no further kernel.
+        return sweep<theory, Outputs{.impacts = bool(OVERTURN_RECORDED)}, directions>;
     }
-    // Under a record this is not reached, and compiles no further kernel.
-    return sweep<
-        theory,
-        Outputs{.impacts = bool(OVERTURN_RECORDED), .error = has_31_digits, .peak = has_31_digits},
-        directions>;
 }
 
 template <Theory theory>

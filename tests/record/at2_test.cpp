@@ -135,8 +135,11 @@ TEST(At2, IsRefusedWithFileLineAndReason)
             "a.txt:4: \"NPTS= 3, DT= .01 SEC, DT= .02 SEC\" has other numbers beside the number of points and the "
             "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
         {"TwoTimeStepsInTheOldForm", at2("3 0.01 NPTS, DT 0.02"),
-            "a.txt:4: \"3 0.01 NPTS, DT 0.02\" has other numbers beside the number of points and the time step. "
-            "Write it as in NPTS= 4000, DT= .01 SEC."},
+            "a.txt:4: the unit \"0.02\" of the time step is not understood. Write it in seconds, as in DT= .01 SEC."},
+        {"AnotherUnitInTheOldForm", at2("3 5.0 NPTS, DT MSEC"),
+            "a.txt:4: the unit \"MSEC\" of the time step is not understood. Write it in seconds, as in DT= .01 SEC."},
+        {"AFactorInTheOldForm", at2("3 5.0 NPTS, DT*10"),
+            "a.txt:4: \"3 5.0 NPTS, DT*10\" is not understood. Write it as in NPTS= 4000, DT= .01 SEC."},
         {"AFactor", at2("NPTS= 3, DT= .01 SEC, SCALE FACTOR 2"),
             "a.txt:4: \"NPTS= 3, DT= .01 SEC, SCALE FACTOR 2\" has other numbers beside the number of points and the "
             "time step. Write it as in NPTS= 4000, DT= .01 SEC."},

@@ -45,11 +45,10 @@ def _labels(column, values):
         return labels
     ends = np.quantile(numbers, np.arange(1, RANGES) / RANGES)
     place = np.searchsorted(ends, numbers)
-    texts = _texts(numbers, 4)
-    for each in set(place):
-        some = np.flatnonzero(place == each)
-        first, last = some[np.argmin(numbers[some])], some[np.argmax(numbers[some])]
-        labels[np.flatnonzero(known)[some]] = f"{texts[first]} to {texts[last]}"
+    of_range = [np.flatnonzero(place == each) for each in sorted(set(place))]
+    texts = _texts(np.array([end(numbers[some]) for some in of_range for end in (np.min, np.max)]), 4)
+    for i, some in enumerate(of_range):
+        labels[np.flatnonzero(known)[some]] = f"{texts[2 * i]} to {texts[2 * i + 1]}"
     return labels
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 # How a measure grows with the scale of the motion: as scale^power.
 POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
+_COLUMNS = ("points", "exceeding", "without_verdict", "fraction", "probability", "probability_low", "probability_high")
 _NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
 VALUES_OF_CURVE = 100
 
@@ -78,13 +79,12 @@ class Fragility:
                   for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
                     *fitted)
-        with new_file(path, "a table of a fragility curve", lambda beginning: beginning.startswith(
-                (b"# overturning against ", b"# peak above "))) as part, open(
+        with new_file(path, "a table of a fragility curve",
+                      lambda beginning: ",".join(_COLUMNS).encode() in beginning) as part, open(
                 part, "w", newline="", encoding="utf-8") as file:
             file.writelines(f"# {line}\n" for line in self.summary().splitlines())
             writer = csv.writer(file, lineterminator="\n")
-            writer.writerow([f"{self.im}_from", f"{self.im}_to", "points", "exceeding", "without_verdict", "fraction",
-                             "probability", "probability_low", "probability_high"])
+            writer.writerow([f"{self.im}_from", f"{self.im}_to", *_COLUMNS])
             writer.writerows([*(f"{number:.6g}" for number in row[:2]), *row[2:5],
                               *("" if np.isnan(number) else f"{number:.6g}" for number in row[5:])] for row in table)
 

@@ -114,8 +114,8 @@ concept Number = requires(T a, T b) {
     -a;
 };
 
-/// The number in which errors, peaks and step sizes are computed: T, except that doubles are enough
-/// beside more digits in lanes.
+/// The number type of errors, peaks and step sizes: T itself, except that those of a DoubleDouble
+/// are in double.
 template <class T>
 struct estimate_traits {
     using type = T;
@@ -123,8 +123,8 @@ struct estimate_traits {
 template <class T>
 using estimate_t = typename estimate_traits<T>::type;
 
-/// Of the terms of a power series, the number of those that need all digits of T: the others are so
-/// small that their estimates suffice.
+/// The number of terms of a power series that are computed in all digits of T. The others are so
+/// small that doubles suffice; steps are chosen accordingly.
 template <class T, int count>
 inline constexpr int full_terms = std::same_as<T, estimate_t<T>> ? count : count / 2;
 

@@ -52,8 +52,8 @@ struct History {
     Region region;
     double margin;         ///< of the curve
     double error;          ///< error bound of the margin
-    bool is_curve_certain; ///< otherwise the true motion may differ, and time_of_rest and
-                           ///< time_of_fall are NaN
+    bool is_curve_certain; ///< otherwise the true motion may differ, and the margin and the times
+                           ///< of rest and fall are NaN
     bool shortened;        ///< the history could not be computed to its end
 };
 

@@ -182,16 +182,19 @@ def point_of(file, units):
             *["frequency_parameter"] * ("frequency_parameter" in file.attrs)]
 
 
+def is_certain(file):
+    """Whether the true motion is that of the curve, which is in double precision."""
+    return bool(file.attrs["margin_error"] < abs(file.attrs["margin"]))
+
+
 def describe(file, units=JOB):
     """Returns the point and its outcome in one line."""
     attributes = file.attrs
     region = int(attributes["region"])
-    is_certain = attributes["margin_error"] < abs(attributes["margin"])
-    is_decided = region in REGIONS and region != UNDECIDED
-    if not is_certain and "curve_is_certain" not in attributes:
-        is_decided = False  # before 2.0, the region was that of the curve
+    # Before 2.0, the region was that of the curve.
+    is_decided = region in REGIONS and region != UNDECIDED and (is_certain(file) or "curve_is_certain" in attributes)
     outcome = f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})" if is_decided else "undecided"
-    if not is_certain:
+    if not is_certain(file):
         outcome += "; the curve is uncertain"
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     shown = point_of(file, units)
@@ -242,8 +245,10 @@ def draw(path, arguments, ax=None):
         if ax is None:
             return draw_figure(file, shown, arguments.units).axes
         label = next(label for name, label, _ in shown.panels if name == "angle")
-        dashed = draw_panel(ax, shown, "angle", label)
-        explain(ax, mark_events(ax, shown) + dashed)
+        handles = draw_panel(ax, shown, "angle", label)
+        if not is_certain(file):
+            handles += [Line2D([], [], linestyle="none", label="the curve is uncertain")]
+        explain(ax, mark_events(ax, shown) + handles)
         name_time(ax, file, shown)
         return ax
 
