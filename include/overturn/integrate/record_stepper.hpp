@@ -36,7 +36,9 @@ class RecordStepper {
 
 public:
     RecordStepper(const Block<T>& block, const Excitation& excitation, const S& tolerance)
-        : excitation_(excitation), tolerance_(lesser<S>(tolerance, S(loosest_record_tolerance))),
+        : excitation_(excitation),
+          tolerance_(double(tolerance) < loosest_record_tolerance ? tolerance
+                                                                  : S(loosest_record_tolerance)),
           errors_(estimate_of(T(rough_log2(tolerance_))))
     {
         see_side(block, excitation.frequency);

@@ -78,7 +78,7 @@ public:
 
     template <class Value>
         requires(std::is_arithmetic_v<Value> && std::same_as<D, double>)
-    explicit operator Value() const
+    [[gnu::always_inline]] explicit operator Value() const
     {
         return Value(high_) + Value(low_);
     }
