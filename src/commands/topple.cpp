@@ -100,10 +100,11 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     const Point point = only_point_of(job);
     const double unit = pga_of_unit(scene, point);
     if (!(unit > 0)) {
-        throw Error(exit_code::job,
-                    "the record has no motion in the direction of {} degrees. Choose another "
-                    "--direction, or remove the component that is zero at all times.",
-                    options.direction.value_or(0));
+        throw Error(
+            exit_code::job,
+            "the record has no motion in the direction of {} degrees: its components cancel. "
+            "Choose another --direction.",
+            options.direction.value_or(0));
     }
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
     answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;

@@ -127,8 +127,8 @@ void expect_acceleration(const Lines& lines)
     }
 }
 
-/// Refuses a number or per cent behind the unit in the title: it is probably
-/// a factor on the samples. Corner frequencies of filters and the peak may follow.
+/// Refuses a number or per cent behind the unit in the title: it is probably a factor on the
+/// samples. Corner frequencies of filters and the peak may follow.
 void expect_no_factor(const Lines& title_line, std::string_view unit)
 {
     const std::string_view title = title_line.line();
