@@ -25,7 +25,7 @@ T sum_of_powers(const T& t, const Term& term)
     return count % 2 == 1 ? fma(lower, t, upper) : fma(upper, t, lower);
 }
 
-/// The same, but only full_terms in all digits of T.
+/// The same, with only the first full_terms terms in all digits of T.
 template <int first, int count, Number T, class Term>
 T sum_of_small_powers(const T& t, const Term& term)
 {

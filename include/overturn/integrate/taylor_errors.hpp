@@ -96,7 +96,7 @@ public:
                                             select<E>(turns && slope != zero, slope, one);
                 time = select<E>(turns, lesser<E>(greater<E>(newton, zero), h), zero);
             }
-            return value_of_series(series.tilt, T(time)); // to the square of the error of the time
+            return value_of_series(series.tilt, T(time)); // second-order error
         };
         const E duration = h * unit;
         const E longest = E(S(longest_variation));

@@ -18,7 +18,7 @@
 
 namespace overturn {
 
-/// 1 / n! for n = 2, 3, ...: high and low.
+/// 1 / n! for n = 2, 3, ..., 21: the high and the low part.
 inline constexpr double inverse_factorials[][2] = {
     {0x1p-1, 0x0p+0},
     {0x1.5555555555555p-3, 0x1.5555555555555p-57},
@@ -112,10 +112,10 @@ public:
                                                          const DoubleDouble& b)
     {
         const D first = a.high_ / b.high_;
-        const DoubleDouble rest = a - b * of(first);
+        const DoubleDouble rest = a - b * DoubleDouble(first);
         const D second = rest.high_ / b.high_;
-        const D third = (rest - b * of(second)).high_ / b.high_;
-        return exact_sum_of_ordered(first, second) + of(third);
+        const D third = (rest - b * DoubleDouble(second)).high_ / b.high_;
+        return exact_sum_of_ordered(first, second) + DoubleDouble(third);
     }
     /// The error is below epsilon (|a b| + |c|); half the time of a product and a sum.
     [[gnu::always_inline]] friend DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b,
@@ -151,7 +151,8 @@ public:
     {
         using std::floor;
         const D high = floor(x.high_);
-        return select(high == x.high_, exact_sum_of_ordered(high, floor(x.low_)), of(high));
+        return select(high == x.high_, exact_sum_of_ordered(high, floor(x.low_)),
+                      DoubleDouble(high));
     }
     friend DoubleDouble ceil(const DoubleDouble& x) { return -floor(-x); }
     friend DoubleDouble sqrt(const DoubleDouble& x)
@@ -159,7 +160,8 @@ public:
         using std::sqrt;
         const D root = sqrt(x.high_);
         const D rest = (x - exact_product(root, root)).high_;
-        return select(x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)), of(root));
+        return select(x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)),
+                      DoubleDouble(root));
     }
 
     /// To the accuracy of a double.
@@ -174,8 +176,9 @@ public:
         using std::nearbyint;
         constexpr std::array half_pi{0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
         const D turns = nearbyint(x.high_ * D(0x1.45f306dc9c883p-1));
-        const DoubleDouble rest = ((x - of(turns * D(half_pi[0]))) - of(turns * D(half_pi[1]))) -
-                                  exact_product(turns, D(half_pi[2]));
+        const DoubleDouble rest =
+            ((x - DoubleDouble(turns * D(half_pi[0]))) - DoubleDouble(turns * D(half_pi[1]))) -
+            exact_product(turns, D(half_pi[2]));
         const auto [sine, cosine_less_one] =
             doubled(doubled(series_of_sine(rest.times_power_of_two(0.25))));
         const DoubleDouble cosine = cosine_less_one + DoubleDouble(1);
@@ -188,8 +191,6 @@ public:
     }
 
 private:
-    [[gnu::always_inline]] static DoubleDouble of(const D& high) { return {high, D(0.0)}; }
-
     DoubleDouble times_power_of_two(double factor) const
     {
         return {high_ * D(factor), low_ * D(factor)};
@@ -284,15 +285,15 @@ struct number_traits<DoubleDouble<D>> {
     }
     static number gathered(const double* from, const number& index)
     {
-        return {overturn::gathered<D>(from, index.high()), D(0.0)};
+        return number(overturn::gathered<D>(from, index.high()));
     }
     static std::array<number, 2> gathered_pair(const double* from, const number& index)
     {
         const auto [here, next] = overturn::gathered_pair<D>(from, index.high());
-        return {number(here, D(0.0)), number(next, D(0.0))};
+        return {number(here), number(next)};
     }
     template <class Body>
-    [[gnu::flatten]] static auto straight_line(const Body& body)
+    static auto straight_line(const Body& body)
     {
         return body();
     }
@@ -326,17 +327,17 @@ SineAndCosine<DoubleDouble<D>> sine_and_cosine(const DoubleDouble<D>& x)
 template <class D>
 DoubleDouble<D> rough_log2(const DoubleDouble<D>& x)
 {
-    return {rough_log2(x.high()), D(0.0)};
+    return DoubleDouble<D>(rough_log2(x.high()));
 }
 template <class D>
 DoubleDouble<D> rough_power_of_two(const DoubleDouble<D>& x)
 {
-    return {rough_power_of_two(x.high()), D(0.0)};
+    return DoubleDouble<D>(rough_power_of_two(x.high()));
 }
 template <class D>
 DoubleDouble<D> power_of_two_below(const DoubleDouble<D>& x)
 {
-    return {power_of_two_below(x.high()), D(0.0)};
+    return DoubleDouble<D>(power_of_two_below(x.high()));
 }
 
 } // namespace overturn
