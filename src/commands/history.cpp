@@ -17,10 +17,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <ranges>
 #include <string_view>
+#include <system_error>
 
 namespace overturn {
 
@@ -44,6 +46,12 @@ At read_at(const std::string& given)
                     "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
                     "--at frequency=3,amplitude=1.5.",
                     given, fmt::join(axis_names(), ", "));
+    }
+    double number = 0;
+    const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (failure == std::errc::invalid_argument || end != value.data() + value.size()) {
+        throw Error(exit_code::usage, "--at {}: {} is not a number. Give one, such as --at {}=3.",
+                    given, value, axis);
     }
     return {given, axis, fmt::format("plane.{}.values=[{}]", axis, value)};
 }

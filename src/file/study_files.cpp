@@ -243,6 +243,11 @@ void expect_room_for(const std::string& path, FileKind kind)
     if (!std::filesystem::exists(path)) {
         return;
     }
+    if (!std::filesystem::is_regular_file(path)) {
+        throw Error(exit_code::output,
+                    "cannot write \"{}\": it is not a regular file. Choose another name with -o.",
+                    path);
+    }
     start_hdf5();
     std::string found;
     try {

@@ -183,6 +183,24 @@ std::vector<double> motion_numbers(const BlockTable& blocks, const TableColumn& 
     return numbers;
 }
 
+/// Refuses a column of texts that name records of a suite: it would not assign them to the blocks.
+void expect_no_records(const BlockTable& blocks, const TableColumn& column,
+                       const std::vector<Motion>& motions)
+{
+    const auto names_motion = [&](const std::string& text) {
+        return !motions_named(text, motions).empty();
+    };
+    if (motions.size() > 1 && !column.texts.empty() &&
+        std::ranges::all_of(column.texts, names_motion)) {
+        refuse(blocks,
+               {GivenError::no_row, column.name,
+                fmt::format(" names records of the job, but each block is computed under all of "
+                            "them. Rename the column to {} to assign the records to the blocks, or "
+                            "remove it.",
+                            motion_column)});
+    }
+}
+
 } // namespace
 
 BlockTable read_block_table(const std::string& file, const std::string& folder,
@@ -201,6 +219,7 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
         } else if (quantity == nullptr || !quantity->is_coordinate() ||
                    quantity->role == Role::motion) {
             expect_free_name(blocks, column.name, is_recorded);
+            expect_no_records(blocks, column, motions);
         } else {
             expect_values(blocks, column, *quantity);
         }

@@ -86,7 +86,9 @@ Sampling read_sampling(const Lines& lines)
         count = from_word(line);
         step = from_word(count.substr(first_word(count).size()));
     }
-    if (count.empty() || step.empty()) {
+    const bool begins_with_key = contains(first_word(from_word(line)), "NPTS") ||
+                                 contains(first_word(from_word(line)), "DT");
+    if (count.empty() || step.empty() || !(is_old || begins_with_key)) {
         lines.refuse("{} lacks the number of points or the time step. Write it as in NPTS= 4000, "
                      "DT= .01 SEC.",
                      quoted_bytes(line));
@@ -127,8 +129,8 @@ void expect_acceleration(const Lines& lines)
     }
 }
 
-/// Refuses a number or per cent behind the unit in the title: it is probably a factor on the
-/// samples. Corner frequencies of filters and the peak may follow.
+/// Refuses words behind the unit in the title, which may be a factor on the samples, as in UNITS OF
+/// G, SCALED. Corner frequencies of filters and the peak may follow.
 void expect_no_factor(const Lines& title_line, std::string_view unit)
 {
     const std::string_view title = title_line.line();
@@ -136,11 +138,18 @@ void expect_no_factor(const Lines& title_line, std::string_view unit)
     if (place == title.npos) {
         return;
     }
-    const std::string rest = lower(title.substr(place + unit.size()));
-    const std::string_view checked =
-        std::string_view(rest).substr(0, std::min(rest.find("filter"), rest.find("peak")));
-    if (checked.find_first_of("0123456789%") != checked.npos ||
-        checked.find("percent") != checked.npos) {
+    constexpr std::string_view marks = " \t.,;:()[]-";
+    std::string rest = lower(title.substr(place + unit.size()));
+    const auto next_word = [&] {
+        rest.erase(0, rest.find_first_not_of(marks));
+        return rest.substr(0, rest.find_first_of(marks));
+    };
+    std::string word = next_word();
+    while (word == "units" || word == "corrected" || word == "uncorrected") {
+        rest.erase(0, word.size());
+        word = next_word();
+    }
+    if (!word.empty() && !word.starts_with("filter") && word != "peak" && word != "dt") {
         title_line.refuse(
             "the unit {} may be changed by what follows it. State the unit of the samples: "
             "{}.",

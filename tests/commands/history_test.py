@@ -63,6 +63,8 @@ class AHistory(Scratch):
     def test_refuses_an_unknown_or_invalid_coordinate(self):
         for words in ("frequncy=3", "frequency", "frequency=", "frequency= ", "=3"):
             self.assert_exit(self.history("--at", words), 2, "where AXIS is one of direction, width")
+        for value in ("x", "3x", "3 4", "[3]", "'3'", "0x3", "1e"):
+            self.assert_exit(self.history("--at", f"frequency={value}"), 2, f"{value} is not a number")
         self.assert_exit(self.history("--at", "frequency=-3"), 65, "--at frequency=-3: ", "outside (0, inf)")
         self.assert_exit(self.history("--at", "frequency=3,amplitude=1,frequency=4"), 2,
                          "--at frequency=4: frequency=3 gives the same quantity. Give one value.")
@@ -90,6 +92,12 @@ class AHistory(Scratch):
         result = self.overturn("history", "small.toml", "-o", "spectrum.h5", AT)
         self.assert_exit(result, 74, 'its kind is not "rocking history"')
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
+
+    def test_refuses_a_folder_as_its_file(self):
+        (self.folder / "folder").mkdir()
+        result = self.overturn("history", "small.toml", "-o", "folder", AT)
+        self.assert_exit(result, 74, 'cannot write "folder": it is not a regular file')
+        self.assertNotIn("Remove", result.stderr)
 
     def test_is_plotted_with_its_point_and_events(self):
         self.history(AT)

@@ -271,6 +271,26 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
         HasSubstr("t.csv:1:5: id_length is the name of the dimension of the texts of id"));
 }
 
+TEST_F(Columns, ThatNameRecordsOfASuiteWithoutAssigningThemAreRefused)
+{
+    write_record("a.AT2", "0 1 0");
+    write_record("b.AT2", "0 2 0");
+    const std::string rest = "\n[blocks]\ntable = \"t.csv\"\n[plane]\nscale = 1\n";
+    const auto refusal_of = [&](const std::string& name, const std::string& values) {
+        write("t.csv", fmt::format("slenderness,size,restitution,{}\n{}", name, values));
+        return refusal(exit_code::job, [&] { job("record = ['a.AT2', 'b.AT2']", rest); });
+    };
+    for (const char* name : {"record", "Record", "motions", "motion_id", "event"}) {
+        for (const char* ending : {"", ".AT2"}) {
+            EXPECT_THAT(
+                refusal_of(name, fmt::format("0.2,1,0.9,a{0}\n0.2,1,0.9,b{0}\n", ending)),
+                HasSubstr(fmt::format("t.csv:1:4: {} names records of the job, but", name)));
+        }
+    }
+    EXPECT_EQ(refusal_of("motion", "0.2,1,0.9,a\n0.2,1,0.9,b\n"), "");
+    EXPECT_EQ(refusal_of("place", "0.2,1,0.9,a\n0.2,1,0.9,hall\n"), "") << "not only records";
+}
+
 TEST_F(Columns, WithTheNameOfAQuantityInOtherLettersAreRefused)
 {
     for (const Quantity& quantity : all_quantities()) {

@@ -143,6 +143,9 @@ TEST(At2, IsRefusedWithFileLineAndReason)
         {"AFactor", at2("NPTS= 3, DT= .01 SEC, SCALE FACTOR 2"),
             "a.txt:4: \"NPTS= 3, DT= .01 SEC, SCALE FACTOR 2\" has other numbers beside the number of points and the "
             "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
+        {"AnotherUnitInFront", at2("MS: NPTS= 3, DT= 5"),
+            "a.txt:4: \"MS: NPTS= 3, DT= 5\" lacks the number of points or the time step. Write it as in NPTS= 4000, "
+            "DT= .01 SEC."},
         {"AFractionOfPoints", at2("NPTS= 3.5, DT= .01 SEC"),
             "a.txt:4: NPTS is \"3.5\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},

@@ -49,26 +49,56 @@ int count(const History& history, EventKind kind, double until)
 TEST(History, ThatDoublesCannotFollowHasTheSettledRegionAndUnknownTimes)
 {
     std::mt19937_64 generator(7);
-    int uncertain = 0;
+    int searched = 0;
     int corrected = 0;
-    for (int i = 0; uncertain < 40; ++i) {
+    while (searched < 20) {
         const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
         Scene scene;
         scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
-        const Point point{{drawn.block.slenderness, 1}, drawn.scale, drawn.frequency};
-        const PointRun run(scene, {point}, widest_kernel());
-        const Outcomes path = outcomes_of(run, {Method::taylor, 1e-12}, {.region = true});
-        const Outcomes settled = outcomes_of(run, most_accurate, {.region = true});
-        const History history = history_of(scene, point);
-        EXPECT_EQ(history.region, Region(settled.region[0])) << i;
-        EXPECT_EQ(history.is_curve_certain, history.error < std::abs(history.margin)) << i;
-        if (!history.is_curve_certain) {
-            ++uncertain;
-            corrected += path.region != settled.region;
-            EXPECT_TRUE(std::isnan(history.time_of_fall) && std::isnan(history.time_of_rest)) << i;
+        const auto region_at = [&](double scale, const Numerics& numerics) {
+            const PointRun run(scene, {{drawn.block, scale, drawn.frequency}}, widest_kernel());
+            return Region(outcomes_of(run, numerics, {.region = true}).region[0]);
+        };
+        const Numerics doubles{Method::taylor, 1e-12};
+        double safe = 0;
+        double unsafe = drawn.scale;
+        if (!is_unsafe(region_at(unsafe, doubles))) {
+            continue;
+        }
+        ++searched;
+        for (double middle = unsafe / 2; safe < middle && middle < unsafe;
+             middle = safe + (unsafe - safe) / 2) {
+            (is_unsafe(region_at(middle, doubles)) ? unsafe : safe) = middle;
+        }
+        for (const double scale : {safe, unsafe}) {
+            const Region settled = region_at(scale, most_accurate);
+            const History history = history_of(scene, {drawn.block, scale, drawn.frequency});
+            EXPECT_NE(settled, Region::undecided) << scale;
+            EXPECT_EQ(history.region, settled) << scale;
+            EXPECT_FALSE(history.is_curve_certain) << scale;
+            EXPECT_TRUE(std::isnan(history.time_of_fall) && std::isnan(history.time_of_rest))
+                << scale;
+            corrected += is_unsafe(settled) != (scale == unsafe);
         }
     }
     EXPECT_GT(corrected, 0);
+}
+
+TEST(History, ThatDoublesCanFollowHasTheRegionOfTheSpectrum)
+{
+    std::mt19937_64 generator(8);
+    for (int i = 0; i < 200; ++i) {
+        const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
+        Scene scene;
+        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        const Point point{drawn.block, drawn.scale, drawn.frequency};
+        const PointRun run(scene, {point}, widest_kernel());
+        const History history = history_of(scene, point);
+        EXPECT_TRUE(history.is_curve_certain) << i;
+        EXPECT_EQ(history.region,
+                  Region(outcomes_of(run, most_accurate, {.region = true}).region[0]))
+            << i;
+    }
 }
 
 TEST(History, HasTheEndStateOfTheSpectrum)

@@ -6,10 +6,12 @@ Requires OVERTURN (the binary) in the environment.
 import csv
 import re
 import shutil
+import signal
+import subprocess
 import unittest
 
 import h5py
-from tool import InOneFolder, run_overturn, run_tool  # first: adds the package to the path
+from tool import TOOLS, InOneFolder, run_overturn, run_tool  # first: adds the package to the path
 from overturn.plot import fragility_curves
 
 JOB = """
@@ -62,6 +64,13 @@ class TestAPicture(Curve):
             self.assertIn(f"\nslenderness = {slenderness}\n", text)
             self.assertIn(f"# slenderness = {slenderness}\n", (self.folder / f"by_{number}.csv").read_text())
         self.assertIn("by slenderness", words)
+
+    def test_ends_without_a_message_if_its_reader_stops_early(self):
+        command = [TOOLS / "plot_fragility", "result.h5", "-o", "early.png"]
+        with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as tool:
+            tool.stdout.close()
+            self.assertEqual(tool.stderr.read(), b"")
+        self.assertEqual(tool.returncode, 128 + signal.SIGPIPE)
 
     def test_has_a_name_of_its_own(self):
         self.assertEqual(fragility_curves.read_arguments(["result.h5"]).output, "result_fragility.png")

@@ -2,7 +2,9 @@
 imported here, because synthetic_record needs nothing else but NumPy."""
 
 import argparse
+import os
 import pathlib
+import signal
 import sys
 
 from overturn.output_file import FILE, PICTURES, OutputError
@@ -46,9 +48,14 @@ def parse_with_picture(parser, argv, default="FILE.png"):
 
 
 def run_tool(name, main):
-    """Runs the function of a tool; an error ends the process with a message and an exit code."""
+    """Runs the function of a tool; an error ends the process with a message and an exit code. If the reader of the
+    output stops early, like head, the tool ends as other programs do, without a message."""
     try:
         main()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end of Python
+        sys.exit(128 + signal.SIGPIPE)
     except (ToolError, OutputError) as error:
         print(f"{name}: {error}", file=sys.stderr)
         sys.exit(error.code)
