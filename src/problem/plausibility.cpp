@@ -35,14 +35,14 @@ constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
                                 "periods are in seconds, and lengths in metres"};
 constexpr PlausibleRange acceleration{"the peak ground acceleration", " g", 0, 5,
                                       "accelerations are in g"};
-constexpr PlausibleRange peak{"the peak of a record", " g", 0.001, 5,
+constexpr PlausibleRange peak{"the peak of a component of a record", " g", 0.001, 5,
                               "state its unit if the file does not"};
 constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
                                    "times are in seconds"};
 constexpr PlausibleRange vertical_mean{
     "the mean of a vertical record", " g", -100, 0.3,
     "remove gravity from the record of a sensor that measures it"};
-constexpr PlausibleRange gravity{"gravity", " m/s2", 1, 30, "it is g in m/s2"};
+constexpr PlausibleRange gravity{"gravity", " m/s2", 1.5, 30, "it is g in m/s2"};
 
 /// What is implausible about these values, as one text; empty if nothing is. one_is_enough: whether
 /// some of the values may be implausible.
@@ -138,8 +138,11 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         for (const auto& record : scene.records) {
             means.values.push_back(record->upwards_mean());
             peaks.values.push_back(record->peak());
-            for (const double a : record->second()) {
-                peaks.values.back() = std::max(peaks.values.back(), std::abs(a));
+            for (const auto* other : {&record->second(), &record->upwards()}) {
+                if (!other->empty()) {
+                    const auto [least, most] = std::ranges::minmax(*other);
+                    peaks.values.push_back(std::max(-least, most));
+                }
             }
             time_steps.values.push_back(record->time_step());
         }

@@ -190,6 +190,61 @@ void expect_decimal_points(Lines lines)
     }
 }
 
+/// The time step that a comment states, as in DT= .01, "time step: 0.01 s" or "sampling rate 100
+/// Hz"; nullopt if it states none.
+std::optional<double> stated_time_step(std::string_view comment)
+{
+    constexpr std::string_view marks = " \t=:,;()[]";
+    const std::string text = lower(comment);
+    std::vector<std::string_view> words;
+    for (std::size_t begin = 0; (begin = text.find_first_not_of(marks, begin)) != text.npos;) {
+        const std::size_t end = std::min(text.find_first_of(marks, begin), text.size());
+        words.push_back(std::string_view(text).substr(begin, end - begin));
+        begin = end;
+    }
+    const bool is_sampled = text.find("sampl") != text.npos;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        double value = 0;
+        const std::string_view word = words[i];
+        const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (failure != std::errc() || !(value > 0)) {
+            continue;
+        }
+        const std::string_view glued(end, word.data() + word.size());
+        std::string_view unit = !glued.empty()         ? glued
+                                : i + 1 < words.size() ? words[i + 1]
+                                                       : std::string_view();
+        std::size_t last = i - 1; // of the name
+        if (last > 0 && (words[last] == "s" || words[last] == "sec" || words[last] == "ms")) {
+            unit = words[last--]; // as in time step [s]: 0.01
+        }
+        const std::string_view name = words[last];
+        const bool is_step = name == "dt" || name == "timestep" || name == "time_step" ||
+                             (last > 0 && (name == "step" || name == "interval") &&
+                              (words[last - 1] == "time" || words[last - 1].starts_with("sampl")));
+        if (is_step) {
+            return unit.starts_with("ms") || unit.starts_with("milli") ? value / 1000 : value;
+        }
+        if (is_sampled && (unit == "hz" || unit == "sps")) {
+            return 1 / value;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Refuses a comment that contradicts the time step of the only column.
+void expect_stated_step(const Lines& lines, double time_step)
+{
+    const auto stated = stated_time_step(lines.line());
+    constexpr double rounding = 1e-3; // of a printed step, such as 0.0078
+    if (stated && !(std::abs(*stated - time_step) <= rounding * time_step)) {
+        lines.refuse(
+            "the comment states a time step of {} s, but time_step = {} was given. Correct "
+            "one of them, or remove the comment.",
+            *stated, time_step);
+    }
+}
+
 } // namespace
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
@@ -207,6 +262,9 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     std::size_t columns = 0;
     while (lines.next()) {
         if (is_comment(lines.line())) {
+            if (options.time_step) { // the file has one column
+                expect_stated_step(lines, *options.time_step);
+            }
             header.add(lines);
             continue;
         }

@@ -115,9 +115,34 @@ TEST(Plausibility, OfRecordsJudgesPeakAndTimeStep)
     };
     EXPECT_THAT(found(0.5, 0.01), IsEmpty());
     EXPECT_THAT(found(300, 0.01),
-                HasSubstr("the peak of a record = 300 g is outside 0.001 to 5 g"));
-    EXPECT_THAT(found(0.5e-4, 0.01), HasSubstr("the peak of a record = 5e-05 g is outside"));
+                HasSubstr("the peak of a component of a record = 300 g is outside 0.001 to 5 g"));
+    EXPECT_THAT(found(0.5e-4, 0.01),
+                HasSubstr("the peak of a component of a record = 5e-05 g is outside"));
     EXPECT_THAT(found(0.5, 100), HasSubstr("the time step of a record = 100 s"));
+}
+
+TEST(Plausibility, OfRecordsJudgesEachComponent)
+{
+    Columns columns{{"width", {0.3}}, {"height", {1.0}}, {"restitution_of_maximum", {1.0}}};
+    columns["scale"] = {0.001};
+    columns["direction"] = {30};
+    std::mt19937_64 generator(5);
+    std::uniform_real_distribution<double> uniform(0.05, 0.9);
+    for (int i = 0; i < 50; ++i) {
+        const auto found = [&](double vertical, double second) {
+            const auto samples = [&](double peak) {
+                return std::vector<double>{0, -peak, peak / 3};
+            };
+            Scene scene;
+            scene.records.push_back(std::make_shared<const Accelerogram>(
+                samples(uniform(generator)), samples(vertical), 0.01, samples(second)));
+            return found_in(columns, scene);
+        };
+        const double g = uniform(generator);
+        EXPECT_THAT(found(g, g), IsEmpty());
+        EXPECT_THAT(found(g / 981, g), HasSubstr("the peak of a component of a record = "));
+        EXPECT_THAT(found(g, g / 981), HasSubstr("the peak of a component of a record = "));
+    }
 }
 
 TEST(Plausibility, OfGravityExpectsMetresPerSecondSquared)
@@ -128,6 +153,10 @@ TEST(Plausibility, OfGravityExpectsMetresPerSecondSquared)
     for (const double moon_earth_and_jupiter : {1.62, 9.81, 24.8}) {
         scene.gravity = moon_earth_and_jupiter;
         EXPECT_THAT(found_in(columns, scene), IsEmpty());
+    }
+    for (const double in_g : {0.98, 1.0}) {
+        scene.gravity = in_g;
+        EXPECT_THAT(found_in(columns, scene), HasSubstr("gravity = "));
     }
     scene.gravity = 981;
     EXPECT_THAT(found_in(columns, scene), HasSubstr("gravity = 981 m/s2"));

@@ -207,7 +207,7 @@ class AWarning(unittest.TestCase):
 
     def test_of_a_record_in_other_units(self):
         block = {**BLOCK, "restitution": 0.8, "record": np.array([0, 300, -200.0])}
-        with self.assertWarnsRegex(UserWarning, "the peak of a record = 300 g"):
+        with self.assertWarnsRegex(UserWarning, "the peak of a component of a record = 300 g"):
             overturn.evaluate(**block, time_step=0.02, pga=0.3)
         with self.assertWarnsRegex(UserWarning, "the time step of a record = 20 s"):
             overturn.evaluate(**{**block, "record": [0, 0.3, -0.2]}, time_step=20, scale=1)

@@ -29,6 +29,45 @@ def simulated(seed, motions=50, values=10, blocks=20, shared=0.5):
     return Counts(log_measure, np.full((motions, values), float(blocks)), exceeding.astype(float))
 
 
+def joined_suites(count):
+    """Two results of different suites that number their motions alike, joined."""
+    random = np.random.default_rng(7)
+    parts = []
+    for name in ("a", "b"):
+        part = result(random.choice([S, U0], (count, 3, 4)), [1, 2, 3])
+        names = np.array([f"{name}{number}.AT2" for number in range(count)])
+        parts.append(part.assign_coords(motion_name=("motion", names)))
+    return xarray.concat(parts, "motion")
+
+
+class TheFriction(unittest.TestCase):
+    def test_that_is_not_there_leaves_no_verdict(self):
+        random = np.random.default_rng(8)
+        region = random.choice([S, U0, UNDECIDED, NOT_COMPUTED], (12, 5, 6))
+        needed = random.uniform(0.2, 0.8, region.shape)
+        needed[random.random(region.shape) < 0.1] = np.nan
+        needed[random.random(region.shape) < 0.1] = np.inf
+        data = result(region, [1, 2, 3, 4, 5], friction=needed)
+        for friction in (0.3, 0.5, 10):
+            known = np.isin(region, [S, U0]) & (needed <= friction)
+            found = overturn.fragility(data, friction=friction)
+            self.assertEqual(found.points.sum(), known.sum())
+            self.assertEqual(found.exceeding.sum(), (known & (region == U0)).sum())
+            self.assertEqual(found.undecided, (~known & (region != NOT_COMPUTED)).sum())
+            lost = (np.isin(region, [S, U0]) & ~known).sum()
+            self.assertIn(f"{lost} of the undecided points need a friction coefficient above", found.summary())
+        with self.assertRaisesRegex(ValueError, "no field friction"):
+            overturn.fragility(data.drop_vars("friction"), friction=0.5)
+        for wrong in (0, -1, float("nan")):
+            with self.assertRaisesRegex(ValueError, "is not above 0"):
+                overturn.fragility(data, friction=wrong)
+
+
+class TheMotions(unittest.TestCase):
+    def test_of_joined_suites_are_counted_by_name(self):
+        self.assertEqual(overturn.fragility(joined_suites(6)).motions, 12)
+
+
 class TheFit(unittest.TestCase):
     def test_is_that_of_a_general_minimizer(self):
         counts = simulated(1)

@@ -45,7 +45,7 @@ TEST(Text, KeepsItsCommentsAsHeader)
 
 TEST(Text, IsNotAnAt2FileIfTheFourthLineIsAComment)
 {
-    EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .01\n1\n2\n", one_column).acceleration,
+    EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .02\n1\n2\n", one_column).acceleration,
               (Values{1, 2}));
 }
 
@@ -252,6 +252,37 @@ TEST(Text, RefusesMoreSamplesThanAreAllowed)
         refusal_of(text, one_column),
         "a.txt:10000001: the file has more than 10000000 samples, the maximum. Give a shorter "
         "record.");
+}
+
+TEST(OneColumn, IsRefusedIfItsCommentStatesAnotherTimeStep)
+{
+    std::mt19937_64 generator(3);
+    const auto read = [](const std::string& comment, double time_step) {
+        return parse_record("# " + comment + "\n0.1\n0.2\n", "a.txt",
+                            {.time_step = time_step, .unit = AccelerationUnit::g})
+            .components[0]
+            .time_step;
+    };
+    for (int i = 0; i < 100; ++i) {
+        const double hertz = double(1 + generator() % 400);
+        const double step = 1 / hertz;
+        for (const std::string& comment :
+             {fmt::format("synthetic, DT = {} s, NPTS = 2", step), fmt::format("dt={:.6g}s", step),
+              fmt::format("Time step: {:.6g} sec", step), fmt::format("time step [s]: {}", step),
+              fmt::format("sampling interval {} ms", 1000 * step),
+              fmt::format("Sampling rate {} Hz", hertz), fmt::format("{} sps, sampled", hertz),
+              fmt::format("NPTS= 2, DT= {:.6f} SEC", step)}) {
+            EXPECT_EQ(read(comment, step), step) << comment;
+            for (const double other : {step / 2, 2 * step, 1.01 * step}) {
+                EXPECT_THROW(read(comment, other), Error) << comment;
+            }
+        }
+        for (const std::string& comment :
+             {fmt::format("filtered below {} Hz", hertz), fmt::format("station {}", hertz),
+              fmt::format("time {} s", hertz)}) {
+            EXPECT_EQ(read(comment, 0.01), 0.01) << comment;
+        }
+    }
 }
 
 TEST(Text, RefusesCommentsThatFillTheMemory)

@@ -11,6 +11,7 @@ import stat
 import unittest
 import unittest.mock
 
+from matplotlib import pyplot
 from tool import JOBS, InAFolder, new_folder, run_overturn, run_tool  # first: adds the package to the path
 from overturn import csv_table
 from overturn.output_file import OutputError, new_file, write_text
@@ -58,6 +59,19 @@ class TestAWrittenFile(InAFolder):
                 (self.folder / path).write_bytes(content)
                 self.refuses(path, *words, path)
         self.refuses("result.h5", "to_csv", "result.h5", "-o", "result.h5")
+
+    def test_that_is_a_picture_of_another_program_is_refused_and_remains(self):
+        figure, axes = pyplot.subplots(figsize=(2, 2))
+        axes.plot([1, 2])
+        for suffix in (".png", ".pdf", ".svg"):
+            path = f"statue{suffix}"
+            figure.savefig(self.folder / path)
+            self.refuses(path, "plot_spectrum", "result.h5", "-o", path)
+            (self.folder / path).unlink()
+            for _ in range(2):  # a picture of its own is replaced
+                run = self.run_tool("plot_spectrum", "result.h5", "-o", path)
+                self.assertEqual(run.returncode, 0, run.stderr)
+        pyplot.close(figure)
 
     def test_of_another_kind_is_refused_behind_a_link(self):
         (self.folder / "link.csv").symlink_to("result.h5")

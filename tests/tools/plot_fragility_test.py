@@ -65,6 +65,21 @@ class TestAPicture(Curve):
             self.assertIn(f"# slenderness = {slenderness}\n", (self.folder / f"by_{number}.csv").read_text())
         self.assertIn("by slenderness", words)
 
+    def test_replaces_its_own_table_and_no_other(self):
+        self.output_of("result.h5", "--im", "pga", "--csv", "own.csv", "-o", "picture.png")
+        own = (self.folder / "own.csv").read_text()
+        header = next(line for line in own.splitlines() if not line.startswith("#"))
+        self.output_of("result.h5", "--im", "pga", "--csv", "own.csv", "-o", "picture.png")
+        others = [own.replace("\n", ",note\n"), "# notes of the visit\n" + own, f"# notes: {header}\nx,y\n1,2\n",
+                  header + "\n1,2,3,4,5,6,7,8,9\n", own.rstrip("\n").rpartition("\n")[0] + "\nsee p. 7\n",
+                  own.replace("pga_from", "pgv_from")]
+        for other in others:
+            (self.folder / "other.csv").write_text(other)
+            run = self.run_tool("result.h5", "--im", "pga", "--csv", "other.csv", "-o", "picture.png")
+            self.assertEqual(run.returncode, 74, other)
+            self.assertIn("it exists and is not a table of a fragility curve", run.stderr)
+            self.assertEqual((self.folder / "other.csv").read_text(), other)
+
     def test_ends_without_a_message_if_its_reader_stops_early(self):
         command = [TOOLS / "plot_fragility", "result.h5", "-o", "early.png"]
         with subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as tool:

@@ -124,6 +124,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         columns |= _given(scale=scale)
         components = _accelerations(record, second_component, vertical)
         scene = core.scene_of_record(*components, numbers["time_step"], theory, numbers["gravity"])
+    if not isinstance(resolve, (bool, np.bool_)):
+        raise ArgumentError(f"resolve = {resolve!r} is neither True nor False.")
     numerics = core.numerics(scene, method, numbers.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns)
 

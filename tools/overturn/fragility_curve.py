@@ -6,6 +6,7 @@ import csv
 import dataclasses
 import math
 import os
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,9 @@ POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
 _COLUMNS = ("points", "exceeding", "without_verdict", "fraction", "probability", "probability_low", "probability_high")
 _NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
 VALUES_OF_CURVE = 100
+_SUMMARY = re.compile(r"# .* against \w+ \[.*points with a verdict")
+_HEADER = re.compile(r"(\w+)_from,\1_to," + ",".join(_COLUMNS))
+_ROW = re.compile(f"[-+.0-9einfa]*(,[-+.0-9einfa]*){{{len(_COLUMNS) + 1}}}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -39,7 +43,7 @@ class Fragility:
     points: NDArray[np.int64]  #: with a verdict, per bin
     exceeding: NDArray[np.int64]  #: per bin
     without_verdict: NDArray[np.int64]  #: undecided or not computed, per bin; not in `points`
-    undecided: int  #: points of region 254
+    undecided: int  #: points of region 254, or that may slip
     not_computed: int  #: points of region 255
     motions: int  #: with at least one verdict
     blocks: int  #: pooled in the curve
@@ -79,8 +83,7 @@ class Fragility:
                   for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
                     *fitted)
-        with new_file(path, "a table of a fragility curve",
-                      lambda beginning: ",".join(_COLUMNS).encode() in beginning) as part, open(
+        with new_file(path, "a table of a fragility curve", _is_own) as part, open(
                 part, "w", newline="", encoding="utf-8") as file:
             file.writelines(f"# {line}\n" for line in self.summary().splitlines())
             writer = csv.writer(file, lineterminator="\n")
@@ -89,8 +92,16 @@ class Fragility:
                               *("" if np.isnan(number) else f"{number:.6g}" for number in row[5:])] for row in table)
 
 
-def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, bins: int = 10,
-              samples: int = 1000, seed: int = 1) -> Fragility:
+def _is_own(beginning):
+    """Whether a file is what Fragility.to_csv() writes: a summary, the names of the columns, and rows of numbers."""
+    lines = beginning.decode(errors="replace").split("\n")
+    rows = [line for line in lines[:-1] if not line.startswith("#")]
+    return (_SUMMARY.match(lines[0]) is not None and bool(rows) and _HEADER.fullmatch(rows[0]) is not None
+            and all(_ROW.fullmatch(row) for row in rows[1:]))
+
+
+def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, friction: float | None = None,
+              bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
     """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
     alike: choose some by dataset.isel() or dataset.sel() first.
 
@@ -98,6 +109,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
         the records are scaled like the motions.
     limit: counts points whose field peak is above it; None counts those that overturn.
+    friction: coefficient between block and ground; points that need more, see the field friction, have no verdict.
     bins: their number; they do not change the fit.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
@@ -108,8 +120,10 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
     if limit is not None and not math.isfinite(limit):
         raise ValueError(f"limit = {limit} is not a number. Give the peak |theta| / alpha that counts as exceeding.")
+    if friction is not None and not friction > 0:
+        raise ValueError(f"friction = {friction} is not above 0. Give the coefficient between block and ground.")
     measure = _measure(dataset, im)
-    cells = _cells(dataset, measure, limit)
+    cells = _cells(dataset, measure, limit, friction)
     edges = _edges(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
@@ -121,7 +135,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], blocks=_blocks(dataset["region"]), **_fitted(fit, value),
-                     notes=(*_left_out(cells, im), *[reason] * bool(reason), *_extrapolated(fit, edges, im),
+                     notes=(*_slipping(cells, friction), *_left_out(cells, im), *[reason] * bool(reason), *_extrapolated(fit, edges, im),
                             *_without_band(fit, counts, samples)))
 
 
@@ -168,7 +182,7 @@ def _units(measure, im):
     return "g" if im == "pga" and units == "1" else units
 
 
-def _cells(dataset, measure, limit):
+def _cells(dataset, measure, limit, friction):
     """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
     of points of each kind."""
     region = dataset["region"]
@@ -189,16 +203,40 @@ def _cells(dataset, measure, limit):
         exceeding = decided & (dataset["peak"] > limit)
     else:
         raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
-    motion = dataset["motion"]
+    slipping = decided & False
+    if friction is not None:
+        if "friction" not in dataset:
+            raise ValueError("this result has no field friction. Add it to output.fields.")
+        slipping = decided & ~(dataset["friction"] <= friction)
+        decided, exceeding = decided & ~slipping, exceeding & ~slipping
+    motion = _numbered(dataset)
     kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]
     kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
-             "undecided": ~decided & ~not_computed}
+             "undecided": ~decided & ~not_computed, "slipping": slipping}
     others = [name for name in region.dims if name not in kept]
     like = region.isel(dict.fromkeys(others, 0), drop=True)
     cells = {name: kind.astype(np.int32).sum(others).transpose(*kept).values.ravel() for name, kind in kinds.items()}
     for name, values in (("measure", measure), ("motion", motion)):
         cells[name] = values.broadcast_like(like).transpose(*kept).values.ravel()
     return cells
+
+
+def _slipping(cells, friction):
+    """Returns what was not known because the block may slip."""
+    if friction is None:
+        return []
+    return [f"{int(cells['slipping'].sum())} of the undecided points need a friction coefficient above {friction:g}, or "
+            "an unknown one"]
+
+
+def _numbered(dataset):
+    """Returns the coordinate motion, with different numbers for motions of different names: results that were joined
+    number theirs alike."""
+    motion = dataset["motion"]
+    if "motion_name" not in dataset or dataset["motion_name"].dims != motion.dims:
+        return motion
+    names = np.char.add(motion.values.astype(str), np.char.add(" ", dataset["motion_name"].values.astype(str)))
+    return motion.copy(data=np.unique(names, return_inverse=True)[1].reshape(motion.shape))
 
 
 def _measurable(cells):

@@ -11,7 +11,9 @@ import shutil
 import stat
 
 FILE = 74  # exit code, equal to that of overturn
-PICTURES = {".png": b"\x89PNG", ".pdf": b"%PDF", ".svg": b"<svg"}  # suffix, and what such a file contains
+# Suffix, what such a file contains, and the key of its metadata that names the program that made it.
+PICTURES = {".png": (b"\x89PNG", "Software"), ".pdf": (b"%PDF", "Creator"), ".svg": (b"<svg", "Creator")}
+MAKER = "overturn pictures"
 BEGINNING = 4096  # bytes of an existing file that show its kind
 
 
@@ -73,10 +75,13 @@ def write_picture(figure, path, **how):
     """Writes a figure of Matplotlib in the format that the suffix of the path names."""
     import matplotlib
     suffix = pathlib.Path(path).suffix
-    with new_file(path, f"a {suffix[1:].upper()} picture",
-                  lambda beginning: suffix in PICTURES and PICTURES[suffix] in beginning) as part, \
+    signature, key = PICTURES.get(suffix, (None, "Software"))
+
+    def is_own(beginning):
+        return suffix in PICTURES and signature in beginning and MAKER.encode() in beginning + _end_of(path)
+    with new_file(path, f"a {suffix[1:].upper()} picture of overturn", is_own) as part, \
             matplotlib.rc_context({"svg.fonttype": "none"}):  # text remains text, to search and edit
-        figure.savefig(part, format=suffix[1:] or "png", **how)
+        figure.savefig(part, format=suffix[1:] or "png", metadata={key: MAKER}, **how)
 
 
 def save(figure, path, **how):
@@ -98,6 +103,12 @@ def _expect_own(path, kind, is_own):
         raise OutputError(path, f"it exists and is not {kind}. Remove it, or choose another name")
     if not os.stat(path).st_mode & stat.S_IWUSR:
         raise OutputError(path, "it is write-protected. Remove it, or choose another name")
+
+
+def _end_of(path):
+    with open(path, "rb") as file:
+        file.seek(max(os.path.getsize(path) - BEGINNING, 0))
+        return file.read()
 
 
 def _sync(path):
