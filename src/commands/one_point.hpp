@@ -58,14 +58,20 @@ inline History history_of_only_point(const Job& job, HistoryView view = {})
     return history;
 }
 
-/// The largest |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
-inline double peak_of_only_point(const Job& job)
+/// The value of a field of type double, as accurate as possible.
+inline double value_of_only_point(const Job& job, Field field)
 {
     Problem problem = job.problem;
     problem.numerics = most_accurate;
-    problem.fields = {Field::peak};
+    problem.fields = {field};
     const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
     return std::get<std::vector<double>>(fields.values[0])[0];
+}
+
+/// The largest |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
+inline double peak_of_only_point(const Job& job)
+{
+    return value_of_only_point(job, Field::peak);
 }
 
 /// slenderness: nullopt if the block has two of them.

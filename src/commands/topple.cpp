@@ -113,6 +113,9 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
         answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
+        if (scene.theory == Theory::nonlinear) {
+            answer.friction = value_of_only_point(job, Field::friction);
+        }
     }
     answer.lifting_pga = lifting_pga(scene, point);
     const double requested = point.block.restitution;
@@ -150,6 +153,15 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
         most = std::max(most, each.ranges.undecided_share());
     }
     return most;
+}
+
+std::string friction_text(double friction)
+{
+    return std::isnan(friction) ? "unknown"
+           : std::isinf(friction)
+               ? "the block would leave the ground, so that the verdict is doubtful"
+               : fmt::format("the verdict holds if the coefficient is at least {:.2f}",
+                             -rounded_down(-friction, 2));
 }
 
 /// The numbers that complete a pulse, each after a comma.
@@ -204,6 +216,9 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                                  ? fmt::format("{} at {} g", verdict, *options.pga)
                                  : fmt::format("{} at {:.{}f} g", verdict, answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
+        if (answer.friction) {
+            print_row("friction", friction_text(*answer.friction));
+        }
     }
     print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
     print_row("topples", requested.ranges.text(decimals, 20) +

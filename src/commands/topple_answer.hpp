@@ -22,6 +22,7 @@ struct RestitutionAnswer {
 struct ToppleAnswer {
     std::optional<Verdict> verdict; ///< nullopt if not requested
     double peak = 0;                ///< |theta| / alpha
+    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
     double pga = 0;                 ///< of the requested point
     double lifting_pga = 0;
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first

@@ -111,6 +111,8 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     member("peak_of_alpha", if_requested(answer.peak));
     member("peak_degrees",
            alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
+    member("friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
+    member("lifts_off", answer.friction && std::isinf(*answer.friction) ? "true" : "false");
     if (alpha) {
         member("slenderness", *alpha);
     } else {

@@ -111,6 +111,7 @@ Job read_job_text(std::string text, const std::string& name,
     problem.numerics = read_numerics(entry, problem.scene.is_recorded());
     problem.fields = read_fields(entry);
     expect_known_errors(entry, problem);
+    expect_contact(entry, problem);
     read_points(entry, folder, is_suite, job);
     expect_fillable(entry, problem); // before `evaluated` is added, which it would refuse
     if (problem.numerics.fill) {

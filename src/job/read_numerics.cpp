@@ -49,4 +49,20 @@ void expect_known_errors(const Entry& job, const Problem& problem)
     }
 }
 
+void expect_contact(const Entry& job, const Problem& problem)
+{
+    if (problem.scene.theory != Theory::linear) {
+        return;
+    }
+    for (const Field field : {Field::friction, Field::normal}) {
+        if (std::ranges::count(problem.fields, field) > 0) {
+            refuse(
+                *find(*find(job, "output"), "fields"),
+                " contains \"{}\", but the linear theory has no forces of the contact. Remove it, "
+                "or use theory = \"nonlinear\".",
+                name_of(field));
+        }
+    }
+}
+
 } // namespace overturn

@@ -36,6 +36,9 @@ std::vector<Field> read_fields(const Entry& job);
 /// Throws Error if the job needs error bounds, but its tolerance is too loose for them.
 void expect_known_errors(const Entry& job, const Problem& problem);
 
+/// Refuses forces of the contact in the linear theory.
+void expect_contact(const Entry& job, const Problem& problem);
+
 /// Throws Error if the job asks for filling but cannot be filled.
 void expect_fillable(const Entry& entry, const Problem& problem);
 

@@ -313,6 +313,7 @@ std::vector<Point> Coordinates::points() const
         points.fill("pulse_period",
                     [](Point& point, double period) { point.frequency = two_pi / period; });
     }
+    points.fill("gyration_over_size", [](Point& point, double value) { point.gyration = value; });
     std::vector<Point> all = points.all();
     make_symmetric(all);
     return all;

@@ -39,6 +39,12 @@ const std::array<FieldTraits, count_of_fields> fields{{
      "during the ground motion and after it; infinite where the block overturns"},
     {"fall_time", FieldType::float64, "time p t from uplift to |theta| = pi/2", "1",
      "infinite where the block does not overturn"},
+    {"friction", FieldType::float64, "friction coefficient needed", "1",
+     "the largest |along| / normal force of the base on the block, during the ground motion and "
+     "after it, impacts excepted; of a block that overturns, until it last passes alpha; infinite "
+     "where the block would leave the base"},
+    {"normal", FieldType::float64, "smallest normal force over that at rest", "1",
+     "over the same times as the friction"},
     {"impacts",
      FieldType::uint16,
      "impacts during the ground motion",
@@ -62,7 +68,8 @@ const std::array<FieldTraits, count_of_fields> fields{{
       {status::cap_was_hit, "cap_was_hit"},
       {status::not_finite, "not_finite"},
       {status::unresolved, "unresolved"},
-      {status::free_fall, "free_fall"}},
+      {status::free_fall, "free_fall"},
+      {status::lifts_off, "lifts_off"}},
      true},
     {"flip_amplitude", FieldType::float64, "strength at which the verdict flips", "1",
      "the amplitude of a pulse or the scale of a record, in ascending order; NaN beyond the last "

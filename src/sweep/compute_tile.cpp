@@ -57,7 +57,8 @@ std::vector<double> rates_of(const PointRun& points, const Outcomes& outcomes)
 /// A field of a spectrum that is not filled. `region`, `margin` and `error` are not computed here:
 /// spectrum_tile() moves them from the outcomes. A filled spectrum has its own values, see
 /// filled_tile().
-FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
+FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes,
+                      const std::vector<ContactDemand<double>>& demands)
 {
     switch (field) {
     case Field::angle: return with_sign(outcomes.tilt, outcomes);
@@ -66,6 +67,11 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                                       : with_sign(rates_of(points, outcomes), outcomes);
     case Field::peak: return points.peaks(outcomes);
     case Field::fall_time: return points.fall_times(outcomes);
+    case Field::friction:
+    case Field::normal:
+        return for_each_of<double>(outcomes, [&](std::size_t i) {
+            return field == Field::friction ? demands[i].friction : demands[i].normal;
+        });
     case Field::impacts:
         return for_each_of<std::uint16_t>(outcomes, [&](std::size_t i) {
             return outcomes.stored_impacts(i, points.scene().is_recorded());
@@ -81,7 +87,8 @@ FieldValues values_of(Field field, const PointRun& points, const Outcomes& outco
                    flag(outcome_flag::capped, status::cap_was_hit) |
                    flag(outcome_flag::not_finite, status::not_finite) |
                    flag(outcome_flag::unresolved, status::unresolved) |
-                   flag(outcome_flag::free_fall, status::free_fall);
+                   flag(outcome_flag::free_fall, status::free_fall) |
+                   (!demands.empty() && demands[i].normal <= 0 ? status::lifts_off : 0);
         });
     default:
         return {}; // moved from the outcomes later, because `peak` and `fall_time` read the
@@ -112,20 +119,23 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
     const auto wanted = [&fields = fields](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
+    const bool watches = wanted(Field::friction) || wanted(Field::normal);
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
                           !grid.has_two_sides());
-    Outcomes outcomes = outcomes_of(
-        points, numerics,
-        {.impacts = wanted(Field::impacts),
-         .error = wanted(Field::error),
-         .peak = wanted(Field::peak),
-         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
-         .margin = wanted(Field::margin),
-         .steps = wanted(Field::steps),
-         .phase = wanted(Field::fall_time)});
+    Outcomes outcomes = outcomes_of(points, numerics,
+                                    {.impacts = wanted(Field::impacts),
+                                     .error = wanted(Field::error),
+                                     .peak = wanted(Field::peak),
+                                     .region = wanted(Field::region) || wanted(Field::peak) ||
+                                               wanted(Field::fall_time) || watches,
+                                     .margin = wanted(Field::margin),
+                                     .steps = wanted(Field::steps),
+                                     .phase = wanted(Field::fall_time)});
+    const auto demands = watches ? points.contact_demands(numerics, outcomes.region)
+                                 : std::vector<ContactDemand<double>>();
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, outcomes));
+        result.values.push_back(values_of(field, points, outcomes, demands));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
         if (fields[i] == Field::region) {

@@ -1,6 +1,7 @@
 #include "point_run.hpp"
 
 #include "overturn/integrate/more_digits.hpp"
+#include "overturn/mechanics/free_contact.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
 #include "overturn/problem/fields.hpp"
@@ -38,15 +39,16 @@ Outcomes::Outcomes(std::size_t points, const Outputs& wanted)
       impacts(outputs.impacts ? points : 0), error(outputs.error ? points : 0),
       steps(outputs.steps ? points : 0), phase(outputs.phase ? points : 0),
       peak(outputs.peak ? points : 0), lowest_turn(outputs.grazes ? points : 0),
-      softest_impact(outputs.grazes ? points : 0), last_impact(outputs.grazes ? points : 0)
+      softest_impact(outputs.grazes ? points : 0), last_impact(outputs.grazes ? points : 0),
+      friction(outputs.contact ? points : 0), normal(outputs.contact ? points : 0)
 {}
 
 OutcomePointers Outcomes::pointers()
 {
-    return {tilt.data(),           rate.data(),       side.data(),    flags.data(),
-            region.data(),         margin.data(),     impacts.data(), error.data(),
-            steps.data(),          phase.data(),      peak.data(),    lowest_turn.data(),
-            softest_impact.data(), last_impact.data()};
+    return {tilt.data(),           rate.data(),        side.data(),     flags.data(),
+            region.data(),         margin.data(),      impacts.data(),  error.data(),
+            steps.data(),          phase.data(),       peak.data(),     lowest_turn.data(),
+            softest_impact.data(), last_impact.data(), friction.data(), normal.data()};
 }
 
 void Outcomes::set_free_fall(int point)
@@ -337,6 +339,43 @@ std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
     return after_the_pulse(outcomes, peak);
 }
 
+std::vector<ContactDemand<double>>
+PointRun::contact_demands(const Numerics& numerics, const std::vector<std::uint8_t>& regions) const
+{
+    const bool is_recorded = scene_.is_recorded();
+    Outcomes watched(points_.size(), {.error = is_recorded,
+                                      .peak = true,
+                                      .region = true,
+                                      .margin = is_recorded,
+                                      .contact = true});
+    run(numerics.resolve ? most_accurate : numerics, watched, all());
+    if (is_recorded && numerics.resolve) {
+        std::vector<int> in_doubt;
+        for (const int point : all()) {
+            if ((watched.flags[std::size_t(point)] & outcome_flag::in_doubt) != 0) {
+                in_doubt.push_back(point);
+            }
+        }
+        run_in_31_digits(watched, in_doubt);
+    }
+    std::vector<ContactDemand<double>> demands(points_.size(), {unknown, unknown});
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+        // The motion may be so sensitive that this run has another end than the one of the verdict.
+        if (watched.region[i] != regions[i] || Region(regions[i]) == Region::undecided) {
+            continue;
+        }
+        demands[i] = {watched.friction[i], watched.normal[i]};
+        if (!(watched.flags[i] & outcome_flag::fell)) {
+            const ContactSides<double> sides(points_[i].block, points_[i].gyration);
+            const State<double> end{watched.tilt[i], watched.rate[i], watched.side[i]};
+            ContactDemand<double> later = free_contact(end, block_at_end(i, watched), sides);
+            later.normal /= sides.plus.cosine;
+            demands[i].include(later, true);
+        }
+    }
+    return demands;
+}
+
 std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
 {
     const auto fall_time = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
@@ -364,6 +403,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
     computed.peak = outputs.peak && (points.scene().is_recorded() || !computed.error);
+    computed.contact = false; // see watch_contact()
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;

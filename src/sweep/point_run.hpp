@@ -3,6 +3,7 @@
 
 #include "sweep_kernel.hpp"
 
+#include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/tile.hpp"
@@ -32,7 +33,7 @@ struct Outcomes {
     std::vector<double> tilt, rate, side;
     std::vector<std::uint8_t> flags, region;
     std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact,
-        last_impact;
+        last_impact, friction, normal;
 };
 
 /// Sets the value of a point in an array of outcomes, unless it is no output.
@@ -118,6 +119,12 @@ public:
     /// it. Require outcomes with regions, and with peaks or phases.
     std::vector<double> peaks(const Outcomes& outcomes) const;
     std::vector<double> fall_times(const Outcomes& outcomes) const;
+
+    /// What the contact must bear during the ground motion and after it, by a run of its own; the
+    /// normal force over that at rest. NaN for points without a verdict, and where this run has
+    /// another region than these. Only in the nonlinear theory.
+    std::vector<ContactDemand<double>>
+    contact_demands(const Numerics& numerics, const std::vector<std::uint8_t>& regions) const;
 
 private:
     void throw_if_dropped() const;

@@ -33,11 +33,13 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
 /// Stores the lanes of one pack, except those without a point. outputs: chosen at compile time, see
 /// Outputs; task.outputs: at run time.
 template <Theory theory, Outputs outputs>
-[[gnu::noinline]] void store(const ForcedEnd<T>& end, const Block<T>& block, const KernelTask& task,
-                             int first, const OutcomePointers& to)
+[[gnu::noinline]] void store(const auto& stage, const KernelTask& task, int first,
+                             const OutcomePointers& to)
 {
+    const ForcedEnd<T> end = stage.end();
+    const Block<T>& block = stage.block();
     const int count = task.chosen_count - first < lanes ? task.chosen_count - first : lanes;
-    const auto put = [&](const T& number, auto* array) {
+    const auto put = [&](const auto& number, auto* array) {
         const auto values = lanes_of(number);
         for (int i = 0; i < count; ++i) {
             array[task.chosen[first + i]] = std::remove_pointer_t<decltype(array)>(values[i]);
@@ -70,6 +72,13 @@ template <Theory theory, Outputs outputs>
             put(end.lowest_turn, to.lowest_turn);
             put(end.softest_impact, to.softest_impact);
             put(end.last_impact, to.last_impact);
+        }
+        if constexpr (theory == Theory::nonlinear) {
+            if (task.outputs.contact) {
+                const auto demand = stage.contact_demand();
+                put(demand.friction, to.friction);
+                put(demand.normal, to.normal);
+            }
         }
     }
     if (task.outputs.impacts) {
@@ -181,6 +190,21 @@ struct PackPoints {
     S spare[lanes]; ///< infinite in spare lanes
 };
 
+/// The contact of the blocks, if it is watched.
+template <Theory theory, Outputs outputs>
+std::optional<ContactSides<estimate_t<T>>> contact_of([[maybe_unused]] const PackPoints& points,
+                                                      [[maybe_unused]] const Block<T>& blocks)
+{
+    if constexpr (outputs.peak && theory == Theory::nonlinear) {
+        if (points.task.outputs.contact) {
+            const T gyration =
+                points.gathered([&](int i) { return points.task.points[i].gyration; });
+            return ContactSides<estimate_t<T>>(estimate_of(blocks), estimate_of(gyration));
+        }
+    }
+    return std::nullopt;
+}
+
 /// Steps of a pack between two calls of drop_requested(): a few milliseconds. A pack may take a
 /// million steps.
 constexpr int turns_between_checks = 4096;
@@ -213,7 +237,7 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
         const PackPoints points(task, next);
         const Block<T> blocks = points.blocks();
         pack.stage.emplace(blocks, excitation_of(points, blocks), S(task.tolerance),
-                           task.uncertain_impact);
+                           task.uncertain_impact, contact_of<theory, outputs>(points, blocks));
         pack.first = next;
         next += lanes;
     };
@@ -225,8 +249,7 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
         with_points = 0;
         for (Pack& pack : packs) {
             while (!pack.stage->is_active() && pack.first < task.chosen_count) {
-                store<theory, outputs>(pack.stage->end(), pack.stage->block(), task, pack.first,
-                                       outcomes);
+                store<theory, outputs>(*pack.stage, task, pack.first, outcomes);
                 fill(pack);
             }
             with_points += pack.stage->is_active();

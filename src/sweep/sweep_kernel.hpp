@@ -63,6 +63,8 @@ struct OutcomePointers {
     double* lowest_turn;    ///< see ForcedEnd [rad]
     double* softest_impact; ///< see ForcedEnd [rad]
     double* last_impact;    ///< see ForcedEnd [rad]
+    double* friction;       ///< see ContactDemand [1]
+    double* normal;         ///< see ContactDemand [1]
 };
 
 using SweepKernel = void (*)(const KernelTask& task, const OutcomePointers& outcomes);

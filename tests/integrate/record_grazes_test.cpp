@@ -58,7 +58,7 @@ double first_impact(const RecordPoint& point, Rocking<double> now)
     const RecordStepper<order, theory, double, Outputs{}, std::remove_const_t<decltype(excitation)>>
         stepper(point.block, excitation, 1e-12);
     for (int steps = 0; steps < 200 && now.phase < 1; ++steps) {
-        const auto end = stepper.step(now, true, 0);
+        const auto end = stepper.step(now, true, 0, 0);
         EXPECT_FALSE(end.falls || end.broken);
         if (end.strikes) {
             return end.phase;

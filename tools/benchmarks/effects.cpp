@@ -107,7 +107,9 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                                    .peak = nullptr,
                                    .lowest_turn = nullptr,
                                    .softest_impact = nullptr,
-                                   .last_impact = nullptr};
+                                   .last_impact = nullptr,
+                                   .friction = nullptr,
+                                   .normal = nullptr};
     const Integrator integrator =
         numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
     sweep_kernel(work.kernel, integrator, Theory::nonlinear, outputs,

@@ -27,7 +27,8 @@ To write a part of the points only, choose an index along some dimensions:
 
 REGION = "region"  # a column of every table
 # The names of all columns that a table may have; see docs/results.md.
-FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps", "status", "evaluated"}
+FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "friction",
+          "normal", "impacts", "steps", "status", "evaluated"}
 ROW = re.compile("[-+.0-9einfa,]*")  # of numbers, inf and nan
 COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block",
            "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",

@@ -3,6 +3,7 @@
 // Lanes run in lockstep, each with its own step size; a finished lane is frozen.
 #pragma once
 
+#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/event.hpp"
 #include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/margin_error.hpp"
@@ -35,12 +36,17 @@ template <class Method, Theory theory, Outputs outputs, Number T,
           class Excitation = PulseExcitation<T>>
 class ForcedStage {
     using S = scalar_t<T>;
+    using E = estimate_t<T>;
     using Mask = mask_t<T>;
+    static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
+    static constexpr bool may_watch = outputs.peak && theory == Theory::nonlinear;
 
 public:
-    /// uncertain_impact: used only if the error is an output.
+    /// uncertain_impact: used only if the error is an output. contact: to watch it, only with the
+    /// peak and in the nonlinear theory.
     ForcedStage(const Block<T>& block, const Excitation& excitation, const S& tolerance,
-                UncertainImpact uncertain_impact = UncertainImpact::go_on)
+                UncertainImpact uncertain_impact = UncertainImpact::go_on,
+                [[maybe_unused]] const std::optional<ContactSides<E>>& contact = {})
         : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
           step_limit_(S(most_steps) + excitation.motion.pieces()),
           stepper_(block, excitation, tolerance),
@@ -65,6 +71,11 @@ public:
                        .softest_impact = T(std::numeric_limits<S>::infinity()),
                        .last_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
+        if constexpr (may_watch) {
+            if (contact) {
+                watch_.emplace(*contact);
+            }
+        }
         if (is_two_sided_) {
             prepare_sides();
         }
@@ -83,8 +94,15 @@ public:
     /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
+        const auto see = [&](int parts, const auto& motion_at) {
+            if constexpr (may_watch) {
+                if (watch_) {
+                    see_step(parts, motion_at);
+                }
+            }
+        };
         const auto step =
-            straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_); });
+            straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_, see); });
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
         if constexpr (outputs.error) {
@@ -95,6 +113,11 @@ public:
             peak = select<T>(moved, greater<T>(step.peak, peak), peak);
             T& turn = end_of_run_.lowest_turn;
             turn = select<T>(moved, lesser<T>(step.lowest_turn, turn), turn);
+        }
+        if constexpr (may_watch) {
+            if (watch_) {
+                watch_->take_step(moved);
+            }
         }
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
@@ -129,7 +152,88 @@ public:
         return end;
     }
 
+    /// What the contact had to bear, if it was watched and all lanes have an end.
+    ContactDemand<E> contact_demand() const
+        requires may_watch
+    {
+        const State<T>& state = end_of_run_.state;
+        const Mask returns = state.rate < separatrix_rate<theory>(state.tilt, block_.slenderness);
+        return watch_->demand(end_of_run_.fell || !returns);
+    }
+
 private:
+    // Not inlined: these would change what the compiler does with other scenes.
+    template <class MotionAt>
+    [[gnu::noinline, gnu::cold]] void see_step(int parts, const MotionAt& motion_at)
+    {
+        watch_->see_step(estimate_of(now_.side), estimate_of(block_.slenderness),
+                         estimate_of(now_.tilt), parts, motion_at);
+    }
+
+    /// A series of bounces that dies out is followed down to this rate, the square of which is
+    /// negligible, but for not much more than ten thousand bounces.
+    T slowest_followed() const
+    {
+        const T remaining = rough_power_of_two(T(T(S(5000)) * rough_log2(block_.restitution)));
+        return greater<T>(T(S(0x1p-14)), remaining) * block_.slenderness;
+    }
+
+    /// The other bounces of a series, of which the first has this rate: they hardly leave the
+    /// ground, but they last some time, during which the push changes.
+    [[gnu::noinline, gnu::cold]] void see_last_bounces(const Mask& lanes, const T& rate)
+    {
+        const T one(S(1));
+        const Block<T> other = block_.turned();
+        const auto see = [&](const T& phase) {
+            const auto ground = excitation_.ground(phase);
+            const auto on = [&](const Block<T>& block, const T& side) {
+                const auto push = estimate_of(side * ground);
+                const E none(scalar_t<E>(0));
+                const MovingBlock<E, std::remove_cvref_t<decltype(push)>> standing{none, none, push,
+                                                                                   push};
+                watch_->see_rest(
+                    demand_of(force_while_rocking(watch_->sides().seen_from(estimate_of(side)),
+                                                  estimate_of(block.slenderness), standing)),
+                    lanes);
+                return T(-rocking_acceleration<theory>(zero_, block.slenderness, side * ground));
+            };
+            const T here = on(block_, now_.side);
+            const T there = on(other, -now_.side);
+            return T(one / here + one / there);
+        };
+        const T flights = see(now_.phase);
+        const T duration = (rate + rate) * flights / (one - block_.restitution);
+        see(select<T>(lanes, lesser<T>(now_.phase + duration * excitation_.frequency, end_),
+                      now_.phase));
+    }
+
+    /// The block rests between two phases. The friction that a record asks for is monotone between
+    /// two samples.
+    [[gnu::noinline, gnu::cold]] void see_rest(const Mask& lanes, const T& first, const T& last)
+    {
+        const ContactSide<E>& side = watch_->sides().plus;
+        if constexpr (is_recorded) {
+            using std::floor;
+            const auto see = [&](const T& phase, const Mask& at) {
+                const auto push = estimate_of(excitation_.ground(phase));
+                watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
+            };
+            for (T phase = first; any<T>(lanes && phase < last);
+                 phase = T(floor(phase)) + T(S(1))) {
+                see(phase, lanes && phase < last);
+            }
+            see(last, lanes);
+        } else {
+            constexpr int parts = 64;
+            const auto force_at = [&](const T& phase) {
+                const auto push =
+                    excitation_.template series<2>(excitation_.acceleration, phase, T(S(1)));
+                return force_at_rest(side, push[0], push[1]);
+            };
+            watch_->see_rest(demand_between<T>(first, last, parts, force_at), lanes);
+        }
+    }
+
     void record([[maybe_unused]] EventKind kind, [[maybe_unused]] const Mask& happened)
     {
         if constexpr (outputs.events) {
@@ -144,6 +248,11 @@ private:
     {
         const T next = excitation_.next_uplift(lanes, now_.phase, lifted_);
         const Mask lifted = lanes && next < end_;
+        if constexpr (may_watch) {
+            if (watch_) {
+                see_rest(lanes, now_.phase, select<T>(lifted, next, end_));
+            }
+        }
         if (is_two_sided_) {
             now_.side = select<T>(lanes, sides_->at_rest, now_.side);
         }
@@ -246,6 +355,12 @@ private:
         if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
+        if constexpr (may_watch) {
+            if (watch_ && any<T>(rests)) {
+                rests = rests && after.rate < slowest_followed();
+                see_last_bounces(rests, after.rate);
+            }
+        }
         if constexpr (outputs.error) {
             margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, lanes, rests);
         }
@@ -310,8 +425,11 @@ private:
     T rate_ratio_; // of an impact on the side on which the block rocks
     T fastest_series_;
 
+    struct NoWatch {};
     struct NoError {};
     struct NoEvents {};
+    [[no_unique_address]] std::conditional_t<may_watch, std::optional<ContactWatch<E>>, NoWatch>
+        watch_;
     [[no_unique_address]] std::conditional_t<outputs.error, MarginError<theory, T>, NoError>
         margin_error_;
     [[no_unique_address]] std::conditional_t<outputs.events, std::vector<Event<T>>, NoEvents>

@@ -16,8 +16,9 @@ struct Outputs {
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false;  ///< at the end of the pulse, or at the fall
-    bool grazes = false; ///< lowest turn, softest and last impact, which a run with the peak has
+    bool phase = false;   ///< at the end of the pulse, or at the fall
+    bool contact = false; ///< what it must bear, which a run with the peak can watch
+    bool grazes = false;  ///< lowest turn, softest and last impact, which a run with the peak has
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

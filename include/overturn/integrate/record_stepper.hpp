@@ -7,6 +7,7 @@
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
+#include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
 
@@ -64,8 +65,10 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     /// One step in every lane; the results of inactive lanes are meaningless. so_far: the peak of
-    /// the previous steps, if it is an output.
-    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
+    /// the previous steps, if it is an output; see(parts, motion_at): called with the motion within
+    /// the step, see ContactWatch::see_step().
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
+              [[maybe_unused]] const auto& see) const
     {
         const T zero(S(0));
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
@@ -111,6 +114,17 @@ public:
                 const auto sample_at = [&](const E& share) {
                     return sample_of(rough, E(estimate_of(h)), share);
                 };
+                constexpr int parts = 2;
+                see(parts, [&, pushes = estimate_of(push)](const E& share) {
+                    const E& length = estimate_of(h);
+                    const E& per_unit = estimate_of(time_.per_time);
+                    const E one(scalar_t<E>(1));
+                    const E per_step = per_unit / select<E>(length > E(0.0), length, one);
+                    const MotionSample<E> sample = sample_at(share);
+                    const auto ground = pushes.at(E(share * length));
+                    return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
+                        sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
+                });
                 const T most = greater<T>(now.tilt, end.tilt) + aside;
                 const E peak =
                     highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt), estimate_of(most),

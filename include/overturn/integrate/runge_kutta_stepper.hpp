@@ -75,8 +75,10 @@ public:
     }
 
     /// One trial step in every lane; the results of inactive lanes are meaningless. so_far: peak
-    /// and lowest turn of the previous steps, if they are outputs.
-    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far)
+    /// and lowest turn of the previous steps, if they are outputs; see(parts, motion_at): called
+    /// with the motion within the step, see ContactWatch::see_step().
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
+              [[maybe_unused]] const auto& see)
     {
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / excitation_.frequency;
@@ -126,6 +128,10 @@ public:
             }
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
+            constexpr int parts = 2;
+            see(parts, [&, tilt = dense_output(start, step.end, h)](const T& share) {
+                return moving_block(excitation_, now, phase_step, share, sample_of(tilt, share));
+            });
             return with_extremes({start, step, h}, end, so_far, moved && !arrived);
         } else {
             return end;

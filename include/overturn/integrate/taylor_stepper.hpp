@@ -56,8 +56,10 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     /// One step in every lane; the results of inactive lanes are meaningless. so_far: peak and
-    /// lowest turn of the previous steps, if they are outputs.
-    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far) const
+    /// lowest turn of the previous steps, if they are outputs; see(parts, motion_at): called with
+    /// the motion within the step, see ContactWatch::see_step().
+    auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
+              [[maybe_unused]] const auto& see) const
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
@@ -107,6 +109,11 @@ public:
                                 is_wavelet_ ? left_out_of(push, now.phase, h) : zero)};
         } else if constexpr (outputs.peak) {
             const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+            constexpr int parts = 8;
+            see(parts, [&](const T& share) {
+                return moving_block(excitation_, now, T(h * phase_per_unit_), share,
+                                    sample_at(share));
+            });
             const T per_step = h * unit_;
             const TurnsInStep<T> turns(
                 {now.rate * per_step, series.rate[1] * h * h},

@@ -78,6 +78,17 @@ struct State {
             ///< towards its side minus.
 };
 
+template <Number T>
+Block<estimate_t<T>> estimate_of(const Block<T>& block)
+{
+    return {estimate_of(block.slenderness),
+            estimate_of(block.restitution),
+            estimate_of(block.size),
+            estimate_of(block.pace),
+            {estimate_of(block.other.slenderness), estimate_of(block.other.size),
+             estimate_of(block.other.pace)}};
+}
+
 /// The largest restitution of a rocking block (Eq. 17); alpha [rad]:
 ///
 ///     r_max = (1 - 3/2 sin^2(alpha))^2

@@ -75,6 +75,7 @@ struct LinearPush {
     Ramp<T> horizontal;
 
     T at(const T& t) const { return horizontal.at(t); }
+    T slope(const T& per_time) const { return horizontal.slope * per_time; }
 };
 
 template <Number T>
@@ -83,6 +84,10 @@ struct LinearPushAndGravity {
     Ramp<T> gravity;
 
     Ground<T> at(const T& t) const { return {horizontal.at(t), gravity.at(t)}; }
+    Ground<T> slope(const T& per_time) const
+    {
+        return {horizontal.slope * per_time, gravity.slope * per_time};
+    }
 };
 
 template <Number T>
@@ -117,6 +122,31 @@ const T& horizontal_of(const Ground<T>& ground)
 {
     return ground.horizontal;
 }
+
+/// The gravity over g.
+template <Number T>
+T gravity_of(const T&)
+{
+    return T(scalar_t<T>(1));
+}
+template <Number T>
+T gravity_of(const Ground<T>& ground)
+{
+    return ground.gravity;
+}
+
+/// That of a derivative of the ground.
+template <Number T>
+T gravity_slope_of(const T&)
+{
+    return T(scalar_t<T>(0));
+}
+template <Number T>
+T gravity_slope_of(const Ground<T>& slope)
+{
+    return slope.gravity;
+}
+
 /// Whether a push includes a gravity that varies.
 template <class Push>
 inline constexpr bool has_gravity = false;

@@ -19,6 +19,8 @@ enum class Field {
     error,
     peak,
     fall_time,
+    friction,
+    normal,
     impacts,
     steps,
     status,
@@ -102,6 +104,7 @@ inline constexpr std::uint8_t cap_was_hit = 2;  ///< too many steps: undecided
 inline constexpr std::uint8_t not_finite = 4;   ///< an infinity or NaN occurred: undecided
 inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle the verdict
 inline constexpr std::uint8_t free_fall = 16; ///< the ground falls as fast as the block: undecided
+inline constexpr std::uint8_t lifts_off = 32; ///< the block leaves the ground, if that is computed
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 

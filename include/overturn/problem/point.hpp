@@ -17,6 +17,9 @@ struct Point {
     /// The index of its record among those of the scene, if there are any. It counts from 0; the
     /// coordinate `motion` counts from 1.
     int record = 0;
+    /// The radius of gyration about the centre of mass over R of the side plus; of a box by default
+    /// [1]. Only the forces of the contact depend on it.
+    double gyration = 0.57735026918962576; // 1 / sqrt(3)
     double direction = 0; ///< of the motion, if there are two horizontal components [degree]
 };
 

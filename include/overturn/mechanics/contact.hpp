@@ -1,0 +1,255 @@
+// The forces between a block and its base, and the friction coefficient that they require. Forces
+// are over the weight m g.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+/// The properties of a side on which the forces depend, in addition to its slenderness.
+template <Number T>
+struct ContactSide {
+    T inertia; ///< lambda = m R^2 / I, I: moment of inertia about the corner; 3/4 for a box [1]
+    T cosine;  ///< of the angle by which the base descends towards this side
+    T sine;
+};
+
+/// gyration: the radius of gyration about the centre of mass over R of the side plus [1].
+/// size_plus: R of the side plus, in the unit of Block::size. The base passes through both corners,
+/// which are below the centre of mass by R cos alpha.
+template <Number T>
+ContactSide<T> contact_side(const Block<T>& block, const T& gyration, const T& size_plus)
+{
+    using std::sqrt;
+    const T one(scalar_t<T>(1));
+    const T share = gyration * size_plus / block.size;
+    const auto here = sine_and_cosine(block.slenderness);
+    const auto there = sine_and_cosine(block.other.slenderness);
+    const T descent = block.size * here.cosine - block.other.size * there.cosine;
+    const T width = block.size * here.sine + block.other.size * there.sine;
+    const T length = sqrt(descent * descent + width * width);
+    return {one / (one + share * share), width / length, descent / length};
+}
+
+/// Both sides of a block.
+template <Number T>
+struct ContactSides {
+    /// block: as seen from its side plus.
+    ContactSides(const Block<T>& block, const T& gyration)
+        : plus(contact_side(block, gyration, block.size)),
+          minus(contact_side(block.turned(), gyration, block.size))
+    {}
+
+    ContactSide<T> seen_from(const T& side) const
+    {
+        const mask_t<T> is_plus = side > T(scalar_t<T>(0));
+        return {select<T>(is_plus, plus.inertia, minus.inertia),
+                select<T>(is_plus, plus.cosine, minus.cosine),
+                select<T>(is_plus, plus.sine, minus.sine)};
+    }
+
+    ContactSide<T> plus;
+    ContactSide<T> minus;
+};
+
+/// A force of the base on the block, with its derivatives with respect to some variable.
+template <Number T>
+struct ContactForce {
+    T along;  ///< along the base, positive outward
+    T normal; ///< normal to it
+    T along_slope = T(scalar_t<T>(0));
+    T normal_slope = T(scalar_t<T>(0));
+
+    /// The friction coefficient that the contact needs; infinite if the block would leave the base.
+    T friction() const
+    {
+        using std::abs;
+        const mask_t<T> holds = normal > T(scalar_t<T>(0));
+        return select<T>(holds, abs(along) / select<T>(holds, normal, T(scalar_t<T>(1))),
+                         T(std::numeric_limits<scalar_t<T>>::infinity()));
+    }
+
+    /// Has the sign of the derivative of friction().
+    T friction_slope() const
+    {
+        const T slope = along_slope * normal - along * normal_slope;
+        return select<T>(along < T(scalar_t<T>(0)), -slope, slope);
+    }
+};
+
+/// The force whose horizontal part, positive outward, and vertical part are `level`, on the base.
+template <Number T>
+ContactForce<T> on_base(const ContactSide<T>& side, const ContactForce<T>& level)
+{
+    const auto along = [&](const T& outward, const T& upward) -> T {
+        return outward * side.cosine - upward * side.sine;
+    };
+    const auto normal = [&](const T& outward, const T& upward) -> T {
+        return upward * side.cosine + outward * side.sine;
+    };
+    return {along(level.along, level.normal), normal(level.along, level.normal),
+            along(level.along_slope, level.normal_slope),
+            normal(level.along_slope, level.normal_slope)};
+}
+
+/// A rocking block. The push is the acceleration of the ground over g, positive outward: T, or
+/// Ground<T> with a vertical motion.
+template <Number T, class Push>
+struct MovingBlock {
+    T tilt;          ///< [rad]
+    T rate;          ///< with respect to tau [rad]
+    Push push;       ///< [1]
+    Push push_slope; ///< with respect to tau [1]
+};
+
+/// The force on a rocking block, whose centre of mass moves on a circle about the corner, and its
+/// derivatives with respect to tau. With y = alpha - tilt, the gravity g (1 without a vertical
+/// motion), the push B and the rate omega:
+///
+///     horizontal:  B + Q cos y + lambda omega^2 sin y,   Q = -lambda (g sin y + B cos y)
+///     vertical:    g + Q sin y - lambda omega^2 cos y
+template <Number T, class Push>
+ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slenderness,
+                                    const MovingBlock<T, Push>& block)
+{
+    const auto [s, c] = sine_and_cosine(T(slenderness - block.tilt));
+    const T& rate = block.rate; // s' = -c rate, c' = s rate
+    const T& push = horizontal_of(block.push);
+    const T gravity = gravity_of(block.push);
+    const T& push_slope = horizontal_of(block.push_slope);
+    const T gravity_slope = gravity_slope_of(block.push_slope);
+    const T pull = -(gravity * s + push * c);
+    const T jerk = (gravity * c - push * s) * rate - (gravity_slope * s + push_slope * c);
+    const T turning = side.inertia * pull;
+    const T turning_slope = side.inertia * jerk;
+    const T swing = side.inertia * (rate * rate);
+    const T swing_slope = (turning + turning) * rate;
+    return on_base<T>(
+        side,
+        {push + turning * c + swing * s, gravity + turning * s - swing * c,
+         push_slope + (turning_slope - swing * rate) * c + (turning * rate + swing_slope) * s,
+         gravity_slope + (turning_slope - swing * rate) * s - (turning * rate + swing_slope) * c});
+}
+
+/// The force on a block at rest. slope: of the push, with respect to some variable.
+template <Number T, class Push>
+ContactForce<T> force_at_rest(const ContactSide<T>& side, const Push& push, const Push& slope)
+{
+    return on_base<T>(side, {horizontal_of(push), gravity_of(push), horizontal_of(slope),
+                             gravity_slope_of(slope)});
+}
+
+/// What the contact must bear over some time.
+template <Number T>
+struct ContactDemand {
+    T friction = T(scalar_t<T>(0)); ///< the largest friction coefficient that it needs [1]
+    T normal = T(std::numeric_limits<scalar_t<T>>::infinity()); ///< the smallest normal force
+
+    void include(const ContactDemand& other, const mask_t<T>& lanes)
+    {
+        friction = select<T>(lanes, greater<T>(friction, other.friction), friction);
+        normal = select<T>(lanes, lesser<T>(normal, other.normal), normal);
+    }
+
+    void forget(const mask_t<T>& lanes)
+    {
+        const ContactDemand none;
+        friction = select<T>(lanes, none.friction, friction);
+        normal = select<T>(lanes, none.normal, normal);
+    }
+};
+
+template <Number T>
+ContactDemand<T> demand_of(const ContactForce<T>& force)
+{
+    return {force.friction(), force.normal};
+}
+
+/// The zero of a function between two places where its values have different signs, in these lanes,
+/// by the Illinois method. at(place) returns the value.
+template <Number T, class At>
+T root_between(T first, T last, const mask_t<T>& lanes, const At& at)
+{
+    const T zero(scalar_t<T>(0));
+    T from = at(first);
+    T to = at(last);
+    constexpr int most_passes = 7; // an eighth of a step to 12 digits
+    for (int i = 0; i < most_passes; ++i) {
+        const mask_t<T> open = lanes && from != to;
+        const T change = select<T>(open, to - from, T(scalar_t<T>(1)));
+        const T next = select<T>(open, (first * to - last * from) / change, last);
+        const T there = at(next);
+        const mask_t<T> stays = there * to > zero;
+        first = select<T>(stays, first, last);
+        from = select<T>(stays, from * T(scalar_t<T>(0.5)), to);
+        last = next;
+        to = there;
+    }
+    return last;
+}
+
+/// A maximum of samples of a function, and the derivative there.
+template <Number T>
+struct HighestSample {
+    T place;
+    T value;
+    T slope;
+
+    void see(const T& at, const T& next, const T& next_slope)
+    {
+        const mask_t<T> higher = next > value;
+        place = select<T>(higher, at, place);
+        value = select<T>(higher, next, value);
+        slope = select<T>(higher, next_slope, slope);
+    }
+};
+
+/// The maximum of a function: that of its samples, which are `width` apart, or the one next to it
+/// on the side to which the function ascends, up to `first` or `last`.
+template <Number T, class ValueAt, class SlopeAt>
+T maximum_near(const HighestSample<T>& best, const T& width, const std::array<T, 2>& limits,
+               const ValueAt& value_at, const SlopeAt& slope_at)
+{
+    const T zero(scalar_t<T>(0));
+    const T step = select<T>(best.slope > zero, width, -width);
+    const T end = lesser<T>(greater<T>(best.place + step, limits[0]), limits[1]);
+    const mask_t<T> turns = best.slope * slope_at(end) < zero;
+    if (!any<T>(turns)) {
+        return best.value;
+    }
+    const T top = value_at(root_between<T>(best.place, end, turns, slope_at));
+    return select<T>(turns && top > best.value, top, best.value);
+}
+
+/// What a contact must bear between two places: the extremes near those of `parts` + 1 samples.
+/// force_at(place) returns ContactForce.
+template <Number T, class ForceAt>
+ContactDemand<T> demand_between(const T& first, const T& last, int parts, const ForceAt& force_at)
+{
+    const T width = (last - first) * T(scalar_t<T>(1) / parts);
+    const ContactForce<T> start = force_at(first);
+    HighestSample<T> friction{first, start.friction(), start.friction_slope()};
+    HighestSample<T> relief{first, -start.normal, -start.normal_slope};
+    for (int i = 1; i <= parts; ++i) {
+        const T place = i == parts ? last : T(first + width * T(scalar_t<T>(i)));
+        const ContactForce<T> force = force_at(place);
+        friction.see(place, force.friction(), force.friction_slope());
+        relief.see(place, -force.normal, -force.normal_slope);
+    }
+    const std::array limits{first, last};
+    const T normal = -maximum_near<T>(
+        relief, width, limits, [&](const T& at) -> T { return -force_at(at).normal; },
+        [&](const T& at) -> T { return -force_at(at).normal_slope; });
+    const T highest = maximum_near<T>(
+        friction, width, limits, [&](const T& at) -> T { return force_at(at).friction(); },
+        [&](const T& at) -> T { return force_at(at).friction_slope(); });
+    return {select<T>(normal > T(scalar_t<T>(0)), highest,
+                      T(std::numeric_limits<scalar_t<T>>::infinity())),
+            normal};
+}
+
+} // namespace overturn

@@ -1,0 +1,242 @@
+"""The fields friction and normal compared with a motion that SciPy integrates, with forces from the acceleration of
+the centre of mass. Requires OVERTURN (the binary) in the environment."""
+
+import unittest
+
+import h5py
+import numpy as np
+
+from program import Scratch
+
+try:
+    from scipy.integrate import solve_ivp
+    from scipy.optimize import brentq, minimize_scalar
+except ImportError:
+    solve_ivp = None
+
+G = 9.81
+
+
+class Rocker:
+    """A rigid block on an inclined base. Its corners are `plus` and `minus` from the foot of its centre of mass, which
+    is `height` above the base; k: radius of gyration."""
+
+    def __init__(self, plus, minus, height, k, incline, restitution):
+        self.incline, self.restitution = incline, restitution
+        self.alpha = {1: np.arctan(plus / height) - incline, -1: np.arctan(minus / height) + incline}
+        self.radius = {1: np.hypot(plus, height), -1: np.hypot(minus, height)}
+        self.moment = {side: k * k + r * r for side, r in self.radius.items()}  # about the corner, over m
+
+    def turning(self, side, tilt, ground):
+        arm = self.alpha[side] - tilt
+        return -self.radius[side] / self.moment[side] * G * (np.sin(arm) + side * ground * np.cos(arm))
+
+    def demand(self, side, tilt, rate, ground):
+        """The friction coefficient and the normal force over that at rest, of a block that rocks."""
+        arm, turning = self.alpha[side] - tilt, self.turning(side, tilt, ground)
+        outward = side * ground * G + self.radius[side] * (turning * np.cos(arm) + rate**2 * np.sin(arm))
+        upward = G + self.radius[side] * (turning * np.sin(arm) - rate**2 * np.cos(arm))
+        return self.on_base(side, outward / G, upward / G)
+
+    def at_rest(self, ground):
+        return self.on_base(1, ground, 1)
+
+    def on_base(self, side, outward, upward):
+        c, s = np.cos(self.incline), side * np.sin(self.incline)
+        along, normal = outward * c - upward * s, upward * c + outward * s
+        return abs(along) / normal if normal > 0 else np.inf, normal / c
+
+    def after_impact(self, side, rate):
+        return np.sqrt(self.restitution * self.moment[side] / self.moment[-side]) * -rate
+
+
+class Follower:
+    """Follows a block from rest under a ground acceleration over g that is smooth between the times `pieces` and ends
+    with the last of them. `demand` is the largest friction and the smallest normal force; None if the block bounces
+    too often to be followed."""
+
+    def __init__(self, block, ground, pieces):
+        self.block, self.ground, self.pieces = block, ground, pieces
+        self.kept, self.beyond = [block.at_rest(0)], []
+        self.demand = None
+        if self.follow():
+            friction, normal = np.array(self.kept).T
+            self.demand = friction.max(), normal.min()
+
+    def extremes(self, demand_at, begin, end):
+        """The demands between two times: the extremes of samples, refined between their neighbours."""
+        times = np.linspace(begin, end, 60)
+        values = np.array([demand_at(time) for time in times])
+        found = [tuple(values[0]), tuple(values[-1])]
+        for which, sign in ((0, -1), (1, 1)):
+            best = int(np.argmin(sign * values[:, which]))
+            near = times[max(best - 1, 0)], times[min(best + 1, 59)]
+            top = minimize_scalar(lambda time: sign * demand_at(time)[which], bounds=near, method="bounded",
+                                  options={"xatol": 1e-9 * (near[1] - near[0])})
+            found += [tuple(values[best]), demand_at(top.x)]
+        return found
+
+    def uplift(self, begin, end):
+        """The first time at which the ground lifts the block, and the side; `end` and 0 if it does not."""
+        def excess(time, side):
+            return -side * self.ground(time) - np.tan(self.block.alpha[side])
+        times = np.linspace(begin, end, 200)
+        for first, last in zip(times, times[1:]):
+            for side in (1, -1):
+                if excess(last, side) > 0:
+                    return (first if excess(first, side) > 0 else
+                            brentq(excess, first, last, args=(side,), xtol=1e-15)), side
+        return end, 0
+
+    def follow(self):
+        side, tilt, rate, impacts, after = 0, 0.0, 0.0, 0, 0
+        pieces = [*zip(self.pieces, self.pieces[1:]), (self.pieces[-1], self.pieces[-1] + 1000)]
+        for piece, (time, end) in enumerate(pieces):
+            is_free = piece == len(pieces) - 1
+            ground = (lambda time: 0.0) if is_free else self.ground
+            while time < end:
+                if side == 0:
+                    if is_free:
+                        return True
+                    begin = time
+                    time, side = self.uplift(time, end)
+                    self.kept += self.extremes(lambda t: self.block.at_rest(ground(t)), begin, time)
+                    tilt, rate = 0.0, 0.0
+                    continue
+                time, tilt, rate, event = self.arc(side, (time, end), (tilt, rate), ground)
+                if event == "fall":
+                    return True
+                if event == "impact":
+                    tilt, rate, side = 0.0, self.block.after_impact(side, rate), -side
+                    impacts, after = impacts + 1, after + is_free
+                    if impacts > 40 or (rate < 1e-3 and not is_free):
+                        return False
+                    if after == 24:
+                        return True
+        return True
+
+    def arc(self, side, times, start, ground):
+        block = self.block
+
+        def slope(time, state):
+            return [state[1], block.turning(side, state[0], ground(time))]
+
+        def impact(time, state):
+            return state[0]
+
+        def pass_top(time, state):
+            return state[0] - block.alpha[side]
+
+        def fall(time, state):
+            return state[0] - 1.5
+        impact.terminal, impact.direction, fall.terminal, fall.direction = True, -1, True, 1
+        # SciPy sees an event only if the sign has changed at the end of a step: short steps for two impacts.
+        longest = 0.004 if times[1] <= self.pieces[-1] else np.inf
+        motion = solve_ivp(slope, times, start, method="DOP853", rtol=1e-12, atol=1e-15, dense_output=True,
+                           events=(impact, pass_top, fall), first_step=min(1e-5, times[1] - times[0]), max_step=longest)
+
+        def demand_at(time):
+            return block.demand(side, *motion.sol(time), ground(time))
+        end = motion.t[-1]
+        marks = [times[0], *motion.t_events[1], end]
+        for begin, last in zip(marks, marks[1:]):
+            if last > begin:
+                found = self.extremes(demand_at, begin, last)
+                if motion.sol((begin + last) / 2)[0] > block.alpha[side]:
+                    self.beyond += found
+                else:
+                    self.kept += self.beyond + found
+                    self.beyond = []
+        if motion.t_events[2].size:
+            return end, 1.5, 0.0, "fall"
+        if motion.t_events[0].size:
+            self.kept, self.beyond = self.kept + self.beyond, []
+            return end, 0.0, motion.y[1, -1], "impact"
+        return end, *motion.y[:, -1], ""
+
+
+def random_blocks(random, count, two_sided):
+    rows = []
+    for _ in range(count):
+        height = random.uniform(0.5, 2)
+        width = 2 * height * random.uniform(0.15, 0.4)
+        row = {"width": width, "height": 2 * height, "restitution": random.uniform(0.2, 0.5)}
+        if two_sided:
+            row |= {"center_offset": width * random.uniform(-0.15, 0.15), "center_height": height,
+                    "radius_of_gyration": height * random.uniform(0.4, 0.8), "incline": random.uniform(-0.05, 0.05)}
+        rows.append(row)
+    return rows
+
+
+def rocker_of(row):
+    half, height = row["width"] / 2, row["height"] / 2
+    offset = row.get("center_offset", 0.0)
+    return Rocker(half - offset, half + offset, height, row.get("radius_of_gyration", np.hypot(half, height) / 3**0.5),
+                  row.get("incline", 0.0), row["restitution"])
+
+
+@unittest.skipIf(solve_ivp is None, "SciPy is not installed")
+class AContact(Scratch):
+    def computed(self, scene, rows):
+        """Writes a table of blocks and returns the fields of its points."""
+        (self.folder / "t.csv").write_text("\n".join(
+            [",".join(rows[0]), *(",".join(repr(float(value)) for value in row.values()) for row in rows)]))
+        (self.folder / "job.toml").write_text(
+            f'[scene]\n{scene}\ngravity = {G}\n[blocks]\ntable = "t.csv"\n[numerics]\nmethod = "taylor"\n'
+            'tolerance = 1e-11\n[output]\nfields = ["region", "friction", "normal", "status"]\n')
+        self.assert_exit(self.overturn("run", "job.toml", "-o", "r.h5"), 0)
+        with h5py.File(self.folder / "r.h5") as file:
+            return {name: file[name][:].ravel() for name in ("region", "friction", "normal", "status")}
+
+    def compare(self, scene, rows, ground_of, pieces_of):
+        found = self.computed(scene, rows)
+        compared = 0
+        for number, row in enumerate(rows):
+            follower = Follower(rocker_of(row), ground_of(row), pieces_of(row))
+            if follower.demand is None or found["region"][number] >= 250:
+                continue
+            friction, normal = follower.demand
+            compared += 1
+            with self.subTest(row=row):
+                self.assertEqual(found["status"][number] & 32, 32 * (normal <= 0))
+                self.assertAlmostEqual(found["normal"][number], normal, delta=1e-8)
+                if np.isfinite(friction):
+                    self.assertAlmostEqual(found["friction"][number] / friction, 1, delta=1e-8 / min(normal, 1))
+                else:
+                    self.assertEqual(found["friction"][number], np.inf)
+        return compared
+
+    def compare_under_pulses(self, seed, count, two_sided):
+        random = np.random.default_rng(seed)
+        rows = random_blocks(random, count, two_sided)
+        for row in rows:
+            row |= {"pga": random.uniform(0.5, 3) * row["width"] / row["height"],
+                    "pulse_period": random.uniform(0.4, 1.2)}
+
+        def ground_of(row):
+            return lambda time: row["pga"] * np.sin(2 * np.pi * time / row["pulse_period"])
+        return self.compare('pulse = "one_sine"', rows, ground_of, lambda row: [0, row["pulse_period"]])
+
+    def test_of_boxes_under_pulses_bears_what_scipy_finds(self):
+        self.assertGreater(self.compare_under_pulses(1, 85, False), 75)
+
+    def test_of_blocks_with_two_sides_under_pulses_bears_what_scipy_finds(self):
+        self.assertGreater(self.compare_under_pulses(2, 90, True), 80)
+
+    def test_under_a_record_bears_what_scipy_finds(self):
+        random = np.random.default_rng(3)
+        times = np.arange(16) * 0.15
+        samples = np.concatenate([[0], random.normal(0, 1, 14), [0]])
+        samples /= abs(samples).max()
+        np.savetxt(self.folder / "r.txt", np.column_stack([times, samples]), header="time [s], acceleration [g]")
+        rows = random_blocks(random, 90, False)
+        for row in rows:
+            row["scale"] = random.uniform(0.5, 3) * row["width"] / row["height"]
+
+        def ground_of(row):
+            return lambda time: row["scale"] * np.interp(time, times, samples)
+        self.assertGreater(self.compare('record = "r.txt"\nunits = "g"', rows, ground_of, lambda row: list(times)), 30)
+
+
+if __name__ == "__main__":
+    unittest.main()

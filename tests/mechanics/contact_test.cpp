@@ -1,0 +1,275 @@
+#include "overturn/mechanics/free_contact.hpp"
+#include "overturn/number/digits50.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace overturn {
+namespace {
+
+using Numbers = std::uniform_real_distribution<double>;
+
+/// Any block with two sides.
+template <class T = double>
+Block<T> random_block(std::mt19937_64& generator)
+{
+    Numbers uniform(0, 1);
+    const auto side = [&] {
+        return BlockSide<T>{T(0.1 + 0.6 * uniform(generator)), T(0.9 + 0.2 * uniform(generator)),
+                            T(0.5 + uniform(generator))};
+    };
+    const auto [slenderness, size, pace] = side();
+    return {slenderness, T(0.3 + 0.7 * uniform(generator)), size, pace, side()};
+}
+
+template <class T>
+ContactSide<T> random_side(std::mt19937_64& generator)
+{
+    return ContactSides<T>(random_block<T>(generator), T(0.2 + Numbers(0, 1)(generator))).plus;
+}
+
+template <class T>
+using Moving = MovingBlock<T, Ground<T>>;
+
+template <class T>
+Moving<T> random_motion(std::mt19937_64& generator)
+{
+    Numbers uniform(-1, 1);
+    const auto any = [&] { return T(uniform(generator)); };
+    return {T(0.5) + any() / 2, any(), {any(), T(1) + any() / 2}, {any(), any()}};
+}
+
+double radius_of_box_gyration()
+{
+    return std::sqrt(1.0 / 3);
+}
+
+TEST(ContactForce, IsThatOfTheSecondDerivativeOfThePlaceOfTheCentreOfMass)
+{
+    using T = Digits50;
+    std::mt19937_64 generator(1);
+    for (int i = 0; i < 100; ++i) {
+        const ContactSide<T> level{random_side<T>(generator).inertia, 1, 0};
+        const T slenderness = 0.4;
+        const Moving<T> now = random_motion<T>(generator);
+        const T h(1e-12);
+        const T pull = rocking_acceleration<Theory::nonlinear>(now.tilt, slenderness, now.push);
+        const auto y_at = [&](const T& time) -> T {
+            return slenderness - (now.tilt + now.rate * time + pull * time * time / 2);
+        };
+        const auto second = [&](const auto& function) -> T {
+            return (function(y_at(h)) - 2 * function(y_at(0)) + function(y_at(-h))) / (h * h);
+        };
+        const T outward = second([](const T& y) -> T { return -sin(y); });
+        const T upward = second([](const T& y) -> T { return cos(y); });
+        const auto force = force_while_rocking(level, slenderness, now);
+        EXPECT_LT(abs(force.along - (now.push.horizontal + level.inertia * outward)), 1e-20);
+        EXPECT_LT(abs(force.normal - (now.push.gravity + level.inertia * upward)), 1e-20);
+    }
+}
+
+TEST(ContactForce, HasTheDerivativesOfItsDifferenceQuotients)
+{
+    using T = Digits50;
+    std::mt19937_64 generator(2);
+    for (int i = 0; i < 100; ++i) {
+        const ContactSide<T> side = random_side<T>(generator);
+        const T slenderness = 0.3;
+        const Moving<T> now = random_motion<T>(generator);
+        const T pull = rocking_acceleration<Theory::nonlinear>(now.tilt, slenderness, now.push);
+        const auto at = [&](const T& time) {
+            Moving<T> then = now;
+            then.tilt += now.rate * time;
+            then.rate += pull * time;
+            then.push.horizontal += now.push_slope.horizontal * time;
+            then.push.gravity += now.push_slope.gravity * time;
+            return force_while_rocking(side, slenderness, then);
+        };
+        const T h(1e-15);
+        const auto force = at(0);
+        EXPECT_LT(abs(force.along_slope - (at(h).along - at(-h).along) / (2 * h)), 1e-25);
+        EXPECT_LT(abs(force.normal_slope - (at(h).normal - at(-h).normal) / (2 * h)), 1e-25);
+
+        const T q = 0.1 * T(i % 7 - 3);
+        const T y = T(0.01) * T(i);
+        const auto arc = [&](const T& place) { return force_on_arc(side, q, place); };
+        EXPECT_LT(abs(arc(y).along_slope - (arc(y + h).along - arc(y - h).along) / (2 * h)), 1e-25);
+        EXPECT_LT(abs(arc(y).normal_slope - (arc(y + h).normal - arc(y - h).normal) / (2 * h)),
+                  1e-25);
+    }
+}
+
+TEST(ContactForce, AtUpliftIsDirectedAtTheCentreOfMassWhateverTheIncline)
+{
+    std::mt19937_64 generator(3);
+    for (int i = 0; i < 200; ++i) {
+        const Block<double> block = random_block(generator);
+        const ContactSide<double> side = contact_side(block, 0.5, block.size);
+        const double push = -std::tan(block.slenderness);
+        // Of the foot of the centre of mass on the base, which passes through both corners.
+        const double up = block.size * std::cos(block.slenderness) -
+                          block.other.size * std::cos(block.other.slenderness);
+        const double across = block.size * std::sin(block.slenderness) +
+                              block.other.size * std::sin(block.other.slenderness);
+        const double turned = block.slenderness + std::atan2(up, across);
+        const double ratio = std::tan(turned); // b / h
+        const auto rocking = force_while_rocking(side, block.slenderness,
+                                                 MovingBlock<double, double>{0, 0, push, 0});
+        EXPECT_NEAR(rocking.along / rocking.normal, -ratio, 1e-13 * (1 + std::abs(ratio)));
+        const auto resting = force_at_rest(side, push, 0.0);
+        EXPECT_NEAR(resting.along, rocking.along, 1e-14);
+        EXPECT_NEAR(resting.normal, rocking.normal, 1e-14);
+    }
+}
+
+TEST(ContactForce, OfABoxUnderASuddenAccelerationIsThatOfShenton)
+{
+    const double expected[] = {0.25, 0.3098592, 0.4155844}; // k = h / b = 4
+    const double accelerations[] = {0.25, 0.5, 1};
+    const Block<double> block{std::atan(0.25), 0.9};
+    const ContactSide<double> side = contact_side(block, radius_of_box_gyration(), 1.0);
+    EXPECT_NEAR(side.inertia, 0.75, 1e-15);
+    for (int i = 0; i < 3; ++i) {
+        const double a = accelerations[i];
+        const double k = 4;
+        const auto force =
+            force_while_rocking(side, block.slenderness, MovingBlock<double, double>{0, 0, -a, 0});
+        EXPECT_NEAR(force.friction(), (a * (4 + k * k) + 3 * k) / (4 * k * k + 1 + 3 * k * a),
+                    1e-14);
+        EXPECT_NEAR(force.friction(), expected[i], 5e-8);
+    }
+}
+
+TEST(ContactForce, OnAnArcIsThatOfTheSameMotion)
+{
+    std::mt19937_64 generator(4);
+    Numbers uniform(0, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const ContactSide<double> side = random_side<double>(generator);
+        const double slenderness = 0.1 + 0.5 * uniform(generator);
+        const double tilt = 1.2 * uniform(generator);
+        const double rate = 2 * uniform(generator) - 1;
+        const double c = separatrix_rate<Theory::nonlinear>(tilt, slenderness);
+        const auto arc = force_on_arc(side, (c - rate) * (c + rate), slenderness - tilt);
+        const auto force =
+            force_while_rocking(side, slenderness, MovingBlock<double, double>{tilt, rate, 0, 0});
+        EXPECT_NEAR(arc.along, force.along, 1e-14);
+        EXPECT_NEAR(arc.normal, force.normal, 1e-14);
+        EXPECT_NEAR(force.along_slope, -rate * arc.along_slope, 1e-14); // y' = -rate
+        EXPECT_NEAR(force.normal_slope, -rate * arc.normal_slope, 1e-14);
+    }
+}
+
+TEST(ContactDemand, BetweenTwoPlacesIsThatOfTheExtremesWithin)
+{
+    std::mt19937_64 generator(5);
+    Numbers uniform(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const ContactSide<double> side = random_side<double>(generator);
+        const double q = 0.6 * (uniform(generator) - 0.5);
+        const double first = -0.5 * uniform(generator);
+        const double last = 0.1 + 0.8 * uniform(generator);
+        const auto force_at = [&](double y) { return force_on_arc(side, q, y); };
+        const auto found = demand_between(first, last, 8, force_at);
+        double friction = 0;
+        double normal = 2;
+        constexpr int samples = 20000;
+        for (int k = 0; k <= samples; ++k) {
+            const auto force = force_at(first + (last - first) * k / samples);
+            friction = std::max(friction, force.friction());
+            normal = std::min(normal, force.normal);
+        }
+        if (normal > 0.01) {
+            // The samples miss an extremum by at most the curvature times the square of their
+            // distance.
+            EXPECT_GE(found.friction, friction - 1e-12) << i;
+            EXPECT_LE(found.friction, friction * (1 + 1e-6)) << i;
+        } else if (normal < 0) {
+            EXPECT_EQ(found.friction, std::numeric_limits<double>::infinity());
+        }
+        EXPECT_LE(found.normal, normal + 1e-12) << i;
+        EXPECT_GE(found.normal, normal - 1e-7) << i;
+    }
+}
+
+/// The extremes of many samples of a free motion until the block last passes alpha.
+ContactDemand<double> sampled(const State<double>& state, const Block<double>& block,
+                              const ContactSides<double>& sides, int arcs, int samples)
+{
+    ContactDemand<double> kept;
+    ContactDemand<double> beyond;
+    FreeRocking<Theory::nonlinear, double> rocking(state, block);
+    for (int arc = 0; arc < arcs; ++arc) {
+        const bool falls = std::isfinite(rocking.fall_time());
+        const double end = falls ? rocking.fall_time() : rocking.impact_time();
+        if (!std::isfinite(end)) {
+            break;
+        }
+        for (int k = 0; k <= samples; ++k) {
+            const double share = double(k) / samples;
+            const State<double> at = rocking.at(rocking.begin() + share * (end - rocking.begin()));
+            const double alpha = rocking.block().slenderness;
+            const auto demand =
+                demand_of(force_while_rocking(sides.seen_from(at.side), alpha,
+                                              MovingBlock<double, double>{at.tilt, at.rate, 0, 0}));
+            if (at.tilt > alpha) {
+                beyond.include(demand, true);
+            } else {
+                kept.include(beyond, true);
+                beyond.forget(true);
+                kept.include(demand, true);
+            }
+        }
+        if (falls) {
+            break;
+        }
+        kept.include(beyond, true);
+        beyond.forget(true);
+        rocking.strike();
+    }
+    return kept;
+}
+
+TEST(FreeContact, IsThatOfFineSamplesOfTheMotion)
+{
+    std::mt19937_64 generator(6);
+    Numbers uniform(0, 1);
+    int overturned = 0;
+    for (int i = 0; i < 1500; ++i) {
+        Block<double> block = random_block(generator);
+        if (i % 2 == 0) {
+            block = {block.slenderness, block.restitution};
+        }
+        const ContactSides<double> sides(block, 0.3 + 0.5 * uniform(generator));
+        const double tilt = 2 * block.slenderness * uniform(generator);
+        const double rate = 2.5 * block.slenderness * (2 * uniform(generator) - 1);
+        const State<double> state{tilt, rate, 1};
+        const auto found = free_contact(state, block, sides);
+        // Where the block passes alpha, the last sample is up to one interval before.
+        constexpr int samples = 500;
+        const auto seen = sampled(state, block, sides, 12, samples);
+        overturned += std::isfinite(time_to_lie_flat<Theory::nonlinear>(state, block));
+        if (std::isfinite(found.friction)) {
+            EXPECT_GE(found.friction, seen.friction - 1e-10) << i;
+            EXPECT_GE(found.normal, 0) << i;
+        }
+        EXPECT_LE(found.normal, seen.normal + 1e-10) << i;
+        EXPECT_GE(found.normal, seen.normal - 5.0 / samples) << i;
+        if (seen.normal > 0.05) {
+            // Beyond the samples, only the limit of many arcs is larger.
+            double limit = 0;
+            for (const double side : {1.0, -1.0}) {
+                const double alpha = seen_from(side, block).slenderness;
+                const double top = separatrix_rate<Theory::nonlinear>(0.0, alpha);
+                limit = std::max(limit,
+                                 force_on_arc(sides.seen_from(side), top * top, alpha).friction());
+            }
+            EXPECT_LE(found.friction, std::max(seen.friction, limit) * (1 + 5.0 / samples)) << i;
+        }
+    }
+    EXPECT_GT(overturned, 250);
+}
+
+} // namespace
+} // namespace overturn
