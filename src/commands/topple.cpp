@@ -15,6 +15,7 @@
 #include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -24,8 +25,9 @@ namespace overturn {
 
 namespace {
 
-/// The text of a job with a single point. If the command line gives no strength, its motion is 0.
-std::string job_text(const ToppleOptions& options)
+/// The text of a job with a single point, or with these strengths: scales of a record, or peak
+/// accelerations of a pulse. If the command line gives no strength, its motion is 0.
+std::string job_text(const ToppleOptions& options, const std::vector<double>& strengths = {})
 {
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
@@ -40,9 +42,14 @@ std::string job_text(const ToppleOptions& options)
                             is_number ? options.component : quoted_utf8(options.component));
     }
     text += "[plane]\n";
-    text += options.scale || (is_recorded && !options.pga)
-                ? fmt::format("scale = {}\n", options.scale.value_or(0))
-                : fmt::format("pga = {}\n", options.pga.value_or(0));
+    if (!strengths.empty()) {
+        text += fmt::format("{} = {{ values = [{}] }}\n", is_recorded ? "scale" : "pga",
+                            fmt::join(strengths, ", "));
+    } else {
+        text += options.scale || (is_recorded && !options.pga)
+                    ? fmt::format("scale = {}\n", options.scale.value_or(0))
+                    : fmt::format("pga = {}\n", options.pga.value_or(0));
+    }
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
@@ -88,6 +95,56 @@ void expect_consistent(const ToppleOptions& options)
               "--history is that of one acceleration. Give --pga or --scale.");
     refuse_if(options.restitution && options.restitution_of_maximum,
               "--restitution and --restitution-of-maximum exclude each other. Remove one.");
+}
+
+/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of a record over g.
+std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene& scene,
+                                       const VerdictRanges& ranges, double unit)
+{
+    std::vector<double> needed;
+    const auto toppling = ranges.with(Verdict::topples);
+    if (toppling.empty() || scene.theory != Theory::nonlinear) {
+        return needed;
+    }
+    std::vector<double> accelerations;
+    for (const auto& [first, last] : toppling) {
+        accelerations.push_back(first);
+    }
+    if (const double highest = accelerations.back(); ranges.lifting < highest) {
+        const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
+        accelerations.insert(accelerations.end(), scan.begin(), scan.end());
+    }
+    std::ranges::sort(accelerations);
+    const auto [begin, end] = std::ranges::unique(accelerations);
+    accelerations.erase(begin, end);
+    std::vector<double> strengths = accelerations;
+    if (scene.is_recorded()) {
+        for (double& strength : strengths) {
+            strength /= unit;
+        }
+    }
+    Problem problem =
+        read_job_text(job_text(options, strengths), command_line, options.overrides).problem;
+    problem.numerics = most_accurate;
+    problem.fields = {Field::friction};
+    std::vector<double> friction;
+    const Tiling tiling = tiling_of(problem);
+    for (std::int64_t tile = 0; tile < tiling.size();
+         ++tile) { // the only axis is that of strengths
+        const auto values = std::get<std::vector<double>>(
+            compute_tile(problem, tiling[tile], widest_kernel()).values[0]);
+        friction.insert(friction.end(), values.begin(), values.end());
+    }
+    double largest = 0;
+    auto range = toppling.begin();
+    for (std::size_t i = 0; i < accelerations.size(); ++i) {
+        largest = std::isnan(largest) || friction[i] <= largest ? largest : friction[i];
+        if (range != toppling.end() && accelerations[i] == range->first) {
+            needed.push_back(largest);
+            ++range;
+        }
+    }
+    return needed;
 }
 
 /// In the order of the enumerators of Verdict.
@@ -143,6 +200,8 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
             {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
              verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
     }
+    answer.friction_to_topple =
+        friction_to_topple(options, scene, answer.by_restitution.front().ranges, unit);
     return answer;
 }
 
@@ -153,6 +212,29 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
         most = std::max(most, each.ranges.undecided_share());
     }
     return most;
+}
+
+std::string rounded_up(double friction)
+{
+    return fmt::format("{:.2f}", -rounded_down(-friction, 2));
+}
+
+/// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
+std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
+{
+    constexpr std::size_t most = 3;
+    const auto toppling = answer.by_restitution.front().ranges.with(Verdict::topples);
+    std::vector<std::string> list;
+    for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
+        const double friction = answer.friction_to_topple[i];
+        list.push_back(fmt::format("{} at {:.{}f} g",
+                                   std::isnan(friction)   ? "an unknown one"
+                                   : std::isinf(friction) ? "an infinite one"
+                                                          : rounded_up(friction),
+                                   rounded_down(toppling[i].first, decimals), decimals));
+    }
+    return fmt::format("{}{}", fmt::join(list, ", "),
+                       toppling.size() > most ? ", and so on (see --json)" : "");
 }
 
 std::string friction_text(double friction)
@@ -226,6 +308,10 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
                                                 requested.ranges.end_of_search())
                                   : ""));
+    if (!answer.friction_to_topple.empty()) {
+        print_row("", "toppling needs a friction coefficient of " +
+                          friction_to_topple_text(answer, decimals));
+    }
     if (answer.by_restitution.size() > 1) {
         fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
     }

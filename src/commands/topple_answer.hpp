@@ -23,7 +23,10 @@ struct ToppleAnswer {
     std::optional<Verdict> verdict; ///< nullopt if not requested
     double peak = 0;                ///< |theta| / alpha
     std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
-    double pga = 0;                 ///< of the requested point
+    /// For each toppling range of the requested restitution: the largest friction from uplift to
+    /// its lower end, NaN if one is unknown; empty in the linear theory.
+    std::vector<double> friction_to_topple;
+    double pga = 0; ///< of the requested point
     double lifting_pga = 0;
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 };

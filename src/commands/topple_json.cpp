@@ -123,6 +123,11 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     if (!alpha) {
         member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
     }
+    std::vector<std::string> friction;
+    for (const double each : answer.friction_to_topple) {
+        friction.push_back(json_of(each));
+    }
+    member("friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
     member("gravity", job.problem.scene.gravity);
     member("lifting_pga", json_of(answer.lifting_pga));
     member("pga_max", options.pga_max);

@@ -17,29 +17,6 @@ namespace {
 constexpr std::size_t most_amplitudes = 2500;
 constexpr int most_in_50_digits = 4;
 
-/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips, see
-/// docs/boundaries.md, but for narrow strips just above it, which slow pulses cause: there the
-/// steps are 200 times smaller.
-std::vector<double> scan(const Scene& scene, double first, double last)
-{
-    const auto values = [](double from, double to, double steps, Spacing spacing) {
-        return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
-    };
-    if (scene.is_recorded()) {
-        return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
-                      Spacing::log);
-    }
-    const double low = std::min(1.3 * first, last);
-    std::vector<double> all =
-        values(first, low, std::max((low - first) / (0.0005 * first), 10.0), Spacing::linear);
-    if (low < last) {
-        const std::vector<double> rest = values(
-            low, last, std::clamp((last - low) / (0.1 * first), 10.0, 2000.0), Spacing::linear);
-        all.insert(all.end(), rest.begin() + 1, rest.end());
-    }
-    return all;
-}
-
 FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
 {
     FlipSearch search = flip_search(scene);
@@ -115,6 +92,29 @@ Verdict verdict_of(Region region)
                                : Verdict::undecided;
 }
 
+/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips, see
+/// docs/boundaries.md, but for narrow strips just above it, which slow pulses cause: there the
+/// steps are 200 times smaller.
+std::vector<double> scanned_accelerations(const Scene& scene, double first, double last)
+{
+    const auto values = [](double from, double to, double steps, Spacing spacing) {
+        return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
+    };
+    if (scene.is_recorded()) {
+        return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
+                      Spacing::log);
+    }
+    const double low = std::min(1.3 * first, last);
+    std::vector<double> all =
+        values(first, low, std::max((low - first) / (0.0005 * first), 10.0), Spacing::linear);
+    if (low < last) {
+        const std::vector<double> rest = values(
+            low, last, std::clamp((last - low) / (0.1 * first), 10.0, 2000.0), Spacing::linear);
+        all.insert(all.end(), rest.begin() + 1, rest.end());
+    }
+    return all;
+}
+
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
                              double end, double included, const DropRequested& drop_requested)
 {
@@ -132,7 +132,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         ranges.all.push_back({0, end, Verdict::safe});
         return ranges;
     }
-    std::vector<double> accelerations = scan(scene, lifting, end);
+    std::vector<double> accelerations = scanned_accelerations(scene, lifting, end);
     const auto place = std::lower_bound(accelerations.begin(), accelerations.end(), included);
     if (lifting < included && included < end && *place != included) {
         accelerations.insert(place, included);

@@ -55,6 +55,10 @@ struct VerdictRanges {
     int decimals(double pga) const;
 };
 
+/// The accelerations over g at which the verdicts between `first` and `last` are searched, before
+/// the steps between them are halved.
+std::vector<double> scanned_accelerations(const Scene& scene, double first, double last);
+
 /// line: amplitudes in units of g. lifting: below it, the block is not lifted; end: of the search,
 /// which ends earlier if the vertical motion cancels gravity. included: an acceleration whose
 /// verdict the ranges must agree with. drop_requested: see boundary_on().

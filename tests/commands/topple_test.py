@@ -33,9 +33,37 @@ class Toppling(Scratch):
                       "lifts from   0.3333 g",
                       "1.1113 to 1.6445 g, above 2.1296 g, searched up to 5 g"):
             self.assertIn(words, text)
-        self.assertLess(len(text.splitlines()), 16)
+        self.assertLess(len(text.splitlines()), 17)
         self.assertIn("verdict      topples at 1.2 g",
                       self.topple(*PULSE, "--pga", "1.2", "--restitution-of-maximum", "0.9"))
+
+    def test_states_the_friction_that_it_needs(self):
+        self.assertIn("friction     the verdict holds if the coefficient is at least 0.46", self.topple(*PULSE, "--pga", "0.9"))
+        alpha = math.atan(1 / 3)
+        at_rest = self.answer(*PULSE, "--pga", "0.25")
+        self.assertAlmostEqual(at_rest["friction"], 0.25, places=12)
+        self.assertGreaterEqual(self.answer(*PULSE, "--pga", "0.34")["friction"], math.tan(alpha) * (1 - 1e-12))
+        linear = self.answer(*PULSE, "--pga", "0.9", "--set", "scene.theory=linear")
+        self.assertEqual((linear["friction"], linear["friction_to_topple"]), (None, []))
+        self.assertNotIn("friction", self.topple(*PULSE, "--pga", "0.9", "--set", "scene.theory=linear"))
+
+    def test_states_the_friction_of_its_ranges(self):
+        for motion, scene in ((("--period", "0.5"), 'pulse = "one_sine"'),
+                              (("--record", str(JOBS / "synthetic.AT2")), f'record = "{JOBS / "synthetic.AT2"}"')):
+            answer = self.answer(*STATUE, *motion)
+            lower_ends = [first for first, _ in answer["toppling_pga"]]
+            self.assertEqual(len(answer["friction_to_topple"]), len(lower_ends))
+            period = "pulse_period = 0.5" if "pulse" in scene else ""
+            for lower, needed in zip(lower_ends[:2], answer["friction_to_topple"]):
+                (self.folder / "up.toml").write_text(
+                    f"[scene]\n{scene}\n[block]\nwidth = 0.6\nheight = 1.8\n[plane]\nrestitution_of_maximum = 1\n{period}\n"
+                    f"pga = {{ first = {answer['lifting_pga']}, last = {lower}, count = 400 }}\n"
+                    '[numerics]\nresolve = true\n[output]\nfields = ["region", "friction"]\n')
+                self.assert_exit(self.overturn("run", "up.toml", "-o", "up.h5"), 0)
+                with h5py.File(self.folder / "up.h5") as file:
+                    # Two scans, with steps of half a per cent or less, of a friction that is at most in proportion.
+                    self.assertAlmostEqual(np.max(file["friction"][:]) / needed, 1, delta=0.005)
+                (self.folder / "up.h5").unlink()
 
     def test_of_a_weak_motion_leaves_the_block_at_rest(self):
         text = self.topple(*PULSE, "--pga", "0.3")

@@ -58,15 +58,19 @@ class Plane:
     def read_regions(self, up, across, pixels):
         """Reads the regions for a picture. Where a pixel covers several points, it shows the one in its middle, unless
         another one is not computed, undecided or overturns and that one is not."""
+        middle = self.read_cells("region", up.cells(pixels), across.cells(pixels))
+        highest = self.highest(lambda rows: ranks(self.read("region", rows)), up, across, pixels)
+        return without_gaps(worst(middle, highest), up, across)
+
+    def highest(self, rank_of, up, across, pixels):
+        """Returns the highest rank among the points that each pixel covers; rank_of(rows) returns those of some
+        rows."""
         rows, columns = up.cells(pixels), across.cells(pixels)
-        middle = self.read_cells("region", rows, columns)
-        if max(up.size, across.size) <= pixels:
-            return without_gaps(middle, up, across)
         of_row, of_column = up.pixels_of_cells(pixels), across.pixels_of_cells(pixels)
         first = np.flatnonzero(np.diff(of_column, prepend=-1))  # of the cells in each column of pixels
-        highest = np.zeros(middle.shape, np.uint16)
+        highest = np.zeros((len(rows), len(columns)), np.uint16)
         for tiles in self.tiles("region"):
-            rank = ranks(self.read("region", tiles))
+            rank = rank_of(tiles)
             by_pixel = rank[:, columns]
             if across.size > pixels:
                 place = of_column[first]
@@ -78,7 +82,7 @@ class Plane:
                 start = np.flatnonzero(np.diff(of_tile, prepend=-1))
                 place = of_tile[start]
                 highest[place] = np.maximum(highest[place], np.maximum.reduceat(by_pixel, start, axis=0))
-        return without_gaps(worst(middle, highest), up, across)
+        return highest
 
     def knows(self, name, along=()):
         """Whether a coordinate is stored and varies in this plane along the given dimensions at most."""

@@ -16,6 +16,7 @@ from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
 from overturn.result_file import damage_reported, path_of, plain
+from overturn.slipping import Slipping
 from overturn.spectrum_file import open_spectrum
 from overturn.ticks import set_axes
 from overturn.tool import parse_with_picture, parser_of
@@ -41,6 +42,10 @@ A label is placed where its region is widest:
 Published practice calls a block overturned when |theta| >= alpha. To mark and count the safe blocks
 that it misjudges, store the field peak:
   tools/plot_spectrum suite.h5 --practice
+
+A verdict holds if the friction coefficient is large enough. To hatch the points that need more than
+0.5, store the field friction:
+  tools/plot_spectrum friction.h5 --friction 0.5
 
 Axes are drawn in the units of the job. If it gives the size of the block, all can be drawn in s and g:
   tools/plot_spectrum statue.h5 --units physical
@@ -69,7 +74,7 @@ def write_labels(panel, codes, labels, across, up):
             write_label(panel, piece, label.text, size=13)
 
 
-def draw_panels(panels, pixels, planes, axes, arguments):
+def draw_panels(panels, pixels, planes, axes, arguments, slipping):
     """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
     boundary = open_boundary(arguments.boundary, planes[0], arguments.units) if arguments.boundary else None
     present = set()
@@ -79,23 +84,24 @@ def draw_panels(panels, pixels, planes, axes, arguments):
         draw_panel(panel, codes, across, up)
         if arguments.practice:
             cover(panel, practice.picture(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels))))
+        if slipping:
+            cover(panel, slipping.picture(plane, up, across, pixels))
         if boundary is not None:
             draw_boundary(panel, boundary, plane, arguments.units)
         write_labels(panel, codes, arguments.label, across, up)
     return present
 
 
-def draw_sheet(planes, columns, misjudged, arguments, dpi):
+def draw_sheet(planes, columns, counts, arguments, dpi):
     units, ground = arguments.units, ground_word(planes[0].file)
     axes = [axes_of_plane(plane, units) for plane in planes]
     shares = all(np.array_equal(up.edges, axes[0][1].edges) for _, up in axes)
     sheet = Sheet(panel_titles(planes, units), columns, dpi, shares)
-    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments)
+    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, counts.get("friction"))
     title = heading(planes) if arguments.title is None else arguments.title
     sheet.write(plain(title), subtitle(planes, units), *name_axes(planes[0], units))
     entries = legend_entries(present, ground)
-    if misjudged:
-        entries.append(misjudged.legend_entry())
+    entries += [count.legend_entry() for count in counts.values()]
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
                               label="flip of the verdict"))
@@ -103,49 +109,62 @@ def draw_sheet(planes, columns, misjudged, arguments, dpi):
     return sheet
 
 
-def draw_into(ax, plane, arguments):
+def draw_into(ax, plane, counts, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
-    draw_panels([ax], pixels, [plane], [axes_of_plane(plane, arguments.units)], arguments)
+    draw_panels([ax], pixels, [plane], [axes_of_plane(plane, arguments.units)], arguments,
+                counts.get("friction"))
     across, up = name_axes(plane, arguments.units)
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
 
 
 def draw(path, arguments, dpi, ax=None):
-    """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and, under
-    published practice, the count of misjudged points."""
-    fields = ("region", "peak") if arguments.practice else ("region",)
+    """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and the
+    counts of points that an option marks."""
+    marked = {"peak": arguments.practice, "friction": arguments.friction is not None}
+    fields = ("region", *(field for field, is_asked in marked.items() if is_asked))
     with open_spectrum(path, fields) as file, damage_reported(path):
         expect_size(file, arguments.units)
         planes, columns = planes_of(file, arguments, 1 if ax is not None else MOST_PANELS)
-        misjudged = practice.Misjudged(planes) if arguments.practice else None
+        counts = {}
+        if marked["peak"]:
+            counts["peak"] = practice.Misjudged(planes)
+        if marked["friction"]:
+            counts["friction"] = Slipping(planes, arguments.friction)
         if ax is not None:
-            return draw_into(ax, planes[0], arguments)
-        sheet = draw_sheet(planes, columns, misjudged, arguments, dpi)
-        return sheet, len(planes), misjudged
+            return draw_into(ax, planes[0], counts, arguments)
+        return draw_sheet(planes, columns, counts, arguments, dpi), len(planes), counts
 
 
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", boundary=None,
-             practice: bool = False, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
+             practice: bool = False, friction: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
     result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
-    practice: mark what published practice misjudges; needs the field peak. labels: such as "III=S+@10,12". ax: axes
+    practice: mark what published practice misjudges; needs the field peak. friction: hatch what needs a larger friction
+    coefficient; needs the field friction. labels: such as "III=S+@10,12". ax: axes
     of Matplotlib for one spectrum without a legend.
 
     Returns the axes; a list of them for several spectra. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
-                                index=index.items(), units=units, boundary=boundary, practice=practice,
+                                index=index.items(), units=units, boundary=boundary, practice=practice, friction=friction,
                                 label=[Label(words) for words in labels], title=title)
     drawn = draw(path_of(result), arguments, 150, ax)
     if ax is not None:
         return ax
     sheet, count, _ = drawn
     return sheet.panels.flat[0] if count == 1 else list(sheet.panels.flat[:count])
+
+
+def coefficient(word):
+    value = float(word)
+    if not value > 0:
+        raise ValueError
+    return value
 
 
 def read_arguments(argv):
@@ -158,6 +177,9 @@ def read_arguments(argv):
     parser.add_argument("--practice", action="store_true",
                         help="mark and count safe points whose |theta| reaches alpha, which "
                              "published practice calls overturned; needs the field peak")
+    parser.add_argument("--friction", type=coefficient, metavar="COEFFICIENT",
+                        help="hatch and count the points whose verdict needs a larger friction coefficient; needs the "
+                             "field friction")
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
                                         "names of its records)")
     return parse_with_picture(parser, argv)
@@ -166,7 +188,7 @@ def read_arguments(argv):
 def main(argv=None):
     arguments = read_arguments(argv)
     dpi = 150 if arguments.output.endswith(".png") else 300
-    sheet, _, misjudged = draw(arguments.file, arguments, dpi)
+    sheet, _, counts = draw(arguments.file, arguments, dpi)
     save(sheet.figure, arguments.output)
-    if misjudged:
-        print(misjudged.report())
+    for count in counts.values():
+        print(count.report())

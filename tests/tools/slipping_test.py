@@ -1,0 +1,65 @@
+"""Points whose verdict needs more friction than there is, hatched and counted by plot_spectrum.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import unittest
+
+import numpy as np
+from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, UNDECIDED
+from recorded_spectra_test import Recorded  # first: adds the package to the path
+from overturn.slipping import slips
+
+
+class TestSlippingBlocks(Recorded):
+    def report(self, *arguments):
+        return self.output_of("spectrum.h5", "-o", "picture.png", "--friction", *arguments)
+
+    def veiled(self, coefficient):
+        """Returns the share of the pixels in each quarter of the map that differs from one without friction."""
+        plain, hatched = self.picture(), self.picture("--friction", coefficient)
+        differs = (plain != hatched).any(axis=2)
+        height, width = differs.shape
+        panel = differs[int(0.15 * height):int(0.9 * height), int(0.081 * width):int(0.697 * width)]
+        return [quarter[:, 20:-20].mean() for quarter in np.array_split(panel, 4, axis=1)]
+
+    def test_are_hatched_and_counted(self):
+        self.recorded([np.repeat([S, F_MINUS, S, S], 16)])
+        self.add("friction", np.repeat([0.499, 0.501, np.inf, np.nan], 16))
+        self.assertIn("may slip with a friction coefficient of 0.5: 48 of 64 points with a verdict (75 %)",
+                      self.report("0.5"))
+        self.assertIn("coefficient of 0.5", self.words("--friction", "0.5"))
+        shares = self.veiled("0.5")
+        self.assertLess(shares[0], 0.02)
+        self.assertGreater(min(shares[1:]), 0.98)
+
+    def test_are_not_counted_without_a_verdict(self):
+        self.recorded([[S, UNDECIDED, S, NOT_COMPUTED]], computed=[[1, 1, 0, 0]])
+        self.add("friction", [0.3, np.nan, 5.0, np.nan])
+        self.assertIn("0 of 1 points with a verdict (0 %)\nunfinished: 2 of 4 tiles computed\n", self.report("0.5"))
+        self.assertLess(max(self.veiled("0.5")), 0.02)
+
+    def test_show_in_a_pixel_of_many_points(self):
+        self.recorded([np.full(40_000, S)])
+        needed = np.full(40_000, 0.2)
+        needed[15_000] = 0.9
+        self.add("friction", needed)
+        self.assertIn("1 of 40000 points", self.report("0.5"))
+        self.assertGreater(self.veiled("0.5")[1], 0)
+
+    def test_require_the_field_and_a_coefficient(self):
+        self.recorded([[S]])
+        self.refuses(74, "no field friction; add it to output.fields", "--friction", "0.5")
+        for word in ("0", "-1", "nan", "much"):
+            self.refuses(2, "--friction", "--friction", word)
+
+    def test_are_those_with_a_verdict_and_without_enough_friction(self):
+        random = np.random.default_rng(1)
+        region = random.choice([S, F_MINUS, UNDECIDED, NOT_COMPUTED], 1000)
+        friction = random.choice([0.1, 0.4, 0.6, np.inf, np.nan], 1000)
+        expected = [code in (S, F_MINUS) and not needed <= 0.5 for code, needed in zip(region, friction)]
+        np.testing.assert_array_equal(slips(region, friction, 0.5), expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
