@@ -228,6 +228,9 @@ int check(const JobSource& source)
     print_scene(job);
     print_coordinates(job.problem.grid);
     print_row(job.blocks ? "blocks" : "block", block_line(job));
+    if (job.problem.scene.theory == Theory::nonlinear) {
+        print_row("contact", contact_line(job));
+    }
     if (const std::string names = unused_columns(job); !names.empty()) {
         print_row("columns", names + ": stored, without effect");
     }

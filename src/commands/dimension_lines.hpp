@@ -3,12 +3,15 @@
 
 #include "overturn/job/job.hpp"
 #include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/contact.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -83,6 +86,36 @@ inline std::string block_line(const Job& job)
                             job.problem.scene.gravity);
     }
     return line;
+}
+
+/// A line about the friction coefficients that rocking needs.
+inline std::string contact_line(const Job& job)
+{
+    constexpr double large = 0.7;
+    constexpr double never = std::numeric_limits<double>::infinity();
+    Extent lift{never, 0};
+    Extent impact{never, 0};
+    const auto include = [](Extent& extent, double value) {
+        extent = {std::min(extent.first, value), std::max(extent.last, value)};
+    };
+    const Grid corners = corners_of(job.problem.grid);
+    for (const Point& point : Coordinates(job.problem.scene, corners).points()) {
+        const ContactSides<double> sides(point.block, point.gyration);
+        const Block<double> other = point.block.turned();
+        include(lift, friction_to_lift(sides.plus, point.block.slenderness));
+        include(lift, friction_to_lift(sides.minus, other.slenderness));
+        include(impact, friction_of_impact(point.block, sides.plus, sides.minus));
+        include(impact, friction_of_impact(other, sides.minus, sides.plus));
+    }
+    const auto text = [](const Extent& extent) {
+        return extent.first == extent.last
+                   ? fmt::format("{:.3g}", extent.first)
+                   : fmt::format("{:.3g} to {:.3g}", extent.first, extent.last);
+    };
+    return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
+                       text(lift), text(impact),
+                       lift.last > large ? fmt::format("; few contacts have more than {}", large)
+                                         : "");
 }
 
 /// A line about the ground motions.

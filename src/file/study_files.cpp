@@ -54,6 +54,9 @@ constexpr SampleQuantity quantities[] = {
      "4 sin^2((alpha - |theta|) / 2) - (d theta / d(p t))^2; linear theory: (alpha - |theta|)^2 - "
      "(d theta / d(p t))^2"},
     {"ground", "ground acceleration, over g", "1", &HistorySample::ground},
+    {"friction", "friction coefficient needed", "1", &HistorySample::friction,
+     "|along| / normal force of the base on the block; infinite where the block would leave the "
+     "base"},
 };
 
 /// `when` is appended to the long name of the quantity.
@@ -237,6 +240,20 @@ void add_study(hid_t file, const AccuracySample& sample, const std::vector<Accur
 
 } // namespace
 
+/// Whether a file of a kind has all groups that overturn writes, and a history no further
+/// variables: a data set that was derived from one has its attributes, too.
+bool is_as_written(hid_t file, FileKind kind)
+{
+    const auto has = [&](const char* name) {
+        return hdf5::check(H5Lexists(file, name, H5P_DEFAULT)) > 0;
+    };
+    H5G_info_t root = {};
+    hdf5::check(H5Gget_info(file, &root));
+    constexpr std::size_t others = 3; // time, events, run
+    return has("run") && (kind != FileKind::history ||
+                          (has("events") && root.nlinks <= std::size(quantities) + others));
+}
+
 void expect_room_for(const std::string& path, FileKind kind)
 {
     static_cast<void>(PartFile(path)); // throws if the folder is missing or not writable
@@ -250,8 +267,11 @@ void expect_room_for(const std::string& path, FileKind kind)
     }
     start_hdf5();
     std::string found;
+    bool is_own = false;
     try {
-        found = hdf5::read_text_attribute(hdf5::open_to_read(path), "kind");
+        const hdf5::Handle file = hdf5::open_to_read(path);
+        found = hdf5::read_text_attribute(file, "kind");
+        is_own = is_as_written(file, kind);
     } catch (const hdf5::Hdf5Error&) { // it has none
     }
     if (found != layout::name_of(kind)) {
@@ -259,6 +279,13 @@ void expect_room_for(const std::string& path, FileKind kind)
                     "\"{}\" exists but its kind is not \"{}\". Remove it, or "
                     "choose another name with -o.",
                     path, layout::name_of(kind));
+    }
+    if (!is_own) {
+        throw Error(
+            exit_code::output,
+            "\"{}\" exists and is not as overturn wrote it. Move it away, or choose another "
+            "name with -o.",
+            path);
     }
 }
 

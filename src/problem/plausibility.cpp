@@ -157,6 +157,14 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
             "the mirror image of the motion, direction 180, is not computed; it may be worse for "
             "blocks with two different sides (give the direction, 0, 180 or both)");
     }
+    if (coordinates.has("direction")) {
+        const Extent direction = extent_of(coordinates.of("direction"));
+        const double largest = std::max(std::abs(direction.first), std::abs(direction.last));
+        if (0 < largest && largest < 2 * std::numbers::pi + 0.01) {
+            findings.push_back(fmt::format("direction = {} (directions are in degrees)",
+                                           direction.text(" degrees")));
+        }
+    }
     std::erase(findings, "");
     return fmt::format("{}", fmt::join(findings, "; "));
 }

@@ -232,6 +232,29 @@ std::optional<double> stated_time_step(std::string_view comment)
     return std::nullopt;
 }
 
+/// Refuses a file whose comments speak of velocities or displacements, and not of accelerations.
+void expect_accelerations(Lines lines)
+{
+    std::optional<Lines> other;
+    while (lines.next()) {
+        if (!is_comment(lines.line())) {
+            continue;
+        }
+        if (contains(lines.line(), "acc")) {
+            return;
+        }
+        if (!other &&
+            (contains(lines.line(), "velocit") || contains(lines.line(), "displacement"))) {
+            other = lines;
+        }
+    }
+    if (other) {
+        other->refuse("{} does not contain accelerations. Give the file with the accelerations, or "
+                      "remove the comment.",
+                      quoted_bytes(trimmed(other->line())));
+    }
+}
+
 /// Refuses a comment that contradicts the time step of the only column.
 void expect_stated_step(const Lines& lines, double time_step)
 {
@@ -254,6 +277,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
     }
+    expect_accelerations(lines);
     expect_decimal_points(lines);
     RecordComponent component;
     component.unit = *options.unit;

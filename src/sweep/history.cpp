@@ -3,6 +3,7 @@
 #include "point_run.hpp"
 
 #include "overturn/integrate/forced_path.hpp"
+#include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/problem/coordinates.hpp"
 
@@ -65,7 +66,7 @@ template <Theory theory, class Excitation>
 class HistoryBuilder {
 public:
     HistoryBuilder(const Point& point, const Excitation& excitation)
-        : block_(point.block), excitation_(excitation),
+        : block_(point.block), sides_(block_, point.gyration), excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
           time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
     {}
@@ -169,14 +170,17 @@ private:
     {
         const Block<double> seen = seen_from(state.side, block_);
         const double pace = seen.pace / block_.pace;
-        const double pull =
-            rocking_acceleration<theory>(state.tilt, seen.slenderness, state.side * ground);
+        const Ground push = state.side * ground;
+        const double pull = rocking_acceleration<theory>(state.tilt, seen.slenderness, push);
+        const MovingBlock<double, Ground> moving{state.tilt, state.rate, push, push};
         return {.time = time,
                 .angle = state.side * state.tilt + 0.0, // no -0
                 .velocity = state.side * state.rate * pace + 0.0,
                 .acceleration = state.side * pull * (pace * pace),
                 .q = double(conserved_q<theory>(state, seen.slenderness)),
-                .ground = horizontal_of(ground)};
+                .ground = horizontal_of(ground),
+                .friction = friction_of(
+                    force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving))};
     }
 
     template <class Ground>
@@ -184,7 +188,13 @@ private:
     {
         HistorySample result = sample(time, {0, 0, 1}, ground);
         result.acceleration = 0;
+        result.friction = friction_of(force_at_rest(sides_.plus, ground, ground));
         return result;
+    }
+
+    static double friction_of(const ContactForce<double>& force)
+    {
+        return theory == Theory::linear ? unknown : force.friction();
     }
 
     void record_forced_stage(Recorder& recorder) const
@@ -257,6 +267,7 @@ private:
     }
 
     Block<double> block_;
+    ContactSides<double> sides_;
     Excitation excitation_;
     ForcedPath path_;
     double end_of_path_; // time [1/p]

@@ -38,7 +38,7 @@ class AHistory(Scratch):
                 self.assertEqual(found.angle.dims, ("time",))
                 self.assertTrue((np.diff(found.time) >= 0).all())
                 self.assertEqual(set(found.to_dataframe().columns),
-                                 {"angle", "velocity", "acceleration", "q", "ground"})
+                                 {"angle", "velocity", "acceleration", "q", "ground", "friction"})
             with xarray.open_dataset(self.folder / "history.h5", engine=engine, group="events") as events:
                 self.assertEqual(events.time.dims, ("event",))
 
@@ -92,6 +92,20 @@ class AHistory(Scratch):
         result = self.overturn("history", "small.toml", "-o", "spectrum.h5", AT)
         self.assert_exit(result, 74, 'its kind is not "rocking history"')
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
+
+    def test_does_not_replace_what_was_derived_from_a_history(self):
+        self.history(AT)
+        (self.folder / "history.h5").rename(self.folder / "own.h5")
+        with xarray.open_dataset(self.folder / "own.h5", engine="netcdf4") as data:
+            data.isel(time=slice(0, 10)).to_netcdf(self.folder / "derived.h5", engine="netcdf4")
+        (self.folder / "more.h5").write_bytes((self.folder / "own.h5").read_bytes())
+        with h5py.File(self.folder / "more.h5", "r+") as file:
+            file["measured"] = np.arange(3.0)
+        for name in ("derived.h5", "more.h5"):
+            before = checksum(self.folder / name)
+            result = self.overturn("history", "small.toml", "-o", name, AT)
+            self.assert_exit(result, 74, f'"{name}" exists and is not as overturn wrote it. Move it away')
+            self.assertEqual(checksum(self.folder / name), before)
 
     def test_refuses_a_folder_as_its_file(self):
         (self.folder / "folder").mkdir()

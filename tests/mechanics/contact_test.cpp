@@ -141,6 +141,42 @@ TEST(ContactForce, OfABoxUnderASuddenAccelerationIsThatOfShenton)
     }
 }
 
+TEST(FrictionOfAnImpact, OfABoxAtTheLargestRestitutionHasAClosedForm)
+{
+    for (const double alpha : {0.05, 0.2, 0.5}) {
+        const Block<double> block{alpha, largest_restitution(alpha)};
+        const ContactSides<double> sides(block, radius_of_box_gyration());
+        const double s = std::sin(alpha);
+        EXPECT_NEAR(friction_of_impact(block, sides.plus, sides.minus),
+                    3 * s * std::cos(alpha) / (4 - 3 * s * s), 1e-15);
+    }
+    const Block<double> block{0.2, largest_restitution(0.2)};
+    const ContactSides<double> sides(block, radius_of_box_gyration());
+    EXPECT_NEAR(friction_of_impact(block, sides.plus, sides.minus), 0.1504866, 5e-8);
+}
+
+TEST(FrictionOfAnImpact, IsThatOfTheChangeOfMomentum)
+{
+    std::mt19937_64 generator(7);
+    for (int i = 0; i < 200; ++i) {
+        const Block<double> block = random_block(generator);
+        const ContactSides<double> sides(block, 0.5);
+        // Velocities of the centre of mass before and after, along the base towards the corner j
+        // and upwards: omega times the distances from the corners.
+        const auto here = foot_of_centre(sides.plus, block.slenderness);
+        const auto there = foot_of_centre(sides.minus, block.other.slenderness);
+        EXPECT_NEAR(block.size * here.height, block.other.size * there.height, 1e-14); // one base
+        const double before = 1 * block.pace;
+        const double after = block.rate_ratio() * block.other.pace;
+        const double along = block.size * here.height * (before - after);
+        const double upward =
+            block.other.size * there.distance * after + block.size * here.distance * before;
+        EXPECT_NEAR(friction_of_impact(block, sides.plus, sides.minus), along / upward, 1e-13);
+        EXPECT_NEAR(friction_to_lift(sides.plus, block.slenderness), here.distance / here.height,
+                    1e-15);
+    }
+}
+
 TEST(ContactForce, OnAnArcIsThatOfTheSameMotion)
 {
     std::mt19937_64 generator(4);

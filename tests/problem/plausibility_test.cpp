@@ -145,6 +145,32 @@ TEST(Plausibility, OfRecordsJudgesEachComponent)
     }
 }
 
+TEST(Plausibility, OfDirectionsExpectsDegrees)
+{
+    const auto found = [](std::vector<double> directions) {
+        const auto all = [&](double value) {
+            return std::vector<double>(directions.size(), value);
+        };
+        const Columns columns{{"width", all(0.3)},
+                              {"height", all(1)},
+                              {"restitution_of_maximum", all(1)},
+                              {"scale", all(0.001)},
+                              {"direction", directions}};
+        Scene scene;
+        scene.records.push_back(std::make_shared<const Accelerogram>(
+            std::vector<double>{0, 0.5, 0}, std::vector<double>(), 0.01,
+            std::vector<double>{0, 0.4, 0}));
+        return found_in(columns, scene);
+    };
+    for (const std::vector<double>& degrees : {std::vector<double>{0}, {0, 90}, {180, 1}, {345}}) {
+        EXPECT_THAT(found(degrees), IsEmpty());
+    }
+    for (const std::vector<double>& radians :
+         {std::vector<double>{1.5708}, {0, 3.1416}, {6.2832, 1}}) {
+        EXPECT_THAT(found(radians), HasSubstr("directions are in degrees"));
+    }
+}
+
 TEST(Plausibility, OfGravityExpectsMetresPerSecondSquared)
 {
     Scene scene;

@@ -285,6 +285,20 @@ TEST(OneColumn, IsRefusedIfItsCommentStatesAnotherTimeStep)
     }
 }
 
+TEST(Text, IsRefusedIfItsCommentsSpeakOfOtherMotions)
+{
+    for (const char* comment :
+         {"# Velocity time series", "# displacement record", "% VELOCITIES"}) {
+        EXPECT_THAT(refusal_of(fmt::format("{}\n0 1\n1 2\n", comment), in_g),
+                    ::testing::HasSubstr("does not contain accelerations"));
+    }
+    for (const char* comments : {"# acceleration, before velocity was corrected",
+                                 "# Peak velocity: 0.3 m/s\n# ACC", "# station"}) {
+        EXPECT_EQ(component_of(fmt::format("{}\n0 1\n1 2\n", comments), in_g).acceleration,
+                  (Values{1, 2}));
+    }
+}
+
 TEST(Text, RefusesCommentsThatFillTheMemory)
 {
     std::string text;

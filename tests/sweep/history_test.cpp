@@ -122,6 +122,62 @@ TEST(History, HasTheEndStateOfTheSpectrum)
     });
 }
 
+/// The largest friction of the samples until the block last passes alpha.
+double largest_friction(const History& history, const Block<double>& block)
+{
+    double largest = 0;
+    double beyond = 0;
+    for (const HistorySample& sample : history.samples) {
+        const bool is_beyond =
+            std::abs(sample.angle) > seen_from(sample.angle < 0 ? -1.0 : 1.0, block).slenderness;
+        beyond = std::max(beyond, sample.friction);
+        if (!is_beyond) {
+            largest = std::max(largest, beyond);
+            beyond = 0;
+        }
+    }
+    return largest;
+}
+
+TEST(History, HasTheFrictionOfTheSpectrum)
+{
+    std::mt19937_64 generator(6);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int compared = 0;
+    for (int i = 0; i < 80; ++i) {
+        Scene scene;
+        Point point{};
+        if (i % 2 == 0) {
+            const RecordPoint drawn = random_record_point(
+                generator, 100, i % 4 == 0 ? Directions::horizontal : Directions::both);
+            scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+            point = {drawn.block, drawn.scale, drawn.frequency};
+        } else {
+            scene.pulse = PulseKind::one_sine;
+            const PulsePoint<double> drawn = random_point(generator);
+            point = {drawn.block(), drawn.amplitude, drawn.frequency};
+        }
+        point.gyration = 0.4 + 0.4 * uniform(generator);
+        const PointRun run(scene, {point}, widest_kernel());
+        const Numerics numerics{Method::taylor, 1e-11};
+        const Outcomes outcomes = outcomes_of(run, numerics, {.region = true});
+        const double found = run.contact_demands(numerics, outcomes.region).front().friction;
+        const History history = history_of(scene, point, {.samples = 3000});
+        // A record has kinks, so that peaks are narrow.
+        const History forced =
+            history_of(scene, point, {.until = history.end_of_pulse, .samples = 10000});
+        const double seen =
+            std::max(largest_friction(history, point.block), largest_friction(forced, point.block));
+        if (std::isfinite(found) && std::isfinite(seen) &&
+            is_unsafe(history.region) == is_unsafe(Region(outcomes.region[0]))) {
+            ++compared;
+            EXPECT_LE(seen, found * (1 + 1e-7)) << i;
+            EXPECT_GE(seen, found * 0.98) << i; // samples miss narrow peaks
+        }
+    }
+    EXPECT_GT(compared, 60);
+}
+
 TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)
 {
     for_random_points([](const Scene& scene, const Point& point) {

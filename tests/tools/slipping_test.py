@@ -50,7 +50,7 @@ class TestSlippingBlocks(Recorded):
     def test_require_the_field_and_a_coefficient(self):
         self.recorded([[S]])
         self.refuses(74, "no field friction; add it to output.fields", "--friction", "0.5")
-        for word in ("0", "-1", "nan", "much"):
+        for word in ("0", "-1", "nan", "inf", "35", "much"):
             self.refuses(2, "--friction", "--friction", word)
 
     def test_are_those_with_a_verdict_and_without_enough_friction(self):

@@ -14,6 +14,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.friction import expect_coefficient
 from overturn.output_file import new_file
 
 if TYPE_CHECKING:
@@ -109,7 +110,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
         the records are scaled like the motions.
     limit: counts points whose field peak is above it; None counts those that overturn.
-    friction: coefficient between block and ground; points that need more, see the field friction, have no verdict.
+    friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
+        verdict.
     bins: their number; they do not change the fit.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
@@ -120,8 +122,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
     if limit is not None and not math.isfinite(limit):
         raise ValueError(f"limit = {limit} is not a number. Give the peak |theta| / alpha that counts as exceeding.")
-    if friction is not None and not friction > 0:
-        raise ValueError(f"friction = {friction} is not above 0. Give the coefficient between block and ground.")
+    if friction is not None:
+        expect_coefficient(friction)
     measure = _measure(dataset, im)
     cells = _cells(dataset, measure, limit, friction)
     edges = _edges(cells, bins)

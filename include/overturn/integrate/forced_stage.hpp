@@ -170,41 +170,43 @@ private:
                          estimate_of(now_.tilt), parts, motion_at);
     }
 
-    /// A series of bounces that dies out is followed down to this rate, the square of which is
-    /// negligible, but for not much more than ten thousand bounces.
-    T slowest_followed() const
-    {
-        const T remaining = rough_power_of_two(T(T(S(5000)) * rough_log2(block_.restitution)));
-        return greater<T>(T(S(0x1p-14)), remaining) * block_.slenderness;
-    }
-
-    /// The other bounces of a series, of which the first has this rate: they hardly leave the
-    /// ground, but they last some time, during which the push changes.
-    [[gnu::noinline, gnu::cold]] void see_last_bounces(const Mask& lanes, const T& rate)
+    /// Whether the rest of a series of bounces that dies out, of which the first has this rate,
+    /// need not be followed: it lasts so short a time that the push hardly changes, or more than
+    /// some ten thousand bounces were followed. What the contact bears until its end is seen.
+    [[gnu::noinline, gnu::cold]] Mask ends_series(const Mask& lanes, const T& rate)
     {
         const T one(S(1));
         const Block<T> other = block_.turned();
-        const auto see = [&](const T& phase) {
-            const auto ground = excitation_.ground(phase);
-            const auto on = [&](const Block<T>& block, const T& side) {
-                const auto push = estimate_of(side * ground);
-                const E none(scalar_t<E>(0));
-                const MovingBlock<E, std::remove_cvref_t<decltype(push)>> standing{none, none, push,
-                                                                                   push};
-                watch_->see_rest(
-                    demand_of(force_while_rocking(watch_->sides().seen_from(estimate_of(side)),
-                                                  estimate_of(block.slenderness), standing)),
-                    lanes);
-                return T(-rocking_acceleration<theory>(zero_, block.slenderness, side * ground));
-            };
-            const T here = on(block_, now_.side);
-            const T there = on(other, -now_.side);
-            return T(one / here + one / there);
+        const auto pull_at = [&](const T& phase, const Block<T>& block, const T& side) -> T {
+            const T pull = -rocking_acceleration<theory>(zero_, block.slenderness,
+                                                         side * excitation_.ground(phase));
+            return select<T>(lanes, pull, one);
         };
-        const T flights = see(now_.phase);
-        const T duration = (rate + rate) * flights / (one - block_.restitution);
-        see(select<T>(lanes, lesser<T>(now_.phase + duration * excitation_.frequency, end_),
-                      now_.phase));
+        // On each side, the flights are shorter by the factor r from one to the next.
+        const T flights =
+            (rate + rate) * (block_.pace / (other.pace * pull_at(now_.phase, other, -now_.side)) +
+                             other.rate_ratio() / pull_at(now_.phase, block_, now_.side));
+        const T lost = select<T>(lanes, one - block_.restitution, one);
+        const T duration = flights / lost * excitation_.frequency;
+        const T decay = T(S(5000)) * rough_log2(block_.restitution); // of ten thousand bounces
+        const T followed = rough_power_of_two(greater<T>(decay, T(S(-900))));
+        const Mask ends = lanes && (duration < T(S(1e-6)) || rate < followed * block_.slenderness);
+        const auto see = [&](const T& phase, const Block<T>& block, const T& side) {
+            const auto push = estimate_of(side * excitation_.ground(phase));
+            const E none(scalar_t<E>(0));
+            const MovingBlock<E, std::remove_cvref_t<decltype(push)>> standing{none, none, push,
+                                                                               push};
+            watch_->see_rest(
+                demand_of(force_while_rocking(watch_->sides().seen_from(estimate_of(side)),
+                                              estimate_of(block.slenderness), standing)),
+                ends);
+        };
+        const T end = select<T>(ends, lesser<T>(now_.phase + duration, end_), now_.phase);
+        for (const T& phase : {now_.phase, end}) {
+            see(phase, block_, now_.side);
+            see(phase, other, T(-now_.side));
+        }
+        return ends;
     }
 
     /// The block rests between two phases. The friction that a record asks for is monotone between
@@ -357,8 +359,7 @@ private:
         }
         if constexpr (may_watch) {
             if (watch_ && any<T>(rests)) {
-                rests = rests && after.rate < slowest_followed();
-                see_last_bounces(rests, after.rate);
+                rests = ends_series(rests, after.rate);
             }
         }
         if constexpr (outputs.error) {

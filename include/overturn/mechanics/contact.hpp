@@ -56,6 +56,42 @@ struct ContactSides {
     ContactSide<T> minus;
 };
 
+/// The foot of the centre of mass on the base, over R.
+template <Number T>
+struct FootOfCentre {
+    T distance; ///< from the corner of the side: b / R
+    T height;   ///< of the centre of mass above the base: h / R
+};
+
+template <Number T>
+FootOfCentre<T> foot_of_centre(const ContactSide<T>& side, const T& slenderness)
+{
+    const auto [s, c] = sine_and_cosine(slenderness);
+    return {s * side.cosine + c * side.sine, c * side.cosine - s * side.sine};
+}
+
+/// The friction coefficient that a block needs to lift on its side: b / h.
+template <Number T>
+T friction_to_lift(const ContactSide<T>& side, const T& slenderness)
+{
+    const FootOfCentre<T> foot = foot_of_centre(side, slenderness);
+    return foot.distance / foot.height;
+}
+
+/// The friction coefficient that an impact needs, from this side i to the other side j, if the base
+/// acts at the corner j alone: the ratio of its impulses along the base and normal to it,
+///
+///     h (omega_i - omega_j) / (b_i omega_i + b_j omega_j)
+template <Number T>
+T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const ContactSide<T>& other)
+{
+    const FootOfCentre<T> here = foot_of_centre(side, block.slenderness);
+    const FootOfCentre<T> there = foot_of_centre(other, block.other.slenderness);
+    const T kept = block.rate_ratio() * (block.other.pace / block.pace); // omega_j / omega_i
+    return block.size * here.height * (T(scalar_t<T>(1)) - kept) /
+           (block.size * here.distance + block.other.size * there.distance * kept);
+}
+
 /// A force of the base on the block, with its derivatives with respect to some variable.
 template <Number T>
 struct ContactForce {

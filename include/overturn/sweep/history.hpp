@@ -34,6 +34,7 @@ struct HistorySample {
     double acceleration; ///< theta'' [rad]
     double q;            ///< 4 sin^2((alpha - |theta|)/2) - theta'^2 (Eq. 12) [rad^2]
     double ground;       ///< acceleration of the ground over g [1]
+    double friction;     ///< coefficient that the contact needs [1]; NaN in the linear theory
 };
 
 struct HistoryEvent {

@@ -1,5 +1,5 @@
 """Plots the history of one block over time: under a pulse the ground, angle, velocity, acceleration
-and q; under a record the ground and the tilt."""
+and q; under a record the ground and the tilt; and the friction coefficient that the contact needs."""
 
 from __future__ import annotations
 
@@ -46,10 +46,13 @@ PULSE_PANELS = (
     ("velocity", r"velocity  $\theta'$ [rad]", 1),
     ("acceleration", r"acceleration  $\theta''$ [rad]", 1),
     ("q", r"$q$ [rad$^2$]", 1),
+    ("friction", "friction  $|H|/N$", 0.8),
 )
-RECORD_PANELS = (("ground", r"ground  $\ddot u_g/g$", 1), ("angle", r"tilt  $\theta/\alpha$", 1.6))
+RECORD_PANELS = (("ground", r"ground  $\ddot u_g/g$", 1), ("angle", r"tilt  $\theta/\alpha$", 1.6),
+                 ("friction", "friction  $|H|/N$", 0.8))
 PHYSICAL_LABELS = {"ground": "ground [g]", "angle": "tilt [degrees]", "velocity": "velocity [degrees/s]",
-                   "acceleration": "acceleration [degrees/s²]", "q": "$q$ [degrees²/s²]"}
+                   "acceleration": "acceleration [degrees/s²]", "q": "$q$ [degrees²/s²]",
+                   "friction": "friction  $|H|/N$"}
 # Attribute, symbol, unit of the point, in the order of the picture.
 AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold})$", ""),
         ("pulse_period", "period", " s"), ("pulse_frequency", "frequency", " Hz"),
@@ -63,13 +66,25 @@ def slendernesses(file):
     return sides if sides[0] in file.attrs else ("slenderness",)
 
 
+def of_standing(friction, angle, sides):
+    """Returns the friction until the block last passes alpha: later it has overturned. Where it would leave the ground,
+    there is no number."""
+    stands = np.flatnonzero((-sides[-1] <= angle) & (angle <= sides[0]))
+    needed = np.where(np.isfinite(friction), friction, np.nan)
+    needed[stands[-1] + 1 if len(stands) else 0:] = np.nan
+    return needed
+
+
 class History:
     """The contents of the file between two times. Times are in 1/p and angles in rad. Under a record, times are
     in seconds and angles are divided by alpha; in physical units, they are in seconds and degrees."""
 
     def __init__(self, file, start, until, units=JOB):
         self.is_recorded = is_recorded(file)
-        self.panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
+        panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
+        # Histories from before 2.0 and those in the linear theory have no friction.
+        has_friction = "friction" in file and not is_linear(file)
+        self.panels = [panel for panel in panels if panel[0] != "friction" or has_friction]
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
         sides = [float(file.attrs[name]) for name in slendernesses(file)]
         slenderness = sides[0]
@@ -86,9 +101,11 @@ class History:
             raise ToolError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
                             f"{until:g}{unit}.")
         rate = per_time / per_angle
-        factors = {"ground": 1, "angle": 1 / per_angle, "velocity": rate,
+        factors = {"ground": 1, "friction": 1, "angle": 1 / per_angle, "velocity": rate,
                    "acceleration": per_time * rate, "q": rate**2}
         self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
+        if has_friction:
+            self.values["friction"] = of_standing(self.values["friction"], file["angle"][:][shown], sides)
         events = file.file["events"]
         kinds = text_of(events["kind"], "flag_meanings").split()
         self.events = [(when, kinds[kind], angle)
@@ -120,10 +137,11 @@ def draw_panel(axes, history, name, label):
     if len(impacts) <= MOST_IMPACT_LINES and not history.is_recorded:
         for when in impacts:
             axes.axvline(when, color="0.75", linewidth=0.6, zorder=1)
-    linewidth = 0.7 if name == "ground" and history.is_recorded else 1.3
+    linewidth = 0.7 if name in ("ground", "friction") and history.is_recorded else 1.3
     axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
-    spread = np.ptp(values) or 1
-    low, high = values.min() - 0.08 * spread, values.max() + 0.08 * spread
+    known = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
+    spread = np.ptp(known) or 1
+    low, high = known.min() - 0.08 * spread, known.max() + 0.08 * spread
     dashed = {"color": LIMIT, "linewidth": 0.9, "linestyle": (0, (4, 3))}
     shown = [limit for limit in history.limits(name)
              if low - spread <= limit <= high + spread]  # a distant limit would flatten the curve
@@ -217,7 +235,7 @@ def name_time(panel, file, history):
 
 
 def draw_figure(file, history, units):
-    height = 5.4 if history.is_recorded else 9.2
+    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction" in history.values)
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):

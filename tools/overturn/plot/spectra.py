@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
+from overturn.friction import expect_coefficient
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot.sheet import MOST_PANELS, Sheet
@@ -162,8 +163,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
 
 def coefficient(word):
     value = float(word)
-    if not value > 0:
-        raise ValueError
+    expect_coefficient(value)
     return value
 
 
