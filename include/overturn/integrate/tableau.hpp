@@ -14,9 +14,10 @@ struct Ratio {
     constexpr bool is_zero() const { return numerator == 0; }
 };
 
-/// A ratio in a scalar type, rounded once.
+/// A ratio in a scalar type, rounded once. Always inlined: kernels must not define functions that
+/// the rest of the program may use.
 template <class S, Ratio ratio>
-const S& value_of()
+[[gnu::always_inline]] inline const S& value_of()
 {
     static const S value = S(ratio.numerator) / S(ratio.denominator);
     return value;

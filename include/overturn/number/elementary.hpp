@@ -203,7 +203,7 @@ T power_of_two_below(const T& x)
 
 /// pi in the scalar type.
 template <class S>
-S pi()
+[[gnu::always_inline]] inline S pi() // see value_of()
 {
     return number_traits<S>::pi();
 }
