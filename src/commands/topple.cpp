@@ -97,14 +97,30 @@ void expect_consistent(const ToppleOptions& options)
               "--restitution and --restitution-of-maximum exclude each other. Remove one.");
 }
 
-/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of a record over g.
+/// The friction that the point of the command line needs at these strengths, see job_text().
+std::vector<double> friction_at(const ToppleOptions& options, const std::vector<double>& strengths)
+{
+    Problem problem =
+        read_job_text(job_text(options, strengths), command_line, options.overrides).problem;
+    problem.numerics = most_accurate;
+    problem.fields = {Field::friction};
+    const Tiling tiling = tiling_of(problem);
+    std::vector<double> friction;
+    for (std::int64_t tile = 0; tile < tiling.size(); ++tile) {
+        const TileFields fields = compute_tile(problem, tiling[tile], widest_kernel());
+        const auto& values = std::get<std::vector<double>>(fields.values[0]);
+        friction.insert(friction.end(), values.begin(), values.end());
+    }
+    return friction;
+}
+
+/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
 std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene& scene,
                                        const VerdictRanges& ranges, double unit)
 {
-    std::vector<double> needed;
     const auto toppling = ranges.with(Verdict::topples);
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
-        return needed;
+        return {};
     }
     std::vector<double> accelerations;
     for (const auto& [first, last] : toppling) {
@@ -118,30 +134,16 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     const auto [begin, end] = std::ranges::unique(accelerations);
     accelerations.erase(begin, end);
     std::vector<double> strengths = accelerations;
-    if (scene.is_recorded()) {
-        for (double& strength : strengths) {
-            strength /= unit;
-        }
+    for (double& strength : strengths) {
+        strength /= scene.is_recorded() ? unit : 1;
     }
-    Problem problem =
-        read_job_text(job_text(options, strengths), command_line, options.overrides).problem;
-    problem.numerics = most_accurate;
-    problem.fields = {Field::friction};
-    std::vector<double> friction;
-    const Tiling tiling = tiling_of(problem);
-    for (std::int64_t tile = 0; tile < tiling.size();
-         ++tile) { // the only axis is that of strengths
-        const auto values = std::get<std::vector<double>>(
-            compute_tile(problem, tiling[tile], widest_kernel()).values[0]);
-        friction.insert(friction.end(), values.begin(), values.end());
-    }
-    double largest = 0;
-    auto range = toppling.begin();
+    const std::vector<double> friction = friction_at(options, strengths);
+    std::vector<double> needed;
+    double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
         largest = std::isnan(largest) || friction[i] <= largest ? largest : friction[i];
-        if (range != toppling.end() && accelerations[i] == range->first) {
+        if (needed.size() < toppling.size() && accelerations[i] == toppling[needed.size()].first) {
             needed.push_back(largest);
-            ++range;
         }
     }
     return needed;
@@ -258,22 +260,19 @@ std::string shape_text(const Scene& scene)
     return text;
 }
 
-void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
+void print_question(const Job& job, const ToppleOptions& options)
 {
-    const auto alpha = slenderness_of_only_block(job);
-    const RestitutionAnswer& requested = answer.by_restitution.front();
     const Scene& scene = job.problem.scene;
-    const bool is_recorded = scene.is_recorded();
-    const int decimals = requested.ranges.decimals(answer.pga);
     const auto given = [&](const char* name) { return options.block.find(name); };
     const std::string box =
         given("width") == options.block.end() || given("height") == options.block.end()
             ? ""
             : fmt::format("{} m x {} m, ", given("width")->second, given("height")->second);
     print_row("block", box + block_line(job));
-    const std::string motion = is_recorded ? record_lines(job).front()
-                                           : fmt::format("{}, period {} s{}", name_of(scene.pulse),
-                                                         *options.period, shape_text(scene));
+    const std::string motion = scene.is_recorded()
+                                   ? record_lines(job).front()
+                                   : fmt::format("{}, period {} s{}", name_of(scene.pulse),
+                                                 *options.period, shape_text(scene));
     std::string direction;
     if (options.direction) {
         direction = fmt::format("; direction {} degrees", *options.direction);
@@ -285,6 +284,16 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
     if (scene.theory != Theory::nonlinear) {
         print_row("theory", name_of(scene.theory));
     }
+}
+
+void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
+{
+    const auto alpha = slenderness_of_only_block(job);
+    const RestitutionAnswer& requested = answer.by_restitution.front();
+    const Scene& scene = job.problem.scene;
+    const bool is_recorded = scene.is_recorded();
+    const int decimals = requested.ranges.decimals(answer.pga);
+    print_question(job, options);
     print_row(
         "restitution",
         std::isnan(requested.share)
