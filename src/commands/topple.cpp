@@ -216,6 +216,7 @@ double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
     return most;
 }
 
+/// With two decimals.
 std::string rounded_up(double friction)
 {
     return fmt::format("{:.2f}", -rounded_down(-friction, 2));
@@ -230,8 +231,8 @@ std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
     for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
         const double friction = answer.friction_to_topple[i];
         list.push_back(fmt::format("{} at {:.{}f} g",
-                                   std::isnan(friction)   ? "an unknown one"
-                                   : std::isinf(friction) ? "an infinite one"
+                                   std::isnan(friction)   ? "unknown"
+                                   : std::isinf(friction) ? "infinite"
                                                           : rounded_up(friction),
                                    rounded_down(toppling[i].first, decimals), decimals));
     }
@@ -244,8 +245,7 @@ std::string friction_text(double friction)
     return std::isnan(friction) ? "unknown"
            : std::isinf(friction)
                ? "the block would leave the ground, so that the verdict is doubtful"
-               : fmt::format("the verdict holds if the coefficient is at least {:.2f}",
-                             -rounded_down(-friction, 2));
+               : "the verdict holds if the coefficient is at least " + rounded_up(friction);
 }
 
 /// The numbers that complete a pulse, each after a comma.
@@ -318,8 +318,8 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                                                 requested.ranges.end_of_search())
                                   : ""));
     if (!answer.friction_to_topple.empty()) {
-        print_row("", "toppling needs a friction coefficient of " +
-                          friction_to_topple_text(answer, decimals));
+        print_row("",
+                  "friction coefficient to topple: " + friction_to_topple_text(answer, decimals));
     }
     if (answer.by_restitution.size() > 1) {
         fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");

@@ -403,7 +403,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
     computed.peak = outputs.peak && (points.scene().is_recorded() || !computed.error);
-    computed.contact = false; // see watch_contact()
+    computed.contact = false; // see contact_demands()
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;

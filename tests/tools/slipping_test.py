@@ -51,7 +51,8 @@ class TestSlippingBlocks(Recorded):
         self.recorded([[S]])
         self.refuses(74, "no field friction; add it to output.fields", "--friction", "0.5")
         for word in ("0", "-1", "nan", "inf", "35", "much"):
-            self.refuses(2, "--friction", "--friction", word)
+            self.refuses(2, "argument --friction: ", "--friction", word)
+        self.refuses(2, "the tangent of the friction angle", "--friction", "35")
 
     def test_are_those_with_a_verdict_and_without_enough_friction(self):
         random = np.random.default_rng(1)

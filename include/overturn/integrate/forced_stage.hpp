@@ -39,7 +39,9 @@ class ForcedStage {
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
-    static constexpr bool may_watch = outputs.peak && theory == Theory::nonlinear;
+    // 50 digits settle verdicts only.
+    static constexpr bool may_watch =
+        outputs.peak && theory == Theory::nonlinear && std::same_as<scalar_t<E>, double>;
 
 public:
     /// uncertain_impact: used only if the error is an output. contact: to watch it, only with the

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Mapping
 from types import SimpleNamespace
 
@@ -162,8 +163,11 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
 
 
 def coefficient(word):
-    value = float(word)
-    expect_coefficient(value)
+    try:
+        value = float(word)
+        expect_coefficient(value)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
     return value
 
 
