@@ -96,10 +96,10 @@ public:
     /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
-        const auto see = [&](int parts, const auto& motion_at) {
+        const auto see = [&](int parts, const auto& motion) {
             if constexpr (may_watch) {
                 if (watch_) {
-                    see_step(parts, motion_at);
+                    see_step(parts, motion());
                 }
             }
         };
@@ -166,7 +166,7 @@ public:
 private:
     // Not inlined: these would change what the compiler does with other scenes.
     template <class MotionAt>
-    [[gnu::noinline, gnu::cold]] void see_step(int parts, const MotionAt& motion_at)
+    [[gnu::noinline]] void see_step(int parts, const MotionAt& motion_at)
     {
         watch_->see_step(estimate_of(now_.side), estimate_of(block_.slenderness),
                          estimate_of(now_.tilt), parts, motion_at);

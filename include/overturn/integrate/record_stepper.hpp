@@ -76,7 +76,7 @@ public:
                                                          now.phase, samples_per_unit_);
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * time_.unit),
                                                                slenderness_, push, time_.unit);
-        const Series series = leading<order>(known);
+        decltype(auto) series = leading<order>(known);
         const T left = (end_of_piece - now.phase) * units_per_sample_;
         T h = longest_step(now, series, left, active);
 
@@ -115,15 +115,16 @@ public:
                     return sample_of(rough, E(estimate_of(h)), share);
                 };
                 constexpr int parts = 2;
-                see(parts, [&, pushes = estimate_of(push)](const E& share) {
-                    const E& length = estimate_of(h);
-                    const E& per_unit = estimate_of(time_.per_time);
-                    const E one(scalar_t<E>(1));
-                    const E per_step = per_unit / select<E>(length > E(0.0), length, one);
-                    const MotionSample<E> sample = sample_at(share);
-                    const auto ground = pushes.at(E(share * length));
-                    return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
-                        sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
+                see(parts, [&] {
+                    return [rough, pushes = estimate_of(push), length = E(estimate_of(h)),
+                            per_unit = E(estimate_of(time_.per_time))](const E& share) {
+                        const E one(scalar_t<E>(1));
+                        const E per_step = per_unit / select<E>(length > E(0.0), length, one);
+                        const MotionSample<E> sample = sample_of(rough, length, share);
+                        const auto ground = pushes.at(E(share * length));
+                        return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
+                            sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
+                    };
                 });
                 const T most = greater<T>(now.tilt, end.tilt) + aside;
                 const E peak =

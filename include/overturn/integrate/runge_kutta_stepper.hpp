@@ -129,8 +129,12 @@ public:
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
             constexpr int parts = 2;
-            see(parts, [&, tilt = dense_output(start, step.end, h)](const T& share) {
-                return moving_block(excitation_, now, phase_step, share, sample_of(tilt, share));
+            see(parts, [&] {
+                return [this, &now, phase_step,
+                        tilt = dense_output(start, step.end, h)](const T& share) {
+                    return moving_block(excitation_, now, phase_step, share,
+                                        sample_of(tilt, share));
+                };
             });
             return with_extremes({start, step, h}, end, so_far, moved && !arrived);
         } else {

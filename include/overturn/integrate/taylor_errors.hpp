@@ -84,7 +84,7 @@ public:
         const auto stiffness = [&](const E& tilt, const auto& push) -> E {
             return rocking_stiffness<theory>(tilt, E(estimate_of(slenderness)), estimate_of(push));
         };
-        const RockingSeries<order, T> series = leading<order>(step.known);
+        decltype(auto) series = leading<order>(step.known);
         const auto& rough = estimate_of(series);
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
             const E zero(S(0));

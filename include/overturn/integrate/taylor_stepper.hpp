@@ -65,7 +65,7 @@ public:
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
         const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
                                                                slenderness_, push, unit_);
-        const Series series = leading<order>(known);
+        decltype(auto) series = leading<order>(known);
         const T longest = longest_step(now, series);
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / phase_per_unit_;
@@ -110,9 +110,11 @@ public:
         } else if constexpr (outputs.peak) {
             const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
             constexpr int parts = 8;
-            see(parts, [&](const T& share) {
-                return moving_block(excitation_, now, T(h * phase_per_unit_), share,
-                                    sample_at(share));
+            see(parts, [&] {
+                return [this, &now, series, h](const T& share) {
+                    return moving_block(excitation_, now, T(h * phase_per_unit_), share,
+                                        sample_of(series, h, share));
+                };
             });
             const T per_step = h * unit_;
             const TurnsInStep<T> turns(

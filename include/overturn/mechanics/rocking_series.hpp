@@ -90,45 +90,39 @@ RockingSeries<order, T> linear_rocking_series(const T& tilt, const T& rate, cons
     return series;
 }
 
-/// The coefficients of the motion and of s and c, see rocking_series().
-template <int order, Number T>
-struct NonlinearSeries {
-    RockingSeries<order, T> motion;
-    Coefficients<order, T> s;
-    Coefficients<order, T> c;
-
-    /// Computes rate[k + 1] and what it depends on for `first` <= k < `last`; all before are known.
-    template <int first, int last>
-    void extend(const auto& push)
-    {
-        using arithmetic::fma;
-        using S = scalar_t<T>;
-        auto& [x, v] = motion;
-        unrolled<last - first>([&]<int i>() {
-            constexpr int k = first + i;
-            T c_v(S(0));
-            T s_v(S(0));
-            newest_last<k>([&]<int j>() {
-                if constexpr (j == k / 2) { // the first term
-                    c_v = v[j] * c[k - 1 - j];
-                    s_v = v[j] * s[k - 1 - j];
-                } else {
-                    c_v = fma(v[j], c[k - 1 - j], c_v);
-                    s_v = fma(v[j], s[k - 1 - j], s_v);
-                }
-            });
-            s[k] = c_v * T(S(1) / k);
-            c[k] = s_v * T(S(-1) / k);
-            T s_k = s[k];
-            if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
-                s_k = coefficient_of_product<k>(push.gravity, s);
+/// Computes motion.rate[k + 1] and what it depends on for `first` <= k < `last`; all before are
+/// known. s and c: see rocking_series().
+template <int first, int last, int order, Number T>
+void extend(RockingSeries<order, T>& motion, Coefficients<order, T>& s, Coefficients<order, T>& c,
+            const auto& push)
+{
+    using arithmetic::fma;
+    using S = scalar_t<T>;
+    auto& [x, v] = motion;
+    unrolled<last - first>([&]<int i>() {
+        constexpr int k = first + i;
+        T c_v(S(0));
+        T s_v(S(0));
+        newest_last<k>([&]<int j>() {
+            if constexpr (j == k / 2) { // the first term
+                c_v = v[j] * c[k - 1 - j];
+                s_v = v[j] * s[k - 1 - j];
+            } else {
+                c_v = fma(v[j], c[k - 1 - j], c_v);
+                s_v = fma(v[j], s[k - 1 - j], s_v);
             }
-            const T push_c = coefficient_of_product<k>(horizontal_of(push), c);
-            v[k + 1] = fma(s_k, T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
-            x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
         });
-    }
-};
+        s[k] = c_v * T(S(1) / k);
+        c[k] = s_v * T(S(-1) / k);
+        T s_k = s[k];
+        if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
+            s_k = coefficient_of_product<k>(push.gravity, s);
+        }
+        const T push_c = coefficient_of_product<k>(horizontal_of(push), c);
+        v[k + 1] = fma(s_k, T(S(1) / (k + 1)), push_c * T(S(-1) / (k + 1)));
+        x[k + 2] = v[k + 1] * T(S(1) / (k + 2));
+    });
+}
 
 template <int order, Number T, class Push>
 RockingSeries<order, T> nonlinear_rocking_series(const T& tilt, const T& rate, const T& slenderness,
@@ -138,33 +132,34 @@ RockingSeries<order, T> nonlinear_rocking_series(const T& tilt, const T& rate, c
     using S = scalar_t<T>;
     const T square = unit * unit;
     const T push_0 = coefficient<0>(horizontal_of(push));
-    NonlinearSeries<order, T> series;
-    auto& [x, v] = series.motion;
+    RockingSeries<order, T> motion; // returned without a copy
+    auto& x = motion.tilt;
+    auto& v = motion.rate;
     x[0] = tilt;
     v[0] = rate;
     x[1] = rate;
     const auto [sine, cosine] = sine_and_cosine(T(tilt - slenderness));
-    series.s[0] = square * sine;
-    series.c[0] = square * cosine;
-    T s_0 = series.s[0];
+    Coefficients<order, T> s{square * sine};
+    Coefficients<order, T> c{square * cosine};
+    T s_0 = s[0];
     if constexpr (has_gravity<Push>) {
         s_0 = push.gravity.start * s_0;
     }
-    v[1] = fma(-push_0, series.c[0], s_0);
+    v[1] = fma(-push_0, c[0], s_0);
     x[2] = v[1] * T(S(0.5));
     constexpr int full = std::min(full_terms<T, order + 1>, order);
-    series.template extend<1, full>(push);
+    extend<1, full>(motion, s, c, push);
     if constexpr (full < order) {
-        using E = estimate_t<T>;
-        NonlinearSeries<order, E> rest{estimate_of(series.motion), estimate_of(series.s),
-                                       estimate_of(series.c)};
-        rest.template extend<full, order>(estimate_of(push));
+        auto rest = estimate_of(motion);
+        auto rest_of_s = estimate_of(s);
+        auto rest_of_c = estimate_of(c);
+        extend<full, order>(rest, rest_of_s, rest_of_c, estimate_of(push));
         for (std::size_t k = full + 1; k < v.size(); ++k) {
-            v[k] = T(rest.motion.rate[k]);
-            x[k + 1] = T(rest.motion.tilt[k + 1]);
+            v[k] = T(rest.rate[k]);
+            x[k + 1] = T(rest.tilt[k + 1]);
         }
     }
-    return series.motion;
+    return motion;
 }
 
 /// The series of the motion with this tilt [rad] and rate [rad per unit] at t = 0. push: the series
@@ -203,6 +198,12 @@ RockingSeries<order, T> leading(const RockingSeries<known_order, T>& known)
     std::copy_n(known.tilt.begin(), series.tilt.size(), series.tilt.begin());
     std::copy_n(known.rate.begin(), series.rate.size(), series.rate.begin());
     return series;
+}
+template <int order, int known_order, Number T>
+    requires(order == known_order)
+const RockingSeries<order, T>& leading(const RockingSeries<known_order, T>& known)
+{
+    return known;
 }
 
 } // namespace overturn
