@@ -201,6 +201,13 @@ std::vector<double> other_component(const std::optional<Entry>& choice_of_it, st
                component->acceleration.size(), component->time_step, horizontal.acceleration.size(),
                horizontal.time_step);
     }
+    if (std::abs(component->start - horizontal.start) > horizontal.time_step / 2) {
+        refuse(
+            choice,
+            " begins at {} s, but the horizontal component begins at {} s. Give both at the same "
+            "times.",
+            component->start, horizontal.start);
+    }
     if (component->acceleration == horizontal.acceleration) {
         refuse(choice, " = {} has the accelerations of the horizontal component. Give the {} one.",
                component_text(choice), name);

@@ -61,6 +61,30 @@ std::string finding_about(const PlausibleRange& range, const Extent& values,
                        range.advice);
 }
 
+/// A component of a record with a value that no other one comes near: measured motions have none.
+std::string finding_about_spikes(const std::vector<double>& samples, double step)
+{
+    constexpr std::size_t least_samples = 100; // shorter ones may be made by hand
+    if (samples.size() < least_samples) {
+        return "";
+    }
+    const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const auto largest = std::ranges::max_element(samples, by_size);
+    double next = 0; // a marker of missing values may occur several times
+    for (const double sample : samples) {
+        if (sample != *largest) {
+            next = std::max(next, std::abs(sample));
+        }
+    }
+    const double ratio = std::abs(*largest) / next;
+    return next > 0 && ratio > 2
+               ? fmt::format("the largest value of a record, {:.4g} g at {:.6g} s after its "
+                             "beginning, is {:.3g} times as large as any other (a spike, or a "
+                             "marker of missing values?)",
+                             *largest, step * double(largest - samples.begin()), ratio)
+               : "";
+}
+
 /// Whether r is above r_max (Eq. 17), if it exists, for a block of this slenderness [rad].
 std::string finding_about_restitution(double restitution, double alpha)
 {
@@ -132,16 +156,26 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     }
     judge(gyration, "gyration_over_size");
     judge(period, "pulse_period", "frequency");
+    if (grid.find("amplitude") != nullptr &&
+        (coordinates.has("size") || coordinates.has("size_plus")) &&
+        extent_of(coordinates.of("amplitude")).last <= 1) {
+        findings.push_back(fmt::format(
+            "amplitude = {} lifts no block (amplitudes are multiples of the acceleration that "
+            "lifts the block; accelerations in g are given as pga)",
+            extent_of(coordinates.of("amplitude")).text("")));
+    }
     judge(acceleration, "pga", scene.is_recorded() ? "scale" : "amplitude");
     if (scene.is_recorded()) {
         CoordinateValues peaks, time_steps, means;
         for (const auto& record : scene.records) {
             means.values.push_back(record->upwards_mean());
             peaks.values.push_back(record->peak());
+            findings.push_back(finding_about_spikes(record->horizontal(), record->time_step()));
             for (const auto* other : {&record->second(), &record->upwards()}) {
                 if (!other->empty()) {
                     const auto [least, most] = std::ranges::minmax(*other);
                     peaks.values.push_back(std::max(-least, most));
+                    findings.push_back(finding_about_spikes(*other, record->time_step()));
                 }
             }
             time_steps.values.push_back(record->time_step());

@@ -178,7 +178,7 @@ std::optional<AccelerationUnit> unit_of_header(Lines lines,
             }
             const std::string reason =
                 stated.unit ? fmt::format("contradicts {}", quoted_bytes(found->text))
-                            : "is not understood";
+                            : "is not understood, or is changed by what follows it";
             lines.refuse("the unit {} {}. Understood are {} and their usual spellings, such as "
                          "CM/SEC/SEC. State the unit of the samples: {}.",
                          quoted_bytes(stated.text), reason,

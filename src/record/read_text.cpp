@@ -66,6 +66,7 @@ public:
     /// Requires two times.
     double step() const;
 
+    double start() const { return first_; } ///< [s]
     std::size_t size() const { return size_; }
 
 private:
@@ -190,46 +191,66 @@ void expect_decimal_points(Lines lines)
     }
 }
 
-/// The time step that a comment states, as in DT= .01, "time step: 0.01 s" or "sampling rate 100
-/// Hz"; nullopt if it states none.
-std::optional<double> stated_time_step(std::string_view comment)
+/// The words of a comment, in lower case.
+std::vector<std::string> words_of(std::string_view comment)
 {
-    constexpr std::string_view marks = " \t=:,;()[]";
+    constexpr std::string_view marks = " \t=:,;()[]{}_/#\"'";
     const std::string text = lower(comment);
-    std::vector<std::string_view> words;
+    std::vector<std::string> words;
     for (std::size_t begin = 0; (begin = text.find_first_not_of(marks, begin)) != text.npos;) {
         const std::size_t end = std::min(text.find_first_of(marks, begin), text.size());
-        words.push_back(std::string_view(text).substr(begin, end - begin));
+        words.push_back(text.substr(begin, end - begin));
         begin = end;
     }
-    const bool is_sampled = text.find("sampl") != text.npos;
-    for (std::size_t i = 1; i < words.size(); ++i) {
+    return words;
+}
+
+/// What a comment says of the time step, as in DT= .01, "time step: 10 ms" or "sampling rate 100
+/// Hz".
+struct StatedSampling {
+    bool is_stated = false;
+    std::vector<double> steps; ///< that its numbers may mean [s]
+};
+
+StatedSampling stated_sampling(std::string_view comment)
+{
+    const std::vector<std::string> words = words_of(comment);
+    const auto has = [&](auto... names) {
+        return std::ranges::any_of(words, [&](const std::string& word) {
+            const std::string_view letters =
+                std::string_view(word).substr(std::min(word.find_first_not_of("0123456789.+-"),
+                                                       word.size())); // of 100hz
+            return ((letters == names) || ...);
+        });
+    };
+    const auto begins = [&](std::string_view name) {
+        return std::ranges::any_of(words,
+                                   [&](const std::string& word) { return word.starts_with(name); });
+    };
+    const bool samples = begins("sampl");
+    const bool in_time = samples || begins("time");
+    const bool has_step = has("dt", "timestep", "delta", "deltat") ||
+                          (in_time && (has("step", "interval", "increment", "spacing") ||
+                                       (samples && has("period")))) ||
+                          (has("interval") && has("s", "sec", "ms"));
+    const bool has_rate =
+        has("sps", "fs") || (samples && (has("hz", "rate", "frequency", "freq") ||
+                                         (has("s", "sec", "second") && has("samples", "per"))));
+    StatedSampling stated;
+    for (const std::string& word : words) {
         double value = 0;
-        const std::string_view word = words[i];
         const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (failure != std::errc() || !(value > 0)) {
-            continue;
-        }
-        const std::string_view glued(end, word.data() + word.size());
-        std::string_view unit = !glued.empty()         ? glued
-                                : i + 1 < words.size() ? words[i + 1]
-                                                       : std::string_view();
-        std::size_t last = i - 1; // of the name
-        if (last > 0 && (words[last] == "s" || words[last] == "sec" || words[last] == "ms")) {
-            unit = words[last--]; // as in time step [s]: 0.01
-        }
-        const std::string_view name = words[last];
-        const bool is_step = name == "dt" || name == "timestep" || name == "time_step" ||
-                             (last > 0 && (name == "step" || name == "interval") &&
-                              (words[last - 1] == "time" || words[last - 1].starts_with("sampl")));
-        if (is_step) {
-            return unit.starts_with("ms") || unit.starts_with("milli") ? value / 1000 : value;
-        }
-        if (is_sampled && (unit == "hz" || unit == "sps")) {
-            return 1 / value;
+        if (failure == std::errc() && value > 0) {
+            stated.is_stated = has_step || has_rate;
+            if (has_step) {
+                stated.steps.push_back(has("ms", "msec") || begins("milli") ? value / 1000 : value);
+            }
+            if (has_rate) {
+                stated.steps.push_back(1 / value);
+            }
         }
     }
-    return std::nullopt;
+    return stated;
 }
 
 /// Refuses a file whose comments speak of velocities or displacements, and not of accelerations.
@@ -255,16 +276,30 @@ void expect_accelerations(Lines lines)
     }
 }
 
-/// Refuses a comment that contradicts the time step of the only column.
+/// Refuses a comment that states a time step or a rate, and not that of the only column.
 void expect_stated_step(const Lines& lines, double time_step)
 {
-    const auto stated = stated_time_step(lines.line());
+    const StatedSampling stated = stated_sampling(lines.line());
     constexpr double rounding = 1e-3; // of a printed step, such as 0.0078
-    if (stated && !(std::abs(*stated - time_step) <= rounding * time_step)) {
-        lines.refuse(
-            "the comment states a time step of {} s, but time_step = {} was given. Correct "
-            "one of them, or remove the comment.",
-            *stated, time_step);
+    const auto agrees = [&](double step) {
+        return std::abs(step - time_step) <= rounding * time_step;
+    };
+    if (stated.is_stated && std::ranges::none_of(stated.steps, agrees)) {
+        lines.refuse("the comment {} does not state the time step that was given, time_step = {} "
+                     "s. Correct one of them, or remove the comment.",
+                     quoted_bytes(trimmed(lines.line())), time_step);
+    }
+}
+
+/// Refuses a column that begins with the number of its samples, with or without the time step.
+void expect_no_count(const Lines& lines, const std::vector<double>& column)
+{
+    for (const std::size_t before : {1, 2}) {
+        if (column.size() > before + 1 && column.front() == double(column.size() - before)) {
+            lines.refuse_file("the first value, {}, is the number of the values that follow, and "
+                              "not an acceleration. Remove it, or begin its line with #.",
+                              column.front());
+        }
     }
 }
 
@@ -312,7 +347,13 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
                      "or more. Give the complete file.");
     }
     component.header = std::move(header).kept();
-    component.time_step = columns == 1 ? *options.time_step : times.step();
+    if (columns == 1) {
+        expect_no_count(lines, component.acceleration);
+        component.time_step = *options.time_step;
+    } else {
+        component.time_step = times.step();
+        component.start = times.start();
+    }
     return {.format = "text", .components = {std::move(component)}, .has_given_unit = true};
 }
 

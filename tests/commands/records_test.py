@@ -329,6 +329,18 @@ class ABadRecord(ScratchWithRecords):
                      scene__vertical="slow.AT2")
         self.refused("scene.vertical = 3 is not a component", scene__vertical="3")
 
+    def test_refuses_components_that_begin_at_other_times(self):
+        def write(name, first, component):
+            acceleration = np.sin(np.arange(100) / (10 + component))
+            np.savetxt(self.folder / name, np.c_[first + 0.01 * np.arange(100), acceleration], fmt="%.5f")
+
+        write("one.txt", 0, 0)
+        for first in (0.01, 3, -3):
+            write("other.txt", first, 1)
+            for component in ("vertical", "second_component"):
+                self.refused(f"begins at {first} s, but the horizontal component begins at 0 s", scene__record="one.txt",
+                             scene__units="g", **{f"scene__{component}": "other.txt"})
+
     def test_excludes_a_pulse_and_its_axes(self):
         self.refused("scene.window cannot be combined with scene.record", scene__window="1")
         self.refused("plane.amplitude", plane__amplitude="1")

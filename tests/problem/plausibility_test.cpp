@@ -3,6 +3,7 @@
 #include "support/given_values.hpp"
 #include "support/random_record.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -100,6 +101,47 @@ TEST(Plausibility, OneRowOfATableIsEnough)
         columns["width"][row] *= 100;
         columns["height"][row] *= 100;
         EXPECT_THAT(found_in(columns), HasSubstr("R = "));
+    }
+}
+
+TEST(Plausibility, OfRecordsFindsValuesThatNoOtherComesNear)
+{
+    std::mt19937_64 generator(5);
+    Columns columns{{"width", {0.3}}, {"height", {1.0}}, {"restitution_of_maximum", {1.0}}};
+    columns["scale"] = {0.01};
+    const auto found = [&](const std::vector<double>& horizontal,
+                           const std::vector<double>& upwards = {}) {
+        Scene scene;
+        scene.records.push_back(std::make_shared<const Accelerogram>(horizontal, upwards, 0.01));
+        return found_in(columns, scene);
+    };
+    std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+    for (int i = 0; i < 50; ++i) {
+        std::vector<double> samples(200);
+        std::ranges::generate(samples, [&] { return uniform(generator); });
+        EXPECT_THAT(found(samples), IsEmpty());
+        std::vector<double> marked = samples;
+        const std::size_t place = generator() % marked.size();
+        for (const double marker : {0.65, -1.01832, 4.9}) {
+            marked[place] = marked[(place + 7) % marked.size()] = marker;
+            EXPECT_THAT(found(marked), HasSubstr(fmt::format("{:.4g} g at ", marker)));
+            EXPECT_THAT(found(samples, marked), HasSubstr("a marker of missing values"));
+        }
+    }
+    std::vector<double> pulse(50, 0.01);
+    pulse[20] = 1;
+    EXPECT_THAT(found(pulse), IsEmpty());
+}
+
+TEST(Plausibility, OfAmplitudesThatLiftNoBlock)
+{
+    std::mt19937_64 generator(6);
+    for (int i = 0; i < 50; ++i) {
+        Columns columns = random_blocks(generator, 5);
+        columns["amplitude"] = columns.extract("pga").mapped();
+        EXPECT_THAT(found_in(columns), HasSubstr("lifts no block"));
+        columns["amplitude"][2] = 1.5;
+        EXPECT_THAT(found_in(columns), IsEmpty());
     }
 }
 

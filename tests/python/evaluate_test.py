@@ -158,6 +158,14 @@ class TheShape(unittest.TestCase):
         one = overturn.evaluate(**{**BLOCK, **PULSE, "width": 0.5, "pga": 0.9})
         self.assertEqual(outcome["margin"][1, 1], one["margin"])
 
+    def test_an_aspect_ratio_is_a_slenderness(self):
+        for ratio in (1.5, 3, 7.25):
+            same = {"size": 1.1, "restitution": 0.8, **PULSE}
+            by_ratio = overturn.evaluate(aspect_ratio=ratio, **same)
+            by_angle = overturn.evaluate(slenderness=np.arctan(1 / ratio), **same)
+            np.testing.assert_allclose(by_ratio["margin"], by_angle["margin"], rtol=1e-9)
+            self.assertEqual(by_ratio["region"], by_angle["region"])
+
     def test_may_be_empty(self):
         outcome = overturn.evaluate(**{**BLOCK, **PULSE, "pga": np.empty((0, 3))})
         for values in outcome.values():

@@ -349,8 +349,9 @@ class AnEdgeCase(unittest.TestCase):
             overturn.fragility(data.interp(scale=data.scale.values[:-1] * 1.03))
         with self.assertRaisesRegex(ValueError, "region has no flag_meanings"):
             overturn.fragility(whole.assign(region=plain))
-        with self.assertRaisesRegex(ValueError, "limit = nan"):
-            overturn.fragility(whole, limit=float("nan"))
+        for limit in (float("nan"), -1, 0, 1.01, 5, 18.4, 50):
+            with self.assertRaisesRegex(ValueError, f"limit = {limit} must be in"):
+                overturn.fragility(whole, limit=limit)
 
     def test_units_are_those_of_the_variable(self):
         whole = result(*graded())

@@ -53,7 +53,7 @@ class ARefusal(Refused):
             self.assert_refused(ValueError, "pga = 1 exceeds the range of double precision as a factor", RECORD,
                                 record=[0, peak, 0], scale=None, pga=1)
         self.assert_refused(ValueError, "scale = 1e+200 exceeds", RECORD, record=[0, 1e200, 0],
-                            vertical=[0, 1e200, 0], scale=1e200)
+                            vertical=[0, 2e200, 0], scale=1e200)
 
     def test_of_masked_values(self):
         for masked in (np.ma.array([0.5, 0.6], mask=[0, 1]), [np.ma.array([0.5], mask=[1])], np.ma.masked):
@@ -70,6 +70,9 @@ class ARefusal(Refused):
     def test_of_samples(self):
         self.assert_refused(ValueError, "record[1] = nan is not finite", RECORD, record=[0, np.nan])
         self.assert_refused(ValueError, "vertical has 2 samples, but record has 3", RECORD, vertical=[0, 0])
+        for component in ("vertical", "second_component"):
+            self.assert_refused(ValueError, f"{component} has the accelerations of record", RECORD,
+                                **{component: RECORD["record"]})
         self.assert_refused(ValueError, "two or more samples", RECORD, record=[0, 0])
         self.assert_refused(ValueError, "record has 2 dimensions", RECORD, record=[[1, 2]])
         self.assert_refused(ValueError, "time_step = 0 is outside", RECORD, time_step=0)

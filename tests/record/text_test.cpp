@@ -266,12 +266,26 @@ TEST(OneColumn, IsRefusedIfItsCommentStatesAnotherTimeStep)
     for (int i = 0; i < 100; ++i) {
         const double hertz = double(1 + generator() % 400);
         const double step = 1 / hertz;
-        for (const std::string& comment :
-             {fmt::format("synthetic, DT = {} s, NPTS = 2", step), fmt::format("dt={:.6g}s", step),
-              fmt::format("Time step: {:.6g} sec", step), fmt::format("time step [s]: {}", step),
-              fmt::format("sampling interval {} ms", 1000 * step),
-              fmt::format("Sampling rate {} Hz", hertz), fmt::format("{} sps, sampled", hertz),
-              fmt::format("NPTS= 2, DT= {:.6f} SEC", step)}) {
+        for (const std::string& comment : {fmt::format("synthetic, DT = {} s, NPTS = 2", step),
+                                           fmt::format("dt={:.6g}s", step),
+                                           fmt::format("Time step: {:.6g} sec", step),
+                                           fmt::format("time step [s]: {}", step),
+                                           fmt::format("sampling interval {} ms", 1000 * step),
+                                           fmt::format("Sampling rate {} Hz", hertz),
+                                           fmt::format("{} sps, sampled", hertz),
+                                           fmt::format("NPTS= 2, DT= {:.6f} SEC", step),
+                                           fmt::format("delta t = {} s", step),
+                                           fmt::format("SAMPLING_INTERVAL_S: {:.6f}", step),
+                                           fmt::format("{} sps", hertz),
+                                           fmt::format("fs = {} Hz", hertz),
+                                           fmt::format("{} samples/s", hertz),
+                                           fmt::format("sample rate: {}", hertz),
+                                           fmt::format("sampling frequency = {}", hertz),
+                                           fmt::format("samples per second: {}", hertz),
+                                           fmt::format("interval: {} s", step),
+                                           fmt::format("Sampling Freq(Hz)  {}Hz", hertz),
+                                           fmt::format("time increment {} s", step),
+                                           fmt::format("{}sps", hertz)}) {
             EXPECT_EQ(read(comment, step), step) << comment;
             for (const double other : {step / 2, 2 * step, 1.01 * step}) {
                 EXPECT_THROW(read(comment, other), Error) << comment;
@@ -279,10 +293,44 @@ TEST(OneColumn, IsRefusedIfItsCommentStatesAnotherTimeStep)
         }
         for (const std::string& comment :
              {fmt::format("filtered below {} Hz", hertz), fmt::format("station {}", hertz),
-              fmt::format("time {} s", hertz)}) {
+              fmt::format("time {} s", hertz), fmt::format("{} samples", hertz),
+              fmt::format("number of samples: {}", hertz), fmt::format("interval {}", hertz),
+              fmt::format("step {} of the processing", hertz)}) {
             EXPECT_EQ(read(comment, 0.01), 0.01) << comment;
         }
     }
+}
+
+TEST(OneColumn, IsRefusedIfItBeginsWithTheNumberOfItsSamples)
+{
+    std::mt19937_64 generator(4);
+    for (int i = 0; i < 50; ++i) {
+        const int count = int(2 + generator() % 100);
+        std::string samples;
+        for (int k = 0; k < count; ++k) {
+            samples += fmt::format("{:.3f}\n", 0.001 * double(1 + generator() % 900));
+        }
+        for (const std::string& header :
+             {fmt::format("{}\n", count), fmt::format("{}\n0.01\n", count),
+              fmt::format("# a station\n{}\n", count)}) {
+            EXPECT_THAT(
+                refusal_of(header + samples, one_column),
+                ::testing::HasSubstr(fmt::format(
+                    "the first value, {}, is the number of the values that follow", count)));
+        }
+        for (const std::string& header :
+             {fmt::format("{}\n", count + 1), fmt::format("# {}\n", count),
+              fmt::format("{}.5\n", count)}) {
+            EXPECT_THAT(component_of(header + samples, one_column).acceleration,
+                        ::testing::SizeIs(count + (header.starts_with('#') ? 0 : 1)));
+        }
+    }
+}
+
+TEST(TwoColumns, StateTheTimeOfTheFirstSample)
+{
+    EXPECT_EQ(component_of("3.00 1\n3.01 2\n", in_g).start, 3);
+    EXPECT_EQ(component_of("1\n2\n", one_column).start, 0);
 }
 
 TEST(Text, IsRefusedIfItsCommentsSpeakOfOtherMotions)

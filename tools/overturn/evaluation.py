@@ -47,7 +47,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              radius_of_gyration: ArrayLike | None = None, incline: ArrayLike | None = None,
              slenderness_plus: ArrayLike | None = None, slenderness_minus: ArrayLike | None = None,
              size_plus: ArrayLike | None = None, size_minus: ArrayLike | None = None,
-             slenderness: ArrayLike | None = None, size: ArrayLike | None = None,
+             slenderness: ArrayLike | None = None, aspect_ratio: ArrayLike | None = None,
+             size: ArrayLike | None = None,
              frequency_parameter: ArrayLike | None = None,
              restitution: ArrayLike | None = None, restitution_of_maximum: ArrayLike | None = None,
              pulse_period: ArrayLike | None = None, pulse_frequency: ArrayLike | None = None,
@@ -66,9 +67,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     not hold the interpreter's lock.
 
     The block:
-        width*, height*: of the whole block [m]; or half_width*, half_height* [m]; or slenderness*
-            [rad] with size* (half diagonal R [m]) or frequency_parameter* (p [1/s]); or slenderness*
-            alone under a pulse given by frequency.
+        width*, height*: of the whole block [m]; or half_width*, half_height* [m]; or slenderness* [rad] or
+            aspect_ratio* (height / width) [1] with size* (half diagonal R [m]) or frequency_parameter* (p [1/s]);
+            or slenderness* alone under a pulse given by frequency.
         center_offset*, center_height*, radius_of_gyration* [m], incline* [rad]: of a block with two different
             sides, beside width and height; or, of one that is not a box, slenderness_plus*, slenderness_minus*
             [rad], size_plus*, size_minus* and radius_of_gyration* [m]; see docs/two_sides.md.
@@ -101,7 +102,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
                      center_offset=center_offset, center_height=center_height, radius_of_gyration=radius_of_gyration,
                      incline=incline, slenderness_plus=slenderness_plus, slenderness_minus=slenderness_minus,
                      size_plus=size_plus, size_minus=size_minus, direction=direction,
-                     slenderness=slenderness, size=size, frequency_parameter=frequency_parameter,
+                     slenderness=slenderness, aspect_ratio=aspect_ratio, size=size,
+                     frequency_parameter=frequency_parameter,
                      restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
     of_pulse = _given(pulse_period=pulse_period, pulse_frequency=pulse_frequency, frequency=frequency,
                       amplitude=amplitude)
@@ -181,6 +183,8 @@ def _accelerations(record, second_component, vertical):
         if samples.size != horizontal.size:
             raise ValueError(f"{name} has {samples.size} samples, but record has {horizontal.size}. Give both at "
                              "the same times.")
+        if np.array_equal(samples, horizontal):
+            raise ValueError(f"{name} has the accelerations of record. Give those of the other component.")
     return horizontal, others.get("second_component", []), others.get("vertical", [])
 
 

@@ -109,7 +109,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable of
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
         the records are scaled like the motions.
-    limit: counts points whose field peak is above it; None counts those that overturn.
+    limit: in (0, 1], counts points whose field peak is above it; None counts those that overturn.
     friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
         verdict.
     bins: their number; they do not change the fit.
@@ -120,8 +120,9 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     """
     if bins < 1 or samples < 1:
         raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
-    if limit is not None and not math.isfinite(limit):
-        raise ValueError(f"limit = {limit} is not a number. Give the peak |theta| / alpha that counts as exceeding.")
+    if limit is not None and not 0 < limit <= 1:
+        raise ValueError(f"limit = {limit} must be in (0, 1]: the peak |theta| / alpha that counts as exceeding, not "
+                         "an angle or a percentage.")
     if friction is not None:
         expect_coefficient(friction)
     measure = _measure(dataset, im)
