@@ -57,6 +57,8 @@ class Fragility:
     band: NDArray[np.float64]  #: (2, values), of 95 % confidence at each value
     notes: tuple[str, ...]  #: what is missing or extrapolated, and why there is no fit or no band
     group: str = ""  #: which blocks of the result these are; empty: all
+    #: (samples, 2), median and beta; their quantiles are the intervals. Empty if there are none
+    samples: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def fraction(self) -> NDArray[np.float64]:
@@ -336,7 +338,7 @@ def _fitted(fit, value):
     if not fit:
         unknown, pair = np.full(len(value), np.nan), np.full(2, np.nan)
         return dict(median=np.nan, beta=np.nan, median_interval=pair, beta_interval=pair, value=value,
-                    probability=unknown, band=np.stack([unknown, unknown]))
+                    probability=unknown, band=np.stack([unknown, unknown]), samples=np.empty((0, 2)))
     return dict(median=fit.median, beta=fit.beta, median_interval=fit.median_interval,
                 beta_interval=fit.beta_interval, value=value, band=fit.band,
-                probability=ndtr(np.log(value / fit.median) / fit.beta))
+                samples=fit.samples, probability=ndtr(np.log(value / fit.median) / fit.beta))

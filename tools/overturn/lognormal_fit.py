@@ -23,6 +23,7 @@ MOST_ITERATIONS = 60
 CONVERGED = 1e-8  # step of a and b, whose standard errors are above 1e-4 for fewer than 1e8 motions
 LARGEST_STEP = 1.0  # of a and b
 LARGEST_Z = 30.0  # Phi(-30) = 5e-198 is a normal number
+LARGEST_LOG = 700.0  # of a median or beta among the samples; exp(709.8) overflows
 CHUNK = 1_000_000  # samples times values computed at once: 8 MB an array
 
 
@@ -44,6 +45,7 @@ class Fit:
     median_interval: np.ndarray  # (2,)
     beta_interval: np.ndarray  # (2,)
     band: np.ndarray  # (2, values): of P at the requested values
+    samples: np.ndarray  # (samples, 2): median and beta, whose quantiles are the intervals; none without intervals
     samples_without_fit: int = 0
 
 
@@ -58,7 +60,7 @@ def fit(counts, log_at, samples, seed):
     estimate, error = (rows[0] for rows in estimates(counts, np.ones((1, motions)), *frame))
     if np.isnan(estimate[1]):
         return None
-    without_fit, interval = 0, np.full((2, len(estimate)), np.nan)
+    without_fit, interval, kept = 0, np.full((2, len(estimate)), np.nan), np.empty((0, 2))
     if motions >= LEAST_MOTIONS:
         weights = np.random.default_rng(seed).multinomial(motions, np.full(motions, 1 / motions), samples)
         chunks = np.array_split(weights, -(-samples * values // CHUNK))
@@ -68,9 +70,11 @@ def fit(counts, log_at, samples, seed):
         if without_fit <= MOST_WITHOUT_FIT * samples:
             ends = np.nanquantile(deviation, [(1 + LEVEL) / 2, (1 - LEVEL) / 2], axis=0)
             interval = estimate - ends * error
+            kept = (estimate - deviation * error)[:, :2]
+            kept = np.exp(np.clip(kept[~np.isnan(kept).any(axis=1)], -LARGEST_LOG, LARGEST_LOG))
     with np.errstate(over="ignore"):  # few different motions may give an interval without an upper end
         ends = np.exp(interval[:, :2])
-    return Fit(*map(float, np.exp(estimate[:2])), ends[:, 0], ends[:, 1], ndtr(interval[:, 2:]), without_fit)
+    return Fit(*map(float, np.exp(estimate[:2])), ends[:, 0], ends[:, 1], ndtr(interval[:, 2:]), kept, without_fit)
 
 
 def estimates(counts, weights, center, width, log_at):
