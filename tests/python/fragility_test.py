@@ -1,6 +1,7 @@
 """overturn.fragility(). Requires the package on PYTHONPATH."""
 
 import csv
+import itertools
 import pathlib
 import tempfile
 import unittest
@@ -66,6 +67,50 @@ class TheFriction(unittest.TestCase):
 class TheMotions(unittest.TestCase):
     def test_of_joined_suites_are_counted_by_name(self):
         self.assertEqual(overturn.fragility(joined_suites(6)).motions, 12)
+
+
+class TheSite(unittest.TestCase):
+    """Blocks that stand at one site: a point exceeds if one of them does."""
+
+    def test_of_two_equal_blocks_has_the_curve_of_one(self):
+        one = result(*graded()).isel(block=[3])
+        two = one.isel(block=[0, 0]).assign_coords(block=[1, 2])
+        alone, together = overturn.fragility(one, samples=20), overturn.fragility(two, samples=20, together="block")
+        np.testing.assert_array_equal(together.samples, alone.samples)
+        self.assertEqual((together.median, together.beta, together.points.sum()),
+                         (alone.median, alone.beta, alone.points.sum()))
+        self.assertIn("2 blocks together", together.summary())
+
+    def test_counts_the_combinations_of_their_variants(self):
+        random = np.random.default_rng(9)
+        region = random.choice([S, F, UNDECIDED, NOT_COMPUTED], (11, 3, 6), p=[0.6, 0.2, 0.1, 0.1])
+        needed = random.uniform(0.2, 0.7, region.shape)
+        name = np.array(["b", "a", "c", "a", "b", "a"])  # 3 x 2 x 1 combinations
+        data = result(region, [1, 2, 4], friction=needed).assign_coords(name=("block", name.astype(object)))
+        found = overturn.fragility(data, friction=0.6, together="name", bins=3, samples=20)
+        region = np.where((region < UNDECIDED) & (needed > 0.6), UNDECIDED, region)
+        counts = dict.fromkeys(("exceeding", "not_computed", "undecided", "safe"), 0)
+        for motion, scale in np.ndindex(region.shape[:2]):
+            for combination in itertools.product(*(region[motion, scale, name == each] for each in "abc")):
+                counts["exceeding" if F in combination else "not_computed" if NOT_COMPUTED in combination else
+                       "undecided" if UNDECIDED in combination else "safe"] += 1
+        self.assertEqual(found.exceeding.sum(), counts["exceeding"])
+        self.assertEqual(found.points.sum(), counts["exceeding"] + counts["safe"])
+        self.assertEqual((found.undecided, found.not_computed), (counts["undecided"], counts["not_computed"]))
+        self.assertEqual((found.blocks, found.motions), (3, 11))
+
+    def test_has_one_motion_for_all_blocks_and_a_column_that_tells_them_apart(self):
+        data = result(*graded()).assign_coords(block=np.arange(8.0))
+        with self.assertRaisesRegex(ValueError, "'pgv' is not a property of the blocks"):
+            overturn.fragility(data, together="pgv")
+        with self.assertRaisesRegex(ValueError, "mass has empty values"):
+            overturn.fragility(data.assign_coords(mass=("block", [np.nan] * 8)), together="mass")
+        own = data.isel(motion=0).assign_coords(motion=("block", np.arange(8.0)), pgv=("block", np.ones(8)))
+        with self.assertRaisesRegex(ValueError, "each block has a motion of its own"):
+            overturn.fragility(own, together="block")
+        many = xarray.concat([data.assign_coords(variant=number) for number in range(150)], "variant")
+        with self.assertRaisesRegex(ValueError, "combinations of the points of 8 blocks, more than 2.53"):
+            overturn.fragility(many, together="block")
 
 
 class TheFit(unittest.TestCase):

@@ -12,14 +12,34 @@ def groups_of(dataset, column):
     value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks.
 
     Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
-    known = sorted(name for name in dataset.variables if _is_of_blocks(dataset, name))
-    if column not in known:
-        raise ValueError(f"{column!r} is not a property of the blocks. This result has {', '.join(known)}.")
-    values, (dimension,) = dataset[column].values, dataset[column].dims
+    values, dimension = _property(dataset, column)
     labels = _labels(column, values)
     return {f"{column} = {label}": dataset.isel({dimension: np.flatnonzero(labels == label)})
             for label in dict.fromkeys(labels[np.argsort(values, kind="stable")] if values.dtype.kind in "fiu"
                                        else sorted(labels))}
+
+
+def blocks_at_one_site(dataset, column):
+    """Returns the parts of a data set of overturn.open() with equal values of a column: one for each block of a site.
+
+    Raises ValueError if the column does not distinguish the blocks, has an empty value, or if the blocks have motions
+    of their own."""
+    values, dimension = _property(dataset, column)
+    if dimension in dataset["motion"].dims:
+        raise ValueError("each block has a motion of its own. The blocks of one site need a result in which every "
+                         "block is under every motion.")
+    kinds = np.unique(values)
+    if kinds.dtype.kind == "f" and np.isnan(kinds).any():
+        raise ValueError(f"{column} has empty values. Give every block a value, or choose another column.")
+    return [dataset.isel({dimension: np.flatnonzero(values == kind)}) for kind in kinds]
+
+
+def _property(dataset, column):
+    """Returns the values of a property of the blocks, and its dimension."""
+    known = sorted(name for name in dataset.variables if _is_of_blocks(dataset, name))
+    if column not in known:
+        raise ValueError(f"{column!r} is not a property of the blocks. This result has {', '.join(known)}.")
+    return dataset[column].values, *dataset[column].dims
 
 
 def _is_of_blocks(dataset, name):

@@ -14,7 +14,9 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.block_groups import blocks_at_one_site
 from overturn.friction import expect_coefficient
+from overturn.joint_blocks import combined
 from overturn.output_file import new_file
 
 if TYPE_CHECKING:
@@ -47,7 +49,7 @@ class Fragility:
     undecided: int  #: points of region 254, or that may slip
     not_computed: int  #: points of region 255
     motions: int  #: with at least one verdict
-    blocks: int  #: pooled in the curve
+    blocks: int  #: pooled in the curve, or together at one site
     median: float  #: at which half of the points exceed
     beta: float  #: scatter: standard deviation of the logarithm [1]
     median_interval: NDArray[np.float64]  #: (2,), of 95 % confidence
@@ -57,6 +59,7 @@ class Fragility:
     band: NDArray[np.float64]  #: (2, values), of 95 % confidence at each value
     notes: tuple[str, ...]  #: what is missing or extrapolated, and why there is no fit or no band
     group: str = ""  #: which blocks of the result these are; empty: all
+    together: str = ""  #: column of the blocks of one site, one of which exceeds; empty: blocks are pooled
     #: (samples, 2), median and beta; their quantiles are the intervals. Empty if there are none
     samples: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
 
@@ -67,7 +70,7 @@ class Fragility:
 
     def summary(self) -> str:
         """Returns the numbers as a text of several lines."""
-        blocks = "1 block" if self.blocks == 1 else f"{self.blocks} blocks pooled"
+        blocks = "1 block" if self.blocks == 1 else f"{self.blocks} blocks {'together' if self.together else 'pooled'}"
         what = "overturning" if self.limit is None else f"peak above {self.limit:g}"
         lines = [f"{what} against {self.im} [{self.units}]: {self.exceeding.sum()} of {self.points.sum()} points with "
                  f"a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
@@ -104,7 +107,7 @@ def _is_own(beginning):
 
 
 def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, friction: float | None = None,
-              bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
+              together: str | None = None, bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
     """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
     alike: choose some by dataset.isel() or dataset.sel() first.
 
@@ -114,6 +117,9 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     limit: in (0, 1], counts points whose field peak is above it; None counts those that overturn.
     friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
         verdict.
+    together: column or axis that distinguishes the blocks of one site, such as "block". A point is then one block of
+        each of its values, under one motion, and exceeds if one of them does: survival is multiplied within each
+        motion. Points that differ in other dimensions are equally likely variants of a block.
     bins: their number; they do not change the fit.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
@@ -127,9 +133,10 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
                          "an angle or a percentage.")
     if friction is not None:
         expect_coefficient(friction)
-    measure = _measure(dataset, im)
-    cells = _cells(dataset, measure, limit, friction)
-    edges = _edges(cells, bins)
+    measure = measure_of(dataset, im)
+    parts = [dataset] if together is None else blocks_at_one_site(dataset, together)
+    cells = combined([cells_of(part, measure, limit, friction) for part in parts])
+    edges = edges_of(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
     verb = "overturns" if limit is None else f"has a peak above {limit:g}"
@@ -139,7 +146,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         reason = f"no fit: the probability that a point {verb} does not rise with {im}"
     return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
-                     motions=counts.points.shape[0], blocks=_blocks(dataset["region"]), **_fitted(fit, value),
+                     motions=counts.points.shape[0], together=together or "",
+                     blocks=_blocks(dataset["region"]) if together is None else len(parts), **_fitted(fit, value),
                      notes=(*_slipping(cells, friction), *_left_out(cells, im), *[reason] * bool(reason), *_extrapolated(fit, edges, im),
                             *_without_band(fit, counts, samples)))
 
@@ -151,7 +159,7 @@ def expect_records(dataset):
                              "records.")
 
 
-def _measure(dataset, im):
+def measure_of(dataset, im):
     """Returns the intensity measure of every motion at every scale."""
     expect_records(dataset)
     unscaled = _NAMES.get(im, im)
@@ -187,7 +195,7 @@ def _units(measure, im):
     return "g" if im == "pga" and units == "1" else units
 
 
-def _cells(dataset, measure, limit, friction):
+def cells_of(dataset, measure, limit, friction):
     """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
     of points of each kind."""
     region = dataset["region"]
@@ -244,14 +252,14 @@ def _numbered(dataset):
     return motion.copy(data=np.unique(names, return_inverse=True)[1].reshape(motion.shape))
 
 
-def _measurable(cells):
+def is_measurable(cells):
     """Whether the logarithm of the measure exists."""
     return np.isfinite(cells["measure"]) & (cells["measure"] > 0)
 
 
-def _edges(cells, bins):
+def edges_of(cells, bins):
     """Returns the edges of the bins, over the range of the points with a verdict; none without such points."""
-    measure = cells["measure"][_measurable(cells) & (cells["points"] > 0)]
+    measure = cells["measure"][is_measurable(cells) & (cells["points"] > 0)]
     if not measure.size:
         return np.empty(0)
     low, high = measure.min(), measure.max()
@@ -267,14 +275,14 @@ def _histograms(cells, edges):
              "without_verdict": cells["undecided"] + cells["not_computed"]}
     if not len(edges):
         return {name: np.zeros(0, int) for name in kinds}
-    kept = _measurable(cells)
+    kept = is_measurable(cells)
     return {name: np.histogram(cells["measure"][kept], edges, weights=kind[kept])[0].astype(int)
             for name, kind in kinds.items()}
 
 
 def _counts(cells):
     """Returns the numbers of points of each motion at each value of the measure."""
-    kept = _measurable(cells) & (cells["points"] > 0)
+    kept = is_measurable(cells) & (cells["points"] > 0)
     log_measure, column = np.unique(np.log(cells["measure"][kept]), return_inverse=True)
     names, row = np.unique(cells["motion"][kept], return_inverse=True)
     matrices = [coo_array((cells[kind][kept].astype(float), (row, column)), (len(names), len(log_measure))).tocsr()
@@ -306,7 +314,7 @@ def _left_out(cells, im):
     """Returns notes on the points that are not in the curve."""
     undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
     total = int(cells["points"].sum()) + undecided + not_computed
-    unmeasured = int(cells["points"][~_measurable(cells)].sum())
+    unmeasured = int(cells["points"][~is_measurable(cells)].sum())
     motions = len(np.unique(cells["motion"]))
     without = motions - len(np.unique(cells["motion"][cells["points"] > 0]))
     return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]

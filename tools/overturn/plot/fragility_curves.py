@@ -81,7 +81,7 @@ def counts_text(curves):
     what = f"{motions} motion{'s' * (motions != 1)},  {blocks} block{'s' * (blocks != 1)}"
     if len(curves) > 1:
         return what + f" in {len(curves)} groups"
-    return what + " pooled" * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
+    return what + (" together" if curves[0].together else " pooled") * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
 
 
 def draw_bins(ax, curve, colour, marker, fillstyle):
