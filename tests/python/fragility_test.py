@@ -131,11 +131,15 @@ class TheFit(unittest.TestCase):
     def test_has_intervals_that_contain_the_parameters_as_often_as_they_claim(self):
         repetitions = 400
         truth = norm.cdf((AT - np.log(MEDIAN)) / BETA)
-        hits = np.zeros(5)
+        hits = np.zeros(6)
+
+        def log_rate(median, beta):  # of overturning under a hazard of slope 2.5; see overturn.risk
+            return -2.5 * np.log(median) + (2.5 * beta) ** 2 / 2
         for seed in range(repetitions):
             found = fit(simulated(seed), AT, 400, seed)
-            low, high = np.column_stack([found.median_interval, found.beta_interval, found.band])
-            true = [MEDIAN, BETA, *truth]
+            of_rate = np.quantile(log_rate(*found.samples.T), [0.025, 0.975])
+            low, high = np.column_stack([found.median_interval, found.beta_interval, found.band, of_rate])
+            true = [MEDIAN, BETA, *truth, log_rate(MEDIAN, BETA)]
             hits += (low <= true) & (true <= high)
         # Three standard deviations of a binomial count around 380 of 400. Intervals of 90 % would contain the
         # parameters 360 times, which is 4.6 deviations below.

@@ -1,6 +1,6 @@
 """overturn from Python: the outcome of single blocks (evaluate), the program (run, check), result
-files (open), pictures of them (plot) and recorded motions (read_record). The other modules are shared
-by the tools.
+files (open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot) and recorded
+motions (read_record). The other modules are shared by the tools.
 
 Modules are imported when they are used, because every tool imports this package."""
 
@@ -24,7 +24,8 @@ _MODULE_OF = {
     "RecordError": "records",
     "ToolError": "tool",
 }
-__all__ = [*_MODULE_OF, "plot"]
+_MODULES = ("plot", "risk")
+__all__ = [*_MODULE_OF, *_MODULES]
 
 # An installed package contains the compiled module; that of a build is in a folder next to the program.
 __path__.append(str(overturn_path().parent / "python"))
@@ -41,8 +42,8 @@ def _module(name):
 
 
 def __getattr__(name):
-    if name == "plot":
-        return _module("plot")
+    if name in _MODULES:
+        return _module(name)
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(_module(_MODULE_OF[name]), name)

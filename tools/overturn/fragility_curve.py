@@ -144,7 +144,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     fit = None if reason else lognormal_fit.fit(counts, np.log(value), samples, seed)
     if not reason and not fit:
         reason = f"no fit: the probability that a point {verb} does not rise with {im}"
-    return Fragility(im, _units(measure, im), limit, edges, **_histograms(cells, edges),
+    return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "",
                      blocks=_blocks(dataset["region"]) if together is None else len(parts), **_fitted(fit, value),
@@ -190,7 +190,7 @@ def _blocks(region):
     return math.prod(count for name, count in region.sizes.items() if name not in ("motion", "scale", "pga"))
 
 
-def _units(measure, im):
+def units_of(measure, im):
     units = str(measure.attrs.get("units", "1"))
     return "g" if im == "pga" and units == "1" else units
 

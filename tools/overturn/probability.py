@@ -1,0 +1,205 @@
+"""The probability P(x) that a block overturns under shaking of the intensity x, in one form whatever it comes from."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import ndtr
+
+from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, units_of
+from overturn.lognormal_fit import LEAST_MOTIONS
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)  # of a panel of an integral, in [-1, 1]
+PANELS = 4  # of an interval of y
+ROUNDING = 1e-8  # of the integral of a density over y
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Probability:
+    """Bounds of P(x). They differ where points have no verdict, and where nothing is known."""
+
+    #: of values (n,): lower and upper bound, (1 + samples, 2, n). The first row is the estimate, the others are samples
+    #: of the bootstrap
+    at: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    im: str  #: name of the intensity measure
+    units: str  #: of the intensity measure
+    breaks: NDArray[np.float64]  #: ascending values between which P is smooth
+    data: tuple[float, float] = (0, np.inf)  #: range of the values with data
+
+
+def probability_of(fragility: Fragility | Probability) -> Probability:
+    """Returns P(x) of a fragility curve: its fit; without one, shares_of() it. A share u of the points of a bin has no
+    verdict: P is between P (1 - u) and P (1 - u) + u there."""
+    if isinstance(fragility, Probability):
+        return fragility
+    if not isinstance(fragility, Fragility):
+        raise TypeError(f"{type(fragility).__name__} is not a fragility. Give the result of fragility(), lognormal(), "
+                        "binned(), marginal() or binned_marginal().")
+    if np.isnan(fragility.median):
+        return shares_of(fragility)
+    curve, total = fragility, fragility.points + fragility.without_verdict
+    is_outside = curve.undecided + curve.not_computed > curve.without_verdict.sum()
+    unknown = np.divide(curve.without_verdict, total, out=np.zeros(len(total)), where=total > 0)
+    return lognormal(curve.median, curve.beta, im=curve.im, units=curve.units, samples=curve.samples,
+                     edges=curve.edges, unknown=[is_outside, *unknown])
+
+
+def shares_of(curve: Fragility) -> Probability:
+    """Returns P(x) of the bins of a fragility curve, without its fit; see binned()."""
+    if not len(curve.edges):
+        raise ValueError("no point of this fragility curve has a verdict. Compute the missing points.")
+    total = curve.points + curve.without_verdict
+    low, high = (np.divide(exceeding, total, out=np.full(len(total), np.nan), where=total > 0)
+                 for exceeding in (curve.exceeding, curve.exceeding + curve.without_verdict))
+    return binned(curve.edges, low, high, im=curve.im, units=curve.units)
+
+
+def lognormal(median: float, beta: float, *, im: str, units: str, samples: ArrayLike = (), edges: ArrayLike = (),
+              unknown: ArrayLike = (0,)) -> Probability:
+    """Returns P(x) = Phi(ln(x / median) / beta).
+
+    median: in `units`. beta: standard deviation of the logarithm [1]. samples (n, 2): of both.
+    edges: of bins. unknown: share of the points without a verdict, outside the bins and in each of them [1].
+    """
+    medians, betas = np.array([(median, beta), *samples], float).T[:, :, None]
+    if not (np.isfinite([median, beta]).all() and median > 0 and beta > 0):
+        raise ValueError(f"median = {median} and beta = {beta} must be positive numbers.")
+    edges, unknown = np.asarray(edges, float), np.asarray(unknown, float)
+
+    def at(x):
+        share = unknown[np.searchsorted(edges, x) % max(len(edges), 1)]  # below and above the bins, 0
+        low = ndtr(np.log(x / medians) / betas) * (1 - share)
+        return np.stack([low, low + share], axis=1)
+    # Beyond 8 beta, P is 0 or 1 within 1e-15.
+    return Probability(at, im, units, np.union1d(edges, median * np.exp(beta * np.arange(-8, 8.5, 0.5))),
+                       (edges[0], edges[-1]) if len(edges) else (0, np.inf))
+
+
+def binned(edges: ArrayLike, low: ArrayLike, high: ArrayLike | None = None, *, im: str, units: str) -> Probability:
+    """Returns P(x) of shares in bins. Where there are none, P is assumed not to fall with x: below the bins it is from
+    0 to the share of the first one, above from that of the last one to 1, between from the largest share below to the
+    smallest one above.
+
+    edges: ascending, in `units`, one more than bins.
+    low, high: of each bin, the share that overturns if points without a verdict are safe, and if they overturn [1];
+        NaN if nothing is known. Without high, every point has a verdict.
+    """
+    edges = np.asarray(edges, float)
+    shares = np.stack([low, low if high is None else high]).astype(float)
+    if shares.shape != (2, len(edges) - 1) or not (edges[0] > 0 and (np.diff(edges) > 0).all()):
+        raise ValueError(f"{len(edges)} edges and shares of the shape {shares.shape[1:]}: edges must be positive, "
+                         "ascend, and be one more than shares.")
+    if not (np.isnan(shares) | (0 <= shares[0]) & (shares[0] <= shares[1]) & (shares[1] <= 1)).all():
+        raise ValueError("shares must satisfy 0 <= low <= high <= 1.")
+    return _in_bins(edges, shares[None], im, units)
+
+
+def _in_bins(edges, shares, im, units, mass=None):
+    """Returns P(x) of shares (rows, 2, bins), or (rows, 2, bins, bins of y) with the function mass(x) that returns the
+    probability of each bin of y given x, (values, bins of y), and that of y elsewhere, where P is from 0 to 1."""
+    below = np.maximum.accumulate(np.nan_to_num(shares[:, 0]), axis=1)
+    above = np.minimum.accumulate(np.nan_to_num(shares[:, 1, ::-1], nan=1), axis=1)[:, ::-1]
+    between = np.sort(np.stack([below, above], axis=1), axis=1)  # known shares may fall
+    shares = np.where(np.isnan(shares), between, shares)
+
+    def at(x):
+        place = np.searchsorted(edges, x) - 1
+        found = shares[:, :, np.clip(place, 0, len(edges) - 2)]
+        if mass:
+            of_y, elsewhere = mass(x)
+            found = np.einsum("rbxy,xy->rbx", found, of_y)
+            found[:, 1] += elsewhere
+        found[:, 0, place < 0], found[:, 1, place > len(edges) - 2] = 0, 1
+        return found
+    return Probability(at, im, units, edges, (edges[0], edges[-1]))
+
+
+def marginal(probability: Callable, density: Callable, y: ArrayLike, *, im: str, units: str) -> Probability:
+    """Returns P(x) = integral of P(x, y) f(y | x) dy of a function of two intensity measures.
+
+    probability(x, y), density(y, x): P [1] and f [1 / unit of y], of arrays that broadcast. P must be smooth in x.
+    y: ascending values from the lowest to the highest y, no farther apart than P and f are smooth. Of what f has
+        outside, if it is above 1e-8, nothing or all overturns.
+
+    Computing a rate raises ValueError if f is negative or exceeds 1 in total.
+    """
+    nodes, weights = _nodes(np.asarray(y, float))
+
+    def at(x):
+        mass, elsewhere = _mass(density, nodes, weights, x)
+        low = (mass * probability(x[:, None], nodes)).sum(axis=1)
+        return np.stack([low, low + elsewhere])[None]
+    return Probability(at, im, units, np.empty(0))
+
+
+def _nodes(y):
+    """Returns the nodes and the weights of the integral over y, panel by panel."""
+    ends = np.interp(np.arange((len(y) - 1) * PANELS + 1) / PANELS, np.arange(len(y)), y)
+    half = np.diff(ends)[:, None] / 2
+    return (ends[:-1, None] + half * (1 + NODES)).ravel(), (half * WEIGHTS).ravel()
+
+
+def _mass(density, nodes, weights, x):
+    """Returns the probability of y at each node, (values, nodes), and of y elsewhere; rounding of the integral counts
+    as nothing elsewhere."""
+    mass = np.broadcast_to(density(nodes, x[:, None]) * weights, (len(x), len(nodes)))
+    total = mass.sum(axis=1)
+    for i in np.flatnonzero(~((mass >= 0).all(axis=1) & (total <= 1 + ROUNDING)))[:1]:
+        raise ValueError(f"density(y, x) at x = {x[i]:g} is negative, or its integral over y, {total[i]:g}, is above "
+                         "1. Give the probability density of y for this x, or values of y closer to each other.")
+    whole = abs(total - 1) <= ROUNDING
+    return mass / np.where(whole, total, 1)[:, None], np.where(whole, 0, 1 - total)
+
+
+def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, *, limit: float | None = None,
+                    friction: float | None = None, bins: tuple[int, int] = (10, 10), samples: int = 1000,
+                    seed: int = 1) -> Probability:
+    """Returns P(x) = integral of P(x, y) f(y | x) dy of a result under records, where P(x, y) is the share of the
+    points that overturns in bins of two intensity measures, evenly spaced in their logarithms. Points without a verdict
+    are safe in the lower bound and overturn in the upper one. In bins without points, P is bounded as by binned().
+    What the density has outside the bins of y overturns in the upper bound, whatever x: give one that is 0 there.
+
+    x, y: measures as for fragility(), or ratios of two, such as "pgv/pga".
+    density(y, x): f, as for marginal().
+    limit, friction, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
+
+    Raises ValueError if the dataset lacks what is needed.
+    """
+    import xarray
+    of_x, of_y = xarray.broadcast(_measure(dataset, x), _measure(dataset, y))
+    cells, second = (cells_of(dataset, measure, limit, friction) for measure in (of_x, of_y))
+    edges = [edges_of(each, count) for each, count in zip((cells, second), bins)]
+    if not (len(edges[0]) and len(edges[1])):
+        raise ValueError("no point of this result has a verdict. Compute the missing points.")
+    kept = is_measurable(cells) & is_measurable(second)
+    motions, number = np.unique(cells["motion"][kept], return_inverse=True)
+    places = number, cells["measure"][kept], second["measure"][kept]
+
+    def count(kind):
+        return np.histogramdd(places, [np.arange(len(motions) + 1) - 0.5, *edges], weights=kind[kept])[0]
+    exceeding, unknown = count(cells["exceeding"]), count(cells["undecided"] + cells["not_computed"])
+    total = unknown + count(cells["points"])
+    drawn = np.random.default_rng(seed).multinomial(
+        len(motions), np.full(len(motions), 1 / len(motions)), samples * (len(motions) >= LEAST_MOTIONS))
+    low, high, total = (np.tensordot(np.vstack([np.ones(len(motions)), drawn]), sums, 1)
+                        for sums in (exceeding, exceeding + unknown, total))
+    shares = np.stack([low, high], axis=1)
+    shares = np.divide(shares, total[:, None], out=np.full(shares.shape, np.nan), where=total[:, None] > 0)
+    nodes, weights = _nodes(edges[1])
+
+    def mass(x):
+        each, elsewhere = _mass(density, nodes, weights, x)
+        return each.reshape(len(x), len(edges[1]) - 1, -1).sum(axis=2), elsewhere
+    return _in_bins(edges[0], shares, x, units_of(of_x, x), mass)
+
+
+def _measure(dataset, name):
+    first, *others = (measure_of(dataset, each) for each in name.split("/"))
+    return first / others[0] if others else first

@@ -1,0 +1,240 @@
+"""The annual rate at which a block overturns at a site, and the probability that it survives:
+
+    rate = integral of P(x) |d lambda(x)|,   survival over T years = exp(-rate T)
+
+with the fragility P and the hazard curve lambda (C. Cornell, Bulletin of the Seismological Society of America 58 (1968)
+1583-1606). A power law lambda = k0 x^-k and a lognormal P have the rate lambda(median) exp(k^2 beta^2 / 2)."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from overturn.fragility_curve import Fragility
+from overturn.hazard import Hazard, read_hazard
+from overturn.lognormal_fit import LEVEL
+from overturn.probability import (NODES, WEIGHTS, Probability, binned, binned_marginal, lognormal, marginal,
+                                  probability_of, shares_of)
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Factor", "Hazard", "Probability", "Risk", "annual_rate", "binned", "binned_marginal", "largest_factor",
+           "lognormal", "marginal", "probability_of", "read_hazard", "shares_of"]
+
+# The error of the integral over a panel of width h in ln x is below 6e-31 h^21 times the 20th derivative of the
+# integrand k lambda P (Gauss-Legendre, 10 nodes). With h <= beta / 2, that of Phi((ln x - m) / beta) exp(-k ln x) is
+# below (2.7 / beta + k)^20; with k h <= 4, the error is below 6e-31 (1.4 + 4)^20 = 3e-16 of what lambda falls by, times
+# k h / (1 - exp(-k h)) <= 4.1. In total it is below 2e-15 of the rate at the first level. Binned shares are constant in
+# a panel.
+WIDEST = 0.25  # h, also without breaks of P [1]
+STEEPEST = 4.0  # k h [1]
+FURTHEST = 60  # powers of e by which the range below the first level is searched for its contribution
+NEGLIGIBLE = 1e-17  # part of the contribution below the first level
+SMALL = 1e-3  # part of the rate from outside the data of the fragility that is not mentioned
+LARGEST_FACTOR = 1e6
+UNBOUNDED = 1e300  # [1/year]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Risk:
+    """How often a block overturns at a site. Pairs are a lower and an upper bound: they differ by points without a
+    verdict and by shaking outside the levels of the hazard curve, and are equal in all shown digits without these."""
+
+    im: str  #: name of the intensity measure
+    units: str  #: of the intensity measure
+    rate: NDArray[np.float64]  #: (2,), bounds [1/year]
+    interval: NDArray[np.float64]  #: (2,), of 95 % confidence, by the bootstrap of the fragility [1/year]; or NaN
+    edges: NDArray[np.float64]  #: of the ranges of the measure of `contribution`; the first is 0, the last infinite
+    contribution: NDArray[np.float64]  #: (2, ranges), bounds of the rate from each range [1/year]; their sum is `rate`
+    error: float  #: estimate of the error of the integral [1/year]
+    notes: tuple[str, ...]  #: what the bounds leave open
+
+    @property
+    def disaggregation(self) -> NDArray[np.float64]:
+        """Share of each range in each of the two bounds of the rate, (2, ranges) [1]; NaN for a rate of 0 or without
+        an upper bound."""
+        with np.errstate(invalid="ignore"):
+            return self.contribution / self.rate[:, None]
+
+    def survival(self, years: float) -> NDArray[np.float64]:
+        """Bounds of the probability of no overturning in so many years, (2,) [1]."""
+        return np.exp(-self.rate[::-1] * _positive("years", years))
+
+    def survival_interval(self, years: float) -> NDArray[np.float64]:
+        """Interval of 95 % confidence of survival(), (2,) [1]."""
+        return np.exp(-self.interval[::-1] * _positive("years", years))
+
+    def summary(self, years: float | None = None) -> str:
+        """Returns the numbers as a text of several lines."""
+        lines = [f"rate {_text(self.rate)} a year{_confidence(self.interval)}"]
+        if years is not None:
+            lines.append(f"survival of {years:g} years {_text(self.survival(years))}"
+                         f"{_confidence(self.survival_interval(years))}")
+        return "\n".join([*lines, *self.notes])
+
+
+class Factor(NamedTuple):
+    bounds: NDArray[np.float64]  #: (2,), lower and upper bound [1]
+    interval: NDArray[np.float64]  #: (2,), of 95 % confidence [1]; NaN without a bootstrap
+
+    def text(self) -> str:
+        return _text(self.bounds) + _confidence(self.interval)
+
+
+def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: ArrayLike | None = None) -> Risk:
+    """Returns the annual rate at which a block overturns, its bounds and which shaking contributes to it.
+
+    hazard: of the site, see read_hazard().
+    fragility: of fragility(), lognormal(), binned(), marginal() or binned_marginal(), in the measure of the hazard.
+    edges: of the ranges of the disaggregation within the levels of the hazard; by default its levels.
+
+    Shaking above the last level contributes P(last level) lambda(last level) at least and lambda(last level) at most.
+    Shaking below the first level contributes at most what it would if lambda continued as in the first interval; this
+    is an upper bound if lambda, in logarithms, is nowhere steeper to the left of this interval.
+
+    Raises ValueError if the measures or their units differ.
+    """
+    p = _in_the_measure_of(hazard, fragility)
+    first, last = hazard.level[[0, -1]]
+    inner = hazard.level[1:-1] if edges is None else np.unique(np.asarray(edges, float))
+    inner = inner[(first < inner) & (inner < last)]
+    points, within = _within(hazard, p, inner)
+    below, above = _below(hazard, p)[..., None], _above(hazard, p)[..., None]
+    of_ranges = np.add.reduceat(within, np.searchsorted(points, [first, *inner]), axis=-1)
+    contribution = np.concatenate([below, of_ranges, above], axis=-1)
+    rate, halved = contribution.sum(axis=-1), _within(hazard, p, inner, 2)[1]
+    notes = _notes(hazard, p, contribution[0], points, within[0])
+    if isinstance(fragility, Fragility) and np.isfinite(fragility.median):
+        notes.append(f"without the fit, from the shares in the {len(fragility.points)} bins of the fragility: "
+                     f"{_text(annual_rate(hazard, shares_of(fragility)).rate)} a year")
+    return Risk(p.im, p.units, rate[0], _interval(rate), np.array([0, first, *inner, last, np.inf]), contribution[0],
+                float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
+
+
+def _in_the_measure_of(hazard, fragility):
+    p = probability_of(fragility)
+    if (hazard.im, hazard.units) != (p.im, p.units):
+        raise ValueError(f"the hazard is of {hazard.im} [{hazard.units}], the fragility of {p.im} [{p.units}]. Compute "
+                         "the fragility against the measure of the hazard, or convert the levels of the hazard.")
+    return p
+
+
+def _within(hazard, p, inner, divisions=1):
+    """Returns the values of x between which P and the slope of the hazard are smooth, and the contributions of these
+    ranges to the integral between the first and the last level, (rows, 2, ranges)."""
+    first, last = hazard.level[[0, -1]]
+    points = np.union1d(hazard.level, [*inner, *p.breaks[(first < p.breaks) & (p.breaks < last)]])
+    slope, width = hazard.slope[np.searchsorted(hazard.level, points[1:]) - 1], np.diff(np.log(points))
+    counts = divisions * np.ceil(np.maximum(width / WIDEST, slope * width / STEEPEST)).astype(int).clip(1)
+    starts = np.concatenate([[0], np.cumsum(counts)])  # of the panels of each range
+    ends = np.interp(np.arange(starts[-1] + 1), starts, np.log(points))
+    x = np.exp(ends[:-1, None] + np.diff(ends)[:, None] * (1 + NODES) / 2)
+    weights = np.repeat(slope, counts)[:, None] * hazard.at(x) * np.diff(ends)[:, None] * WEIGHTS / 2
+    bounds = p.at(x.ravel())
+    panels = (bounds.reshape(*bounds.shape[:2], *x.shape) * weights).sum(axis=-1)
+    return points, np.add.reduceat(panels, starts[:-1], axis=-1)
+
+
+def _below(hazard, p):
+    """Returns bounds of the contribution of shaking below the first level, (rows, 2)."""
+    slope, first, total = hazard.slope[0], np.log(hazard.level[0]), 0.0
+    parts = int(np.ceil(max(1 / WIDEST, slope / STEEPEST)))
+    depth = (np.arange(parts)[:, None] + (1 + NODES) / 2).ravel() / parts
+    for power in range(FURTHEST):
+        with np.errstate(over="ignore", invalid="ignore"):
+            weights = slope * hazard.rate[0] * np.exp(slope * (power + depth)) * np.tile(WEIGHTS, parts) / (2 * parts)
+            p_high = p.at(np.exp(first - power - depth))[:, 1]
+            added = np.where(p_high > 0, p_high * weights, 0).sum(axis=-1)
+        total = total + added
+        if (added <= NEGLIGIBLE * total).all():
+            break
+    return np.stack([np.zeros_like(total), np.where(added <= NEGLIGIBLE * total, total, np.inf)], axis=-1)
+
+
+def _above(hazard, p):
+    """Returns bounds of the contribution of shaking above the last level, (rows, 2)."""
+    low = p.at(hazard.level[-1:])[:, 0, 0] * hazard.rate[-1]
+    return np.stack([low, np.full_like(low, hazard.rate[-1])], axis=-1)
+
+
+def _interval(rates):
+    """Returns the interval of 95 % confidence of the samples, from the lower bounds to the upper ones."""
+    if len(rates) == 1:
+        return np.full(2, np.nan)
+    low, high = rates[1:, 0], np.minimum(rates[1:, 1], np.finfo(float).max)  # quantiles of infinite rates are NaN
+    ends = np.array([np.quantile(low, (1 - LEVEL) / 2), np.quantile(high, (1 + LEVEL) / 2)])
+    return np.where(ends < UNBOUNDED, ends, np.inf)
+
+
+def _notes(hazard, p, contribution, points, within):
+    """Returns what the bounds leave open."""
+    first, last = (f"{p.im} = {level:.4g} {p.units}" for level in hazard.level[[0, -1]])
+    low, high = within.sum(axis=-1)
+    notes = [f"of this, shaking below the first level of the hazard, {first}: at most {contribution[1, 0]:.3g} a year",
+             f"of this, shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
+    if low < high:
+        notes.append(f"points without a verdict, or bins without points: between these levels, the rate is {low:.4g} a "
+                     f"year if all of them are safe, {high:.4g} if all overturn")
+    outside = within[1, (points[:-1] < p.data[0]) | (points[1:] > p.data[1])].sum()
+    if outside > SMALL * high:
+        notes.append(f"{outside / high:.2g} of this is from shaking outside the data of the fragility, {p.im} = "
+                     f"{p.data[0]:.4g} to {p.data[1]:.4g} {p.units}")
+    return notes
+
+
+def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: float, survival: float,
+                   on: Literal["rate", "level"] = "rate") -> Factor:
+    """Returns the largest factor on a hazard curve with which a block survives so many years with the given
+    probability: with a larger one, survival is less probable.
+
+    on: "rate" multiplies the rates of the hazard: factor = -ln(survival) / (rate years). "level" multiplies its levels,
+        the strength of every shaking: a root. It is 0 below 1e-6, infinite above 1e6.
+    """
+    if not 0 < survival < 1:
+        raise ValueError(f"survival = {survival} is not between 0 and 1. Give a probability such as 0.05.")
+    target = -np.log(survival) / _positive("years", years)
+    p = _in_the_measure_of(hazard, fragility)
+    if on == "rate":
+        risk = annual_rate(hazard, p)
+        with np.errstate(divide="ignore"):
+            return Factor(target / risk.rate[::-1], target / risk.interval[::-1])
+    if on != "level":
+        raise ValueError(f"on = {on!r} is neither \"rate\" nor \"level\".")
+
+    def rates(log_factor):
+        scaled = hazard.scaled(level=np.exp(log_factor))
+        each = _within(scaled, p, [])[1].sum(axis=-1) + _below(scaled, p) + _above(scaled, p)
+        return *each[0], *_interval(each)
+    roots = np.array([_root(lambda log_factor: rates(log_factor)[which], target) for which in (1, 0, 3, 2)])
+    return Factor(roots[:2], roots[2:])
+
+
+def _root(rate, target):
+    """Returns the factor whose logarithm has the given rate; rate rises with it."""
+    def excess(log_factor):
+        return np.log(np.clip(rate(log_factor), 1e-300, 1e300) / target)
+    ends = -np.log(LARGEST_FACTOR), np.log(LARGEST_FACTOR)
+    at_ends = excess(ends[0]), excess(ends[1])
+    if np.isnan(at_ends).any():
+        return np.nan
+    return 0.0 if at_ends[0] > 0 else np.inf if at_ends[1] < 0 else np.exp(brentq(excess, *ends, xtol=1e-12))
+
+
+def _positive(name, number):
+    if not 0 < number < np.inf:
+        raise ValueError(f"{name} = {number} is not a positive number.")
+    return number
+
+
+def _text(pair):
+    """Returns one number if both bounds agree in four digits."""
+    low, high = (f"{number:.4g}" for number in pair)
+    return low if low == high else f"{low} to {high}"
+
+
+def _confidence(interval):
+    return f" (95 % confidence {interval[0]:.3g} to {interval[1]:.3g})" if np.isfinite(interval[0]) else ""
