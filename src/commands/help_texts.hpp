@@ -129,6 +129,7 @@ and so on. All tools have --help.
   overturn-plot-boundary   draws the minimum overturning amplitude and all other flips
   overturn-plot-history    draws the motion of one block over time
   overturn-plot-fragility  draws the fraction of the blocks that overturn under a suite of records
+  overturn-plot-risk       draws the rate at which blocks overturn at a site with a hazard curve
   overturn-plot-accuracy   draws error and wrong verdicts against time
   overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space

@@ -3,6 +3,7 @@
 from overturn.plot.boundaries import boundary
 from overturn.plot.fragility_curves import fragility
 from overturn.plot.histories import history
+from overturn.plot.risks import risk
 from overturn.plot.spectra import spectrum
 
-__all__ = ["boundary", "fragility", "history", "spectrum"]
+__all__ = ["boundary", "fragility", "history", "risk", "spectrum"]

@@ -1,0 +1,100 @@
+"""The pictures and numbers of tools/plot_risk.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import re
+import shutil
+import unittest
+
+import h5py
+from plot_fragility_test import Curve  # first: adds the package to the path
+from overturn import risk
+from risk_test import OPENQUAKE
+
+HAZARD = "# pga [g]\n0.02 0.3\n0.1 0.05\n0.4 2e-3\n1 1e-4\n3 1e-6\n8 1e-9\n"
+
+
+class Picture(Curve):
+    TOOL = "plot_risk"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        (cls.folder / "hazard.txt").write_text(HAZARD)
+
+
+class TestAPicture(Picture):
+    def test_has_the_hazard_the_fragility_and_the_rate(self):
+        text, words = self.words("result.h5", "hazard.txt", "--years", "500", "--survival", "0.3")
+        for line in (r"overturning against pga \[g\]", r"rate \d.* a year \(95 % confidence",
+                     r"survival of 500 years 0\.\d",
+                     r"largest factor on the rates of the hazard, survival of 500 years with the probability 0.3: \d",
+                     "largest factor on the levels of the hazard"):
+            self.assertRegex(text, line)
+        for line in ("Risk: result.h5", "PGA [g]", "hazard: hazard.txt", "fragility: a block overturns",
+                     "95 % confidence", "contribution of each range", *re.findall("(?:rate|survival) .*", text)[:2]):
+            self.assertIn(line, words)
+
+    def test_is_drawn_against_the_measure_of_the_hazard(self):
+        text, words = self.words("result.h5", OPENQUAKE, "--site", "1", "--together", "size", "--limit", "0.5")
+        self.assertIn("peak above 0.5 against pgv [m s-1]", text)
+        self.assertIn("4 blocks together", text)
+        self.assertIn("PGV [m/s]", words)
+        self.assertIn("fragility: one of the blocks has a peak above 0.5", words)
+
+    def test_of_an_unfinished_file_shows_both_bounds(self):
+        shutil.copy(self.folder / "result.h5", self.folder / "part.h5")
+        with h5py.File(self.folder / "part.h5", "a") as file:
+            file["run/checksum"][-1] = 0  # of the tile of the last motion
+        text, words = self.words("part.h5", "hazard.txt", "--samples", "20")
+        low, high = map(float, re.search(r"^rate (\S+) to (\S+) a year", text, re.MULTILINE).groups())
+        self.assertLess(low, high)
+        for line in ("points without a verdict safe", "up to: if they overturn", "points without a verdict, or bins"):
+            self.assertIn(line, words)
+
+    def test_replaces_its_own_picture_and_no_other(self):
+        for _ in range(2):
+            self.output_of("result.h5", "hazard.txt", "--samples", "20", "-o", "own.png")
+        (self.folder / "other.png").write_text("notes")
+        self.refuses(74, "it exists and is not a PNG picture of overturn", "result.h5", "hazard.txt", "-o", "other.png")
+        self.assertEqual((self.folder / "other.png").read_text(), "notes")
+
+    def test_is_that_of_any_fragility_in_python(self):
+        from overturn import plot
+        hazard = risk.read_hazard(self.folder / "hazard.txt")
+        panels = plot.risk(hazard, risk.binned([0.1, 0.5, 2], [0.2, 0.9], im="pga", units="g"), 100)
+        self.assertEqual([panel.get_ylabel() for panel in panels],
+                         ["rate of exceedance [1/year]", "probability", "rate of overturning [1/year]"])
+
+
+class TestARiskRefused(Picture):
+    def refuses(self, code, sentence, *arguments):
+        super().refuses(code, sentence, *arguments, "-o", "refused.png")
+        self.assertFalse((self.folder / "refused.png").exists())
+
+    def test_without_files_that_can_be_read(self):
+        self.refuses(74, 'cannot read "missing.txt"', "result.h5", "missing.txt")
+        self.refuses(74, 'cannot read "missing.h5"', "missing.h5", "hazard.txt")
+        self.refuses(2, 'hazard.txt:1: "notes" is not two numbers', "result.h5", self.write("notes\n"))
+
+    def write(self, text):
+        (self.folder / "hazard.txt").write_text(text)
+        self.addCleanup((self.folder / "hazard.txt").write_text, HAZARD)
+        return "hazard.txt"
+
+    def test_of_two_measures_or_several_sites(self):
+        self.refuses(2, "states the measure pga, not pgv", "result.h5", "hazard.txt", "--im", "pgv")
+        self.refuses(2, "the hazard is of pga [m/s2], the fragility of pga [g]", "result.h5",
+                     self.write(HAZARD.replace("[g]", "[m/s2]")))
+        self.refuses(2, "'sa' is not an intensity measure", "result.h5", self.write(HAZARD.replace("pga", "sa")))
+        self.refuses(2, "Choose one with site = 0 to 1", "result.h5", OPENQUAKE)
+
+    def test_without_a_time_or_a_probability(self):
+        self.refuses(2, "years = -1.0 is not a positive number", "result.h5", "hazard.txt", "--years", "-1")
+        self.refuses(2, "survival = 2.0 is not between 0 and 1", "result.h5", "hazard.txt", "--survival", "2")
+        self.refuses(2, "'mass' is not a property of the blocks", "result.h5", "hazard.txt", "--together", "mass")
+
+
+if __name__ == "__main__":
+    unittest.main()

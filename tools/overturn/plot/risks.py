@@ -1,0 +1,168 @@
+"""Plots the annual rate at which blocks overturn at a site: the hazard curve, the fragility curve, and the shaking that
+contributes to the rate."""
+
+import pathlib
+import textwrap
+
+import numpy as np
+import overturn
+from matplotlib import pyplot
+from overturn.output_file import save
+from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, draw_bins
+from overturn.result_file import escaped, plain, shortened
+from overturn.ticks import name_ticks
+from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
+
+EXAMPLE = """\
+example:
+  tools/synthetic_record --suite 50 -o jobs/suite    # writes 50 synthetic records
+  overturn run jobs/suite/fragility.toml             # writes fragility.h5
+  printf '# pga [g]\\n0.01 0.1\\n0.1 0.01\\n1 1e-4\\n10 1e-8\\n' > hazard.txt
+  tools/plot_risk fragility.h5 hazard.txt            # draws fragility_risk.png
+
+HAZARD is a text of two columns, levels of an intensity measure and annual rates at which they are exceeded, whose
+first line names the measure and its unit, or a CSV output of hazard curves of OpenQuake, such as
+hazard_curve-mean-PGA_1.csv. The fragility is computed against the measure of the hazard.
+
+rate = integral of P(x) |d lambda(x)|, of the fragility P and the hazard lambda; survival over T years = exp(-rate T).
+Two numbers, as in "2e-4 to 3e-4", are a lower and an upper bound: points without a verdict are all safe or all
+overturn, and shaking outside the levels of the hazard contributes the least or the most that it can. The 95 %
+confidence is from the bootstrap of the fragility; that of the hazard is not included.
+
+Without --together, the rate is that of a block chosen anew at random at each shaking.
+
+The numbers as arrays, other fragilities and two intensity measures: overturn.risk in Python."""
+
+BARS = 30
+UPPER = "#e3b58e"
+SAFE = ", points without a verdict safe"
+TEXT_WIDTH = 105  # characters that fit below the panels
+DEFAULT_YEARS = 10000
+
+
+def risk(hazard, fragility, years=DEFAULT_YEARS, *, title=None):
+    """Draws a hazard curve, a fragility (overturn.risk) and the rate of overturning in equal steps of the logarithm of
+    the intensity, and returns the three axes. What the bounds of the rate leave open is written below them."""
+    found = overturn.risk.annual_rate(hazard, fragility, edges=np.geomspace(*hazard.level[[0, -1]], BARS + 1))
+    figure, panels = pyplot.subplots(3, 1, sharex=True, figsize=(6.4, 8.8), layout="constrained")
+    draw_hazard(panels[0], hazard)
+    draw_fragility(panels[1], hazard, fragility)
+    draw_contributions(panels[2], found)
+    for panel in panels:
+        panel.grid(color="0.9")
+        panel.set_axisbelow(True)
+    panels[0].set(xscale="log", xlim=hazard.level[[0, -1]])
+    name_ticks(panels[2].xaxis)
+    panels[2].set_xlabel(escaped(f"{NAMES.get(hazard.im, hazard.im)} [{UNITS.get(hazard.units, hazard.units)}]"))
+    notes = [line for note in found.notes for line in textwrap.wrap(note, TEXT_WIDTH)]
+    figure.supxlabel(escaped("\n".join(notes)), fontsize=8, x=0.02, ha="left")
+    numbers = found.summary(years).splitlines()[:2]
+    figure.suptitle("\n".join([*([title] if title else []), *numbers]), fontsize=10, x=0.02, ha="left")
+    return panels
+
+
+def draw_hazard(ax, hazard):
+    ax.plot(hazard.level, hazard.rate, "o-", color=COLOURS[0], markersize=3.5)
+    ax.set(yscale="log", ylabel="rate of exceedance [1/year]")
+    ax.set_title(escaped(shortened(f"hazard: {pathlib.Path(hazard.source).name}", 60)), fontsize=9)
+
+
+def draw_fragility(ax, hazard, fragility):
+    x = np.geomspace(*hazard.level[[0, -1]], 300)
+    bounds = overturn.risk.probability_of(fragility).at(x)
+    if len(bounds) > 1:
+        low, high = np.quantile(bounds[1:, 0], 0.025, axis=0), np.quantile(bounds[1:, 1], 0.975, axis=0)
+        ax.fill_between(x, low, high, color=BAND, linewidth=0, label="95 % confidence")
+    is_open = bool((bounds[0, 0] < bounds[0, 1]).any())
+    if is_open:
+        ax.fill_between(x, *bounds[0], color=UPPER, linewidth=0, label="up to: if they overturn")
+    ax.plot(x, bounds[0, 0], color=COLOURS[0], linewidth=2, label="fragility" + SAFE * is_open)
+    if isinstance(fragility, overturn.Fragility):
+        draw_bins(ax, fragility, POINT, "o", "full")
+    limit, together = (getattr(fragility, name, None) for name in ("limit", "together"))
+    what = "overturns" if limit is None else rf"has a peak above {limit:g}"
+    ax.set(ylim=(-0.03, 1.03), ylabel="probability")
+    ax.set_title(f"fragility: {'one of the blocks' if together else 'a block'} {what}", fontsize=9)
+    ax.legend(fontsize=8, loc="upper left")
+
+
+def draw_contributions(ax, found):
+    edges, (low, high) = found.edges[1:-1], found.contribution[:, 1:-1]
+    if (low < high).any():
+        ax.stairs(high, edges, fill=True, color=UPPER, label="up to: if they overturn")
+    ax.stairs(low, edges, fill=True, color=COLOURS[1],
+              label="contribution of each range" + SAFE * bool((low < high).any()))
+    ax.set_ylabel("rate of overturning [1/year]")
+    ax.set_ylim(0, 1.25 * np.max(high, initial=1e-300))  # with room for the legend
+    ax.ticklabel_format(axis="y", scilimits=(-2, 3), useMathText=True)
+    ax.legend(fontsize=8)
+
+
+def read_arguments(argv):
+    parser = parser_of("plot_risk", __doc__, EXAMPLE, "overturn run under records")
+    parser.add_argument("hazard", metavar="HAZARD", help="hazard curve: text of two columns, or CSV of OpenQuake")
+    parser.add_argument("--im", metavar="MEASURE", help="measure of a text that does not name it: pga, pgv, "
+                                                        "arias_intensity or significant_duration")
+    parser.add_argument("--im-units", metavar="UNIT", help="unit of a text that does not name it: g, m/s or cm/s")
+    parser.add_argument("--site", type=int, metavar="N", help="row of a hazard of several sites, counted from 0")
+    parser.add_argument("--years", type=float, metavar="T", default=DEFAULT_YEARS,
+                        help="of the survival (default: %(default)g)")
+    parser.add_argument("--survival", type=float, metavar="P",
+                        help="also print the largest factors on the hazard with which the blocks survive these years "
+                             "with the probability P")
+    parser.add_argument("--together", metavar="COLUMN",
+                        help="the blocks stand at one site and differ in this column of their table, or along this "
+                             "axis, such as block: the rate at which one of them overturns")
+    parser.add_argument("--limit", type=float, metavar="PEAK",
+                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
+                             "otherwise those that overturn")
+    parser.add_argument("--bins", type=int, metavar="N", default=20,
+                        help="number of bins of the fragility, which do not change its fit (default: %(default)s)")
+    parser.add_argument("--samples", type=int, metavar="N", default=1000,
+                        help="samples of the bootstrap (default: %(default)s)")
+    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
+    return parse_with_picture(parser, argv, "FILE_risk.png")
+
+
+def compute(arguments):
+    """Returns the title, the hazard curve and the fragility curve."""
+    try:
+        hazard = overturn.risk.read_hazard(arguments.hazard, im=arguments.im, units=arguments.im_units,
+                                           site=arguments.site)
+    except OSError as error:
+        raise ToolError(f"cannot read \"{arguments.hazard}\": {error.strerror}.") from error
+    except ValueError as error:
+        raise ToolError(str(error), USAGE) from error
+    try:
+        dataset = overturn.open(arguments.file)
+    except (OSError, ValueError) as error:
+        raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
+    with dataset:
+        try:
+            curve = overturn.fragility(dataset, hazard.im, arguments.limit, together=arguments.together,
+                                       bins=arguments.bins, samples=arguments.samples, seed=arguments.seed)
+        except ValueError as error:
+            raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
+        return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve
+
+
+def report(arguments, hazard, curve):
+    """Prints the numbers."""
+    print(curve.summary())
+    print(overturn.risk.annual_rate(hazard, curve).summary(arguments.years))
+    if arguments.survival is not None:
+        for on, what in (("rate", "rates"), ("level", "levels")):
+            factor = overturn.risk.largest_factor(hazard, curve, arguments.years, arguments.survival, on)
+            print(f"largest factor on the {what} of the hazard, survival of {arguments.years:g} years with the "
+                  f"probability {arguments.survival:g}: {factor.text()}")
+
+
+def main(argv=None):
+    arguments = read_arguments(argv)
+    title, hazard, curve = compute(arguments)
+    try:
+        report(arguments, hazard, curve)
+        panels = risk(hazard, curve, arguments.years, title=plain(title, 70))
+    except ValueError as error:
+        raise ToolError(str(error), USAGE) from error
+    save(panels[0].figure, arguments.output, dpi=150)
