@@ -11,6 +11,7 @@ import subprocess
 import unittest
 
 import h5py
+import numpy as np
 from tool import TOOLS, InOneFolder, run_overturn, run_tool  # first: adds the package to the path
 from overturn.plot import fragility_curves
 
@@ -97,6 +98,15 @@ class TestAPicture(Curve):
         counts = [int(re.search(r": (\d+) of 600 points", text)[1]) for text in (overturning, rocking)]
         self.assertLess(*counts)
 
+    def test_of_a_friction_coefficient_leaves_out_what_may_slip(self):
+        self.overturn("run", "friction.h5", 'output.fields=["region", "friction"]')
+        with h5py.File(self.folder / "friction.h5") as file:
+            supported = np.count_nonzero(file["friction"][:] <= 0.3)
+        self.assertTrue(0 < supported < 600)
+        text, words = self.words("friction.h5", "--friction", "0.3")
+        self.assertIn(f"of {supported} points with a verdict", text)
+        self.assertIn("need a friction coefficient above 0.3", words)
+
     def test_without_a_fit_says_why_and_draws_no_curve(self):
         self.overturn("run", "safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")
         text, words = self.words("safe.h5")
@@ -134,6 +144,8 @@ class TestACurveRefused(Curve):
         self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
         self.overturn("run", "region.h5", 'output.fields=["region"]')
         self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
+        self.refuses(2, "has no field friction", "region.h5", "--friction", "0.5")
+        self.refuses(2, "friction = 35.0 is not a number above 0", "region.h5", "--friction", "35")
 
 
 if __name__ == "__main__":

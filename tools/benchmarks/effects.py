@@ -10,7 +10,7 @@ from building import add_build_argument, add_output_argument, build, fail, run_o
 
 METHODS = ("rk45", "taylor")
 FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
-          "status")  # in addition to the region
+          "friction", "normal", "status")  # in addition to the region
 KERNEL = "avx2"
 
 EXPLANATION = """\

@@ -19,6 +19,7 @@ _MODULE_OF = {
     "ProgramError": "program",
     "fragility": "fragility_curve",
     "Fragility": "fragility_curve",
+    "supported_share": "friction",
     "read_record": "records",
     "Record": "records",
     "RecordError": "records",

@@ -15,7 +15,7 @@ from scipy.special import ndtr
 
 from overturn import lognormal_fit
 from overturn.block_groups import blocks_at_one_site
-from overturn.friction import expect_coefficient
+from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
 from overturn.joint_blocks import combined
 from overturn.output_file import new_file
 
@@ -148,8 +148,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "",
                      blocks=_blocks(dataset["region"]) if together is None else len(parts), **_fitted(fit, value),
-                     notes=(*_slipping(cells, friction), *_left_out(cells, im), *[reason] * bool(reason), *_extrapolated(fit, edges, im),
-                            *_without_band(fit, counts, samples)))
+                     notes=(*_slipping(cells, friction), *_left_out(cells, im), *[reason] * bool(reason),
+                            *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
 
 def expect_records(dataset):
@@ -199,18 +199,10 @@ def cells_of(dataset, measure, limit, friction):
     """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
     of points of each kind."""
     region = dataset["region"]
-    if "flag_meanings" not in region.attrs:
-        raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points by "
-                         "sel() or isel(); do not compute with region codes.")
-    if region.dtype.kind == "f" and bool((region.notnull() & (region % 1 != 0)).any()):
-        raise ValueError("region has values between the region codes, as after interp(). Choose points by sel() or "
-                         "isel().")
-    meanings = dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
-    not_computed = region == meanings["not_computed"]
-    # NaN, as after where(), and unknown codes are no verdicts.
-    decided = region.isin([code for name, code in meanings.items() if name not in ("undecided", "not_computed")])
+    decided, codes = decided_points(region), codes_of(region)
+    not_computed = region == codes["not_computed"]
     if limit is None:
-        exceeding = decided & ~region.isin([code for name, code in meanings.items() if name.startswith("S")])
+        exceeding = decided & ~region.isin([code for name, code in codes.items() if name.startswith("S")])
     elif "peak" in dataset:
         decided = decided & dataset["peak"].notnull()
         exceeding = decided & (dataset["peak"] > limit)
@@ -218,9 +210,7 @@ def cells_of(dataset, measure, limit, friction):
         raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
     slipping = decided & False
     if friction is not None:
-        if "friction" not in dataset:
-            raise ValueError("this result has no field friction. Add it to output.fields.")
-        slipping = decided & ~(dataset["friction"] <= friction)
+        slipping = slipping_points(dataset, decided, friction)
         decided, exceeding = decided & ~slipping, exceeding & ~slipping
     motion = _numbered(dataset)
     kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]

@@ -1,6 +1,14 @@
-"""Friction coefficients that users give."""
+"""Friction coefficients that users give, and the verdicts that hold with them."""
+
+from __future__ import annotations
 
 import numbers
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Iterable
+
+    import xarray
 
 LARGEST = 2  # rubber on rock has 1
 
@@ -10,3 +18,42 @@ def expect_coefficient(friction):
     if isinstance(friction, bool) or not isinstance(friction, numbers.Real) or not 0 < friction <= LARGEST:
         raise ValueError(f"friction = {friction!r} is not a number above 0 and up to {LARGEST}. Give the coefficient "
                          "between block and ground, the tangent of the friction angle.")
+
+
+def supported_share(dataset: xarray.Dataset, friction: float,
+                    dim: Hashable | Iterable[Hashable] | None = None) -> xarray.DataArray:
+    """Returns the share of the verdicts of a result, see open(), that hold with a friction coefficient [1].
+
+    friction: between block and ground, up to 2. A verdict whose field friction is larger, infinite or unknown does
+        not hold.
+    dim: dimensions over which points are counted, such as "motion"; by default all. The share is NaN where no point has
+        a verdict.
+
+    Raises ValueError if the dataset lacks the field friction.
+    """
+    expect_coefficient(friction)
+    decided = decided_points(dataset["region"])
+    return (decided & ~slipping_points(dataset, decided, friction)).sum(dim) / decided.sum(dim)
+
+
+def decided_points(region):
+    """Returns whether each point has a verdict. NaN, as after where(), and unknown codes are no verdicts."""
+    if "flag_meanings" not in region.attrs:
+        raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points by "
+                         "sel() or isel(); do not compute with region codes.")
+    if region.dtype.kind == "f" and bool((region.notnull() & (region % 1 != 0)).any()):
+        raise ValueError("region has values between the region codes, as after interp(). Choose points by sel() or "
+                         "isel().")
+    return region.isin([code for name, code in codes_of(region).items() if name not in ("undecided", "not_computed")])
+
+
+def codes_of(region):
+    """Returns the region codes by name."""
+    return dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
+
+
+def slipping_points(dataset, decided, friction):
+    """Returns whether the verdict of each point needs more friction than this coefficient, or an unknown one."""
+    if "friction" not in dataset:
+        raise ValueError("this result has no field friction. Add it to output.fields.")
+    return decided & ~(dataset["friction"] <= friction)

@@ -81,7 +81,8 @@ def counts_text(curves):
     what = f"{motions} motion{'s' * (motions != 1)},  {blocks} block{'s' * (blocks != 1)}"
     if len(curves) > 1:
         return what + f" in {len(curves)} groups"
-    return what + (" together" if curves[0].together else " pooled") * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
+    how = " together" if curves[0].together else " pooled"
+    return what + how * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
 
 
 def draw_bins(ax, curve, colour, marker, fillstyle):
@@ -110,6 +111,12 @@ def draw_fit(ax, curve, colour, line, count):
                   rf"$\beta$ = {curve.beta:.2f}")
 
 
+def add_friction(parser):
+    parser.add_argument("--friction", type=float, metavar="MU",
+                        help="friction coefficient between block and ground: points whose field friction is above MU "
+                             "have no verdict")
+
+
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
@@ -118,6 +125,7 @@ def read_arguments(argv):
     parser.add_argument("--limit", type=float, metavar="PEAK",
                         help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
                              "otherwise those that overturn")
+    add_friction(parser)
     parser.add_argument("--by", metavar="COLUMN",
                         help="a curve for each value of a column of the table of blocks, or of an axis such as "
                              "size; of more than 6 numbers, for each quarter of the blocks")
@@ -147,8 +155,8 @@ def compute(arguments):
 
 def curves_of(dataset, im, arguments):
     def curve_of(blocks):
-        return overturn.fragility(blocks, im, arguments.limit, bins=arguments.bins, samples=arguments.samples,
-                                  seed=arguments.seed)
+        return overturn.fragility(blocks, im, arguments.limit, friction=arguments.friction, bins=arguments.bins,
+                                  samples=arguments.samples, seed=arguments.seed)
     if arguments.by is None:
         return [curve_of(dataset)]
     from overturn.fragility_curve import expect_records  # needs SciPy

@@ -8,7 +8,7 @@ import numpy as np
 import overturn
 from matplotlib import pyplot
 from overturn.output_file import save
-from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, draw_bins
+from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, add_friction, draw_bins
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -116,6 +116,7 @@ def read_arguments(argv):
     parser.add_argument("--limit", type=float, metavar="PEAK",
                         help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
                              "otherwise those that overturn")
+    add_friction(parser)
     parser.add_argument("--bins", type=int, metavar="N", default=20,
                         help="number of bins of the fragility, which do not change its fit (default: %(default)s)")
     parser.add_argument("--samples", type=int, metavar="N", default=1000,
@@ -139,8 +140,9 @@ def compute(arguments):
         raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
     with dataset:
         try:
-            curve = overturn.fragility(dataset, hazard.im, arguments.limit, together=arguments.together,
-                                       bins=arguments.bins, samples=arguments.samples, seed=arguments.seed)
+            curve = overturn.fragility(dataset, hazard.im, arguments.limit, friction=arguments.friction,
+                                       together=arguments.together, bins=arguments.bins, samples=arguments.samples,
+                                       seed=arguments.seed)
         except ValueError as error:
             raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
         return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve
