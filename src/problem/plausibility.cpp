@@ -28,7 +28,8 @@ struct PlausibleRange {
 constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers::pi,
                                      "a block wider than 1.5 times its height; angles are in "
                                      "radians"};
-constexpr PlausibleRange size{"R", " m", 0.02, 20, "lengths are in metres"};
+// Larger blocks exist, but most lengths that would make one are in centimetres.
+constexpr PlausibleRange size{"R", " m", 0.02, 10, "lengths are in metres"};
 constexpr PlausibleRange gyration{"the radius of gyration", " R", 0.1, 1.5,
                                   "lengths are in metres"};
 constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
@@ -198,9 +199,22 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
             findings.push_back(fmt::format("direction = {} (directions are in degrees)",
                                            direction.text(" degrees")));
         }
+        const double range = direction.last - direction.first;
+        if (0 < range && range < 180 * (1 - 1e-9) && grid.has_two_sides() &&
+            have_different_sides(coordinates)) {
+            findings.push_back(fmt::format(
+                "direction = {} leaves out the mirror images of these motions, which may be worse "
+                "for blocks with two different sides (give a full circle)",
+                direction.text(" degrees")));
+        }
     }
-    std::erase(findings, "");
-    return fmt::format("{}", fmt::join(findings, "; "));
+    std::vector<std::string> different; // R of both sides may be the same
+    for (const std::string& finding : findings) {
+        if (!finding.empty() && std::ranges::count(different, finding) == 0) {
+            different.push_back(finding);
+        }
+    }
+    return fmt::format("{}", fmt::join(different, "; "));
 }
 
 } // namespace overturn

@@ -136,7 +136,7 @@ class Dimensions(Scratch):
                                    *command[1:])
             self.assert_exit(result, 0)
             self.assertEqual(result.stderr.count("overturn: warning: "), 1)
-            self.assertIn("R = 94.87 m is outside 0.02 to 20 m (lengths are in metres)",
+            self.assertIn("R = 94.87 m is outside 0.02 to 10 m (lengths are in metres)",
                           result.stderr)
 
     def test_are_found_by_value_in_xarray(self):

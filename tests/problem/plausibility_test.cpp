@@ -92,6 +92,43 @@ TEST(Plausibility, OfOtherUnitsNamesTheQuantity)
     }
 }
 
+TEST(Plausibility, OfSmallObjectsInCentimetresNamesTheirSize)
+{
+    std::mt19937_64 generator(7);
+    std::uniform_real_distribution<double> height(20, 40); // of vases [cm]
+    for (int i = 0; i < 50; ++i) {
+        Columns columns = random_blocks(generator, 1);
+        columns["height"] = {height(generator)};
+        columns["width"] = {columns["height"][0] / 3};
+        EXPECT_THAT(found_in(columns), HasSubstr("R = "));
+        multiply(columns["height"], 0.01);
+        multiply(columns["width"], 0.01);
+        EXPECT_THAT(found_in(columns), IsEmpty());
+    }
+}
+
+TEST(Plausibility, OfBlocksWithTwoSidesAsksForAFullCircleOfDirections)
+{
+    Scene scene;
+    scene.records.push_back(
+        std::make_shared<const Accelerogram>(std::vector<double>{0, 0.3, 0}, std::vector<double>(),
+                                             0.1, std::vector<double>{0, 0.2, -0.1}));
+    const auto found = [&](double plus, double minus, const std::vector<double>& directions) {
+        return implausible_values(
+            scene, grid_of(scene, {number("slenderness_plus", plus),
+                                   number("slenderness_minus", minus), number("size_plus", 1),
+                                   number("size_minus", 1), number("radius_of_gyration", 0.6),
+                                   number("restitution_of_maximum", 0.9), number("scale", 1),
+                                   axis("direction", AxisList(directions)), number("motion", 1)}));
+    };
+    EXPECT_THAT(found(0.3, 0.25, {0, 45, 90, 135}), HasSubstr("mirror images"));
+    EXPECT_THAT(found(0.3, 0.25, {180, 355}), HasSubstr("give a full circle"));
+    EXPECT_THAT(found(0.3, 0.25, {0, 180}), IsEmpty());
+    EXPECT_THAT(found(0.3, 0.25, {0, 90, 180, 270}), IsEmpty());
+    EXPECT_THAT(found(0.3, 0.25, {30}), IsEmpty()); // one direction was chosen
+    EXPECT_THAT(found(0.3, 0.3, {0, 45, 90, 135}), IsEmpty());
+}
+
 TEST(Plausibility, OneRowOfATableIsEnough)
 {
     std::mt19937_64 generator(3);
