@@ -9,13 +9,10 @@ from typing import TYPE_CHECKING, TypedDict
 import numpy as np
 
 from overturn import core
+from overturn.arguments import ArgumentError, given, number, numbers, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-
-
-class ArgumentError(TypeError, ValueError):
-    """Arguments are missing or contradict each other."""
 
 
 class Verdict(enum.IntEnum):
@@ -98,80 +95,45 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     allowed, with its index in the broadcast shape, or if arrays do not broadcast; ArgumentError, which is a
     TypeError and a ValueError, if arguments are missing or contradict each other.
     """
-    columns = _given(width=width, height=height, half_width=half_width, half_height=half_height,
-                     center_offset=center_offset, center_height=center_height, radius_of_gyration=radius_of_gyration,
-                     incline=incline, slenderness_plus=slenderness_plus, slenderness_minus=slenderness_minus,
-                     size_plus=size_plus, size_minus=size_minus, direction=direction,
-                     slenderness=slenderness, aspect_ratio=aspect_ratio, size=size,
-                     frequency_parameter=frequency_parameter,
-                     restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
-    of_pulse = _given(pulse_period=pulse_period, pulse_frequency=pulse_frequency, frequency=frequency,
-                      amplitude=amplitude)
-    shape_numbers = _given(window=window, cycles=cycles, gamma=gamma, nu=nu)
-    numbers = {name: _number(name, value) for name, value in _given(
+    columns = given(width=width, height=height, half_width=half_width, half_height=half_height,
+                    center_offset=center_offset, center_height=center_height, radius_of_gyration=radius_of_gyration,
+                    incline=incline, slenderness_plus=slenderness_plus, slenderness_minus=slenderness_minus,
+                    size_plus=size_plus, size_minus=size_minus, direction=direction,
+                    slenderness=slenderness, aspect_ratio=aspect_ratio, size=size,
+                    frequency_parameter=frequency_parameter,
+                    restitution=restitution, restitution_of_maximum=restitution_of_maximum, pga=pga)
+    of_pulse = given(pulse_period=pulse_period, pulse_frequency=pulse_frequency, frequency=frequency,
+                     amplitude=amplitude)
+    shape_numbers = given(window=window, cycles=cycles, gamma=gamma, nu=nu)
+    single = {name: number(name, value) for name, value in given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
-    of_record = _given(second_component=second_component, vertical=vertical, time_step=time_step, scale=scale)
+    of_record = given(second_component=second_component, vertical=vertical, time_step=time_step, scale=scale)
     if record is None:
-        _refuse(of_record, "has no meaning without record")
+        refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
             raise ArgumentError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
                                 "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
-        scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, numbers["gravity"],
-                                    {name: numbers[name] for name in shape_numbers})
+        scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, single["gravity"],
+                                    {name: single[name] for name in shape_numbers})
     else:
-        _refuse({**_given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
+        refuse({**given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
         if time_step is None or (scale is None) == (pga is None):
             raise ArgumentError("a record needs time_step, and either scale or pga.")
-        columns |= _given(scale=scale)
+        columns |= given(scale=scale)
         components = _accelerations(record, second_component, vertical)
-        scene = core.scene_of_record(*components, numbers["time_step"], theory, numbers["gravity"])
+        scene = core.scene_of_record(*components, single["time_step"], theory, single["gravity"])
     if not isinstance(resolve, (bool, np.bool_)):
         raise ArgumentError(f"resolve = {resolve!r} is neither True nor False.")
-    numerics = core.numerics(scene, method, numbers.get("tolerance"), bool(resolve))
+    numerics = core.numerics(scene, method, single.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns)
-
-
-def _given(**arguments):
-    return {name: value for name, value in arguments.items() if value is not None}
-
-
-def _number(name, value):
-    array = _numbers(name, value)
-    if array.ndim:
-        raise ValueError(f"{name} has the shape {array.shape}. Give one number for all blocks.")
-    return float(array)
-
-
-def _numbers(name, value):
-    if _has_masked_values(value):
-        raise ValueError(f"{name} has masked values. Remove these points.")
-    try:
-        array = np.asarray(value)
-        kinds = {np.asarray(each).dtype.kind for each in array.flat} if array.dtype.kind == "O" else {array.dtype.kind}
-        if kinds & set("cMmV"):  # complex numbers, dates and times, records
-            raise TypeError
-        return np.asarray(array, float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is not a number or an array of numbers.") from None
-
-
-def _has_masked_values(value):
-    if isinstance(value, (list, tuple)):
-        return any(map(_has_masked_values, value))
-    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.getmaskarray(value).any())
-
-
-def _refuse(arguments, reason):
-    if arguments:
-        raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
 
 
 def _accelerations(record, second_component, vertical):
     """Returns checked samples of three components; none of those that are not given."""
-    horizontal = _numbers("record", record)
-    others = {name: _numbers(name, value)
-              for name, value in _given(second_component=second_component, vertical=vertical).items()}
+    horizontal = numbers("record", record)
+    others = {name: numbers(name, value)
+              for name, value in given(second_component=second_component, vertical=vertical).items()}
     for name, samples in {"record": horizontal, **others}.items():
         if samples.ndim != 1:
             raise ValueError(f"{name} has {samples.ndim} dimensions. Give a one-dimensional array of samples.")
@@ -189,7 +151,7 @@ def _accelerations(record, second_component, vertical):
 
 
 def _evaluated(scene, numerics, columns):
-    arrays = {name: _numbers(name, value) for name, value in columns.items()}
+    arrays = {name: numbers(name, value) for name, value in columns.items()}
     try:
         shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     except ValueError:

@@ -1,0 +1,46 @@
+"""Checks of the arguments of functions that compute."""
+
+import numpy as np
+
+
+class ArgumentError(TypeError, ValueError):
+    """Arguments are missing or contradict each other."""
+
+
+def given(**arguments):
+    """Returns the arguments that are not None."""
+    return {name: value for name, value in arguments.items() if value is not None}
+
+
+def refuse(arguments, reason):
+    """Raises ArgumentError if there is an argument."""
+    if arguments:
+        raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
+
+
+def number(name, value):
+    """Returns a number as float. Raises ValueError if it is none, or several."""
+    array = numbers(name, value)
+    if array.ndim:
+        raise ValueError(f"{name} has the shape {array.shape}. Give one number.")
+    return float(array)
+
+
+def numbers(name, value):
+    """Returns numbers as an array of doubles. Raises ValueError if they are none, or masked."""
+    if _has_masked_values(value):
+        raise ValueError(f"{name} has masked values. Remove these points.")
+    try:
+        array = np.asarray(value)
+        kinds = {np.asarray(each).dtype.kind for each in array.flat} if array.dtype.kind == "O" else {array.dtype.kind}
+        if kinds & set("cMmV"):  # complex numbers, dates and times, records
+            raise TypeError
+        return np.asarray(array, float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is not a number or an array of numbers.") from None
+
+
+def _has_masked_values(value):
+    if isinstance(value, (list, tuple)):
+        return any(map(_has_masked_values, value))
+    return isinstance(value, np.ma.MaskedArray) and bool(np.ma.getmaskarray(value).any())
