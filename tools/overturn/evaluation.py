@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, TypedDict
 import numpy as np
 
 from overturn import core
+from overturn.accelerations import accelerations_of
 from overturn.arguments import ArgumentError, given, number, numbers, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from overturn.accelerations import Stream, Trace
 
 
 class Verdict(enum.IntEnum):
@@ -53,8 +56,10 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None, direction: ArrayLike | None = None,
              pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
-             record: ArrayLike | None = None, second_component: ArrayLike | None = None,
-             vertical: ArrayLike | None = None, time_step: float | None = None, scale: ArrayLike | None = None,
+             record: ArrayLike | Trace | Stream | None = None,
+             second_component: ArrayLike | Trace | Stream | None = None,
+             vertical: ArrayLike | Trace | Stream | None = None, time_step: float | None = None,
+             units: str | None = None, scale: ArrayLike | None = None,
              theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
              resolve: bool = False, gravity: float = 9.81) -> Outcome:
     """Computes what becomes of blocks, each under its own pulse, or all under one record.
@@ -78,11 +83,14 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             docs/jobs.md.
         direction*: 0, the motion as it stands, or 180, its mirror image [degree]; also of a record.
     Or a record:
-        record: horizontal accelerations over g [1], one-dimensional, linear between samples.
-        second_component: accelerations at a right angle to these [1], at the same times. The motion is then
+        record: horizontal accelerations, one-dimensional, linear between samples; an array, or a Trace of ObsPy or a
+            Stream of one.
+        second_component: accelerations at a right angle to these, at the same times. The motion is then
             record * cos(direction) + second_component * sin(direction), of any direction*.
-        vertical: vertical accelerations over g [1] at the same times, positive upwards.
-        time_step: between two samples [s].
+        vertical: vertical accelerations at the same times, positive upwards.
+        units: of these accelerations: "g", the default of arrays, "m/s2", "cm/s2", "mm/s2" or "gal". Required of
+            Traces.
+        time_step: between two samples [s]; of arrays.
         scale*: factor on all accelerations [1]; or pga*, the peak of the scaled record over g [1].
     The computation:
         theory: "nonlinear" or "linear".
@@ -107,7 +115,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     shape_numbers = given(window=window, cycles=cycles, gamma=gamma, nu=nu)
     single = {name: number(name, value) for name, value in given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
-    of_record = given(second_component=second_component, vertical=vertical, time_step=time_step, scale=scale)
+    of_record = given(second_component=second_component, vertical=vertical, time_step=time_step, units=units,
+                      scale=scale)
     if record is None:
         refuse(of_record, "has no meaning without record")
         if not of_pulse.keys() - {"amplitude"} or not {"amplitude", "pga"} & {*of_pulse, *columns}:
@@ -118,36 +127,18 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
                                     {name: single[name] for name in shape_numbers})
     else:
         refuse({**given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
-        if time_step is None or (scale is None) == (pga is None):
-            raise ArgumentError("a record needs time_step, and either scale or pga.")
+        components, step = accelerations_of(
+            given(record=record, second_component=second_component, vertical=vertical), single.get("time_step"),
+            units, single["gravity"])
+        if step is None or (scale is None) == (pga is None):
+            raise ArgumentError("a record needs time_step, unless it is a Trace, and either scale or pga.")
         columns |= given(scale=scale)
-        components = _accelerations(record, second_component, vertical)
-        scene = core.scene_of_record(*components, single["time_step"], theory, single["gravity"])
+        scene = core.scene_of_record(components["record"], components.get("second_component", []),
+                                     components.get("vertical", []), step, theory, single["gravity"])
     if not isinstance(resolve, (bool, np.bool_)):
         raise ArgumentError(f"resolve = {resolve!r} is neither True nor False.")
     numerics = core.numerics(scene, method, single.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns)
-
-
-def _accelerations(record, second_component, vertical):
-    """Returns checked samples of three components; none of those that are not given."""
-    horizontal = numbers("record", record)
-    others = {name: numbers(name, value)
-              for name, value in given(second_component=second_component, vertical=vertical).items()}
-    for name, samples in {"record": horizontal, **others}.items():
-        if samples.ndim != 1:
-            raise ValueError(f"{name} has {samples.ndim} dimensions. Give a one-dimensional array of samples.")
-        for index in np.flatnonzero(~np.isfinite(samples))[:1]:
-            raise ValueError(f"{name}[{index}] = {samples[index]} is not finite. Give accelerations over g.")
-    if horizontal.size < 2 or not horizontal.any():
-        raise ValueError("record needs two or more samples, not all of them zero.")
-    for name, samples in others.items():
-        if samples.size != horizontal.size:
-            raise ValueError(f"{name} has {samples.size} samples, but record has {horizontal.size}. Give both at "
-                             "the same times.")
-        if np.array_equal(samples, horizontal):
-            raise ValueError(f"{name} has the accelerations of record. Give those of the other component.")
-    return horizontal, others.get("second_component", []), others.get("vertical", [])
 
 
 def _evaluated(scene, numerics, columns):
