@@ -1,6 +1,6 @@
 """overturn from Python: the outcome of single blocks (evaluate), the program (run, check), result
-files (open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot) and recorded
-motions (read_record). The other modules are shared by the tools.
+files (open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot), recorded motions
+(read_record) and those of floors (floor_motion). The other modules are shared by the tools.
 
 Modules are imported when they are used, because every tool imports this package."""
 
@@ -20,6 +20,8 @@ _MODULE_OF = {
     "fragility": "fragility_curve",
     "Fragility": "fragility_curve",
     "supported_share": "friction",
+    "floor_motion": "floors",
+    "FloorMotion": "floors",
     "read_record": "records",
     "Record": "records",
     "RecordError": "records",

@@ -78,7 +78,8 @@ def _time_step_of(traces, time_step):
     (first, record), *others = traces.items()
     for name, trace in traces.items():
         if trace is None:
-            raise ArgumentError(f"{name} is an array, but another component is a Trace. Give Traces only, or arrays only.")
+            raise ArgumentError(f"{name} is an array, but another component is a Trace. Give Traces only, or arrays "
+                                "only.")
     step, last = float(record.stats.delta), len(record.data) - 1
     for name, trace in others:
         if abs(trace.stats.delta - step) * last > step / 2:
