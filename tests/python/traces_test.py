@@ -1,8 +1,11 @@
 """Traces of ObsPy as records of overturn.evaluate(), and the units of records. Stand-ins have the attributes that are
 used; if ObsPy is installed, its own traces are tested as well. Requires the package on PYTHONPATH."""
 
+import pathlib
+import re
 import subprocess
 import sys
+import tempfile
 import types
 import unittest
 
@@ -14,6 +17,7 @@ try:
 except ImportError:
     obspy = None
 
+CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 BLOCK = {"width": 0.5, "height": 2.0, "restitution_of_maximum": 0.9}
 SCALE = np.linspace(0.5, 3, 40)
 STEP = 0.01
@@ -141,6 +145,18 @@ class ATraceOfObsPy(ATrace):
         self.assert_refused("Join them by stream.merge()", parts)
         self.assert_refused("has gaps: 9 of 200 samples", parts.copy().merge())
         self.evaluate(parts.copy().merge(fill_value="interpolate"))
+
+
+@unittest.skipIf(obspy is None, "ObsPy is not installed")
+class TheExample(unittest.TestCase):
+    def test_of_the_documentation_runs(self):
+        text = (CHECKOUT / "docs/python.md").read_text()
+        example = re.search(r"^```python\n(import obspy\n.*?)^```$", text, re.DOTALL | re.MULTILINE)[1]
+        with tempfile.TemporaryDirectory(prefix="overturn-test-") as folder:
+            subprocess.run([CHECKOUT / "tools/synthetic_record", "--suite", "20", "-o", f"{folder}/suite"], check=True,
+                           stdout=subprocess.DEVNULL)
+            done = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True)
+        self.assertIn("20 motions, 1 block", done.stdout, done.stderr)
 
 
 class ThePackage(unittest.TestCase):
