@@ -25,6 +25,21 @@ Lines ahead_by(Lines lines, std::size_t count)
     return lines;
 }
 
+bool next_text(Lines& lines)
+{
+    while (lines.next()) {
+        if (!trimmed(lines.line()).empty()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool is_at_end(Lines lines)
+{
+    return !next_text(lines);
+}
+
 void Header::add(const Lines& lines)
 {
     constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
@@ -40,12 +55,38 @@ void Header::take(Lines& lines, std::size_t count)
 {
     for (std::size_t i = 0; i < count; ++i) {
         if (!lines.next()) {
+            if (count == 1) {
+                lines.refuse("the file ends within the header. Give the complete file.");
+            }
             lines.refuse(
                 "the file ends after {} of the {} lines of the header. Give the complete file.", i,
                 count);
         }
         add(lines);
     }
+}
+
+void Header::take_text(Lines& lines)
+{
+    do {
+        take(lines, 1);
+    } while (trimmed(lines.line()).empty());
+}
+
+bool Header::take_through(Lines& lines, std::string_view words)
+{
+    while (lines.next()) {
+        add(lines);
+        if (contains(lines.line(), words)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string_view first_word(std::string_view text)
+{
+    return trimmed(text).substr(0, trimmed(text).find_first_of(" \t"));
 }
 
 std::string lower(std::string_view text)

@@ -57,6 +57,12 @@ private:
 /// A cursor that is `count` lines ahead, or at the last line.
 Lines ahead_by(Lines lines, std::size_t count);
 
+/// Proceeds to the next line that is not blank; false if there is none.
+bool next_text(Lines& lines);
+
+/// Whether only blank lines follow.
+bool is_at_end(Lines lines);
+
 /// Lines that are kept. Their size is limited, so that no file can fill the memory with short ones.
 class Header {
 public:
@@ -66,12 +72,22 @@ public:
     /// Proceeds by `count` lines and keeps them. Refuses a file that ends earlier.
     void take(Lines& lines, std::size_t count);
 
+    /// Proceeds to the next line that is not blank, and keeps the lines up to it.
+    void take_text(Lines& lines);
+
+    /// Proceeds to the next line that contains the words, ignoring case, and keeps the lines up to
+    /// it; false if there is none.
+    bool take_through(Lines& lines, std::string_view words);
+
     std::vector<std::string> kept() && { return std::move(kept_); }
 
 private:
     std::vector<std::string> kept_;
     std::size_t size_ = 0;
 };
+
+/// The text up to the first blank, without blanks before it.
+std::string_view first_word(std::string_view text);
 
 /// In lower case, if the letters are ASCII.
 std::string lower(std::string_view text);

@@ -52,6 +52,23 @@ std::size_t length_of_number(std::string_view text)
     return text.size();
 }
 
+/// Whether the number in a column continues in the next one: a digit or a point follows it, and it
+/// does not have all its decimals.
+bool is_cut(std::string_view line, const Columns& columns, std::size_t index)
+{
+    const std::size_t end = (index + 1) * columns.width;
+    if (!columns.decimals || end >= line.size() ||
+        std::string_view("0123456789.").find(line[end]) == line.npos ||
+        std::string_view(" \t").find(line[end - 1]) != line.npos) {
+        return false;
+    }
+    const std::string_view word = column_of(line, columns.width, index);
+    const std::size_t point = std::min(word.find('.'), word.size());
+    const std::size_t last = std::min(word.find_first_of("eEdD"), word.size());
+    const std::size_t decimals = point < last ? last - point - 1 : 0;
+    return decimals != *columns.decimals;
+}
+
 } // namespace
 
 bool is_number(std::string_view word)
@@ -99,6 +116,18 @@ double time_step_of(const Lines& lines, std::string_view word)
     return step;
 }
 
+void expect_duration(const Lines& lines, double stated, const Sampling& sampling, double rounding)
+{
+    // The duration may be that between the first and the last sample, and may be rounded.
+    const double duration = double(sampling.count) * sampling.time_step;
+    if (!(std::abs(stated - duration) <= 0.01 * duration + 2 * sampling.time_step + rounding)) {
+        lines.refuse("the duration {} s is not that of {} {} at {} s, {:.6g} s. Correct it, or "
+                     "give the file as it was published.",
+                     stated, sampling.count, noun_of(sampling.count, "samples"), sampling.time_step,
+                     duration);
+    }
+}
+
 std::vector<double> take_free_numbers(Lines& lines, const Announcement& announced)
 {
     std::vector<double> values;
@@ -140,6 +169,9 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
                          "Give the complete file.",
                          values.size(), announced.count, announced.name, announced.line);
         }
+        if (trimmed(lines.line()).empty()) {
+            continue;
+        }
         const std::string_view line =
             lines.line().substr(0, lines.line().find_last_not_of(" \t") + 1);
         const std::size_t found = (line.size() + columns.width - 1) / columns.width;
@@ -152,6 +184,11 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
                 announced.count, announced.name, columns.per_line);
         }
         for (std::size_t i = 0; i < found; ++i) {
+            if (is_cut(line, columns, i)) {
+                lines.refuse("column {} of {} characters ends within a number: {}. Give the file "
+                             "as it was published.",
+                             i + 1, columns.width, quoted_bytes(column_of(line, columns.width, i)));
+            }
             values.push_back(number_of(lines, column_of(line, columns.width, i)));
         }
     }

@@ -4,6 +4,7 @@
 #include "lines.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,17 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
 /// A time step above 0 [s]. Refuses other words.
 double time_step_of(const Lines& lines, std::string_view word);
 
+/// Samples at even times.
+struct Sampling {
+    std::size_t count;
+    double time_step; ///< [s]
+};
+
+/// Refuses a duration, stated in the current line, that contradicts the number of samples and the
+/// time step. rounding: of the stated duration [s].
+void expect_duration(const Lines& lines, double stated, const Sampling& sampling,
+                     double rounding = 0);
+
 /// The numbers of a header that announce the samples, for messages.
 struct Announcement {
     std::size_t count;     ///< of samples
@@ -40,9 +52,11 @@ std::vector<double> take_free_numbers(Lines& lines, const Announcement& announce
 struct Columns {
     std::size_t width;
     std::size_t per_line;
+    std::optional<std::size_t> decimals = {}; ///< if known; tells numbers that touch from cut ones
 };
 
-/// The announced numbers, from the next lines. Refuses lines with more or fewer numbers.
+/// The announced numbers, from the next lines that are not blank. Refuses lines with more or fewer
+/// numbers, and numbers that continue beyond their column.
 std::vector<double> take_columns(Lines& lines, const Columns& columns,
                                  const Announcement& announced);
 

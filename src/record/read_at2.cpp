@@ -24,7 +24,7 @@ std::string_view from_word(std::string_view text)
     return text.substr(std::min(text.find_first_not_of(separators), text.size()));
 }
 
-std::string_view first_word(std::string_view text)
+std::string_view word_at(std::string_view text)
 {
     return text.substr(0, text.find_first_of(separators));
 }
@@ -46,7 +46,7 @@ void expect_seconds(const Lines& lines, std::string_view step, std::string_view 
             "the time step {} has a decimal comma. Write it with a point, as in DT= .01 SEC.",
             quoted_bytes(std::string(step).append(after.substr(0, 2))));
     }
-    const std::string_view unit = first_word(from_word(after));
+    const std::string_view unit = word_at(from_word(after));
     const std::string word = lower(unit.substr(0, unit.find_first_of(",;.")));
     constexpr std::array<std::string_view, 7> allowed{"",     "npts",   "s",      "sec",
                                                       "secs", "second", "seconds"};
@@ -62,18 +62,13 @@ std::size_t count_numbers(std::string_view line)
 {
     std::size_t count = 0;
     for (std::string_view rest = from_word(line); !rest.empty();) {
-        const std::string_view word = first_word(rest);
+        const std::string_view word = word_at(rest);
         const std::size_t digit = word.find_first_not_of("+-.");
         count += digit != word.npos && '0' <= word[digit] && word[digit] <= '9';
         rest = from_word(rest.substr(word.size()));
     }
     return count;
 }
-
-struct Sampling {
-    std::size_t count;
-    double time_step; ///< [s]
-};
 
 /// New files: `NPTS=  4000, DT= .01000 SEC`. Old ones: `7997 0.0050 NPTS, DT`.
 Sampling read_sampling(const Lines& lines)
@@ -84,23 +79,23 @@ Sampling read_sampling(const Lines& lines)
     const bool is_old = count.empty() && step.empty() && contains(line, "DT");
     if (is_old) {
         count = from_word(line);
-        step = from_word(count.substr(first_word(count).size()));
+        step = from_word(count.substr(word_at(count).size()));
     }
-    const bool begins_with_key = contains(first_word(from_word(line)), "NPTS") ||
-                                 contains(first_word(from_word(line)), "DT");
+    const bool begins_with_key =
+        contains(word_at(from_word(line)), "NPTS") || contains(word_at(from_word(line)), "DT");
     if (count.empty() || step.empty() || !(is_old || begins_with_key)) {
         lines.refuse("{} lacks the number of points or the time step. Write it as in NPTS= 4000, "
                      "DT= .01 SEC.",
                      quoted_bytes(line));
     }
-    std::string_view number = first_word(step);
+    std::string_view number = word_at(step);
     if (const std::size_t unit = number.find_first_of("sS"); unit > 0) { // as in .01SEC
         number = number.substr(0, unit);
     }
     std::string_view after = step.substr(number.size());
     if (is_old) {
         for (const std::string_view key : {"npts", "dt"}) {
-            const std::string_view word = first_word(from_word(after));
+            const std::string_view word = word_at(from_word(after));
             if (lower(word) != key) {
                 lines.refuse("{} is not understood. Write it as in NPTS= 4000, DT= .01 SEC.",
                              quoted_bytes(trimmed(line)));
@@ -114,7 +109,7 @@ Sampling read_sampling(const Lines& lines)
                      "as in NPTS= 4000, DT= .01 SEC.",
                      quoted_bytes(trimmed(line)));
     }
-    return {.count = count_of(lines, first_word(count), "NPTS"),
+    return {.count = count_of(lines, word_at(count), "NPTS"),
             .time_step = time_step_of(lines, number)};
 }
 

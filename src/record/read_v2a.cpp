@@ -72,16 +72,6 @@ RecordComponent take_component(Lines& lines)
     return component;
 }
 
-bool is_at_end(Lines lines)
-{
-    while (lines.next()) {
-        if (!trimmed(lines.line()).empty()) {
-            return false;
-        }
-    }
-    return true;
-}
-
 } // namespace
 
 RecordFile read_v2a(Lines lines)

@@ -1,0 +1,40 @@
+// A header of lines that begin with keys, such as `Dir.   E-W` or `NDATA: 19128`, in any order. It
+// ends before the first line that begins with a number.
+#pragma once
+
+#include "lines.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace overturn {
+
+class KeyedHeader {
+public:
+    /// Takes the lines of the header.
+    explicit KeyedHeader(Lines& lines);
+
+    /// A line that begins with the key, and what follows the key.
+    struct Entry {
+        Lines lines; ///< at this line
+        std::string_view value;
+    };
+
+    /// The line that begins with this key, ignoring case; nullopt if there is none. Refuses several
+    /// lines.
+    std::optional<Entry> find(std::string_view key) const;
+
+    /// The same. Refuses a header without this key.
+    Entry required(std::string_view key) const;
+
+    std::vector<std::string> kept() && { return std::move(header_).kept(); }
+
+private:
+    Lines before_;
+    Lines last_; ///< at the last line of the header
+    Header header_;
+};
+
+} // namespace overturn
