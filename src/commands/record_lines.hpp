@@ -63,7 +63,8 @@ inline std::vector<std::string> record_lines(const Job& job)
                                                  record.in_direction(90).peak())) +
             (motion.vertical.empty() ? ""
                                      : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
-                                                   record.upwards_peak()));
+                                                   record.upwards_peak())) +
+            (motion.is_uncorrected ? ", not corrected" : "");
         lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
                                               motion.file, component, record.samples(),
                                               double(record.samples() - 1) * record.time_step(),

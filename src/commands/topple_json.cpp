@@ -69,10 +69,11 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
     }
     const Motion& motion = job.motions.front();
     return fmt::format("{{\"record\": {}, \"component\": {}, \"second_component\": {}, "
-                       "\"vertical\": {}}}",
+                       "\"vertical\": {}, \"uncorrected\": {}}}",
                        quoted_utf8(motion.file), quoted_utf8(motion.component),
                        motion.second.empty() ? "null" : quoted_utf8(motion.second),
-                       motion.vertical.empty() ? "null" : quoted_utf8(motion.vertical));
+                       motion.vertical.empty() ? "null" : quoted_utf8(motion.vertical),
+                       motion.is_uncorrected);
 }
 
 } // namespace

@@ -49,6 +49,11 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
         const std::size_t count = job.motions.size();
         write_attribute(file, "record",
                         count == 1 ? job.motions.front().file : fmt::format("{} records", count));
+        if (const auto raw = std::ranges::count_if(job.motions, &Motion::is_uncorrected)) {
+            write_attribute(file, "record_processing",
+                            count == 1 ? "not corrected"
+                                       : fmt::format("{} of {} not corrected", raw, count));
+        }
     } else {
         write_attribute(file, "pulse", name_of(scene.pulse));
         for (const auto& [name, number] : shape_numbers) {
@@ -178,6 +183,7 @@ std::string record_text(const Motion& motion)
     text += motion.component.empty() ? "" : ", component " + motion.component;
     text += motion.second.empty() ? "" : ", second component " + motion.second;
     text += motion.vertical.empty() ? "" : ", vertical " + motion.vertical;
+    text += motion.is_uncorrected ? ", not corrected" : "";
     for (const std::string& line : motion.header) {
         text += "\n    " + line;
     }

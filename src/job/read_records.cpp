@@ -171,10 +171,16 @@ struct FirstComponent {
     const RecordComponent& horizontal;
 };
 
-/// The accelerations over g of another component of the motion, if there is a choice: it is of the
-/// same file, or another file. name: of this component, in messages.
-std::vector<double> other_component(const std::optional<Entry>& choice_of_it, std::string_view name,
-                                    const FirstComponent& first, const Reading& reading)
+/// Another component of a motion.
+struct OtherComponent {
+    std::vector<double> acceleration; ///< over g; empty if there is none
+    bool is_uncorrected = false;
+};
+
+/// Another component of the motion, if there is a choice: it is of the same file, or another file.
+/// name: of this component, in messages.
+OtherComponent other_component(const std::optional<Entry>& choice_of_it, std::string_view name,
+                               const FirstComponent& first, const Reading& reading)
 {
     if (!choice_of_it) {
         return {};
@@ -212,7 +218,7 @@ std::vector<double> other_component(const std::optional<Entry>& choice_of_it, st
         refuse(choice, " = {} has the accelerations of the horizontal component. Give the {} one.",
                component_text(choice), name);
     }
-    return over_gravity(*component, reading.gravity);
+    return {over_gravity(*component, reading.gravity), component->is_uncorrected};
 }
 
 /// The motion, without a name.
@@ -230,10 +236,11 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
                in_quotes(given.file));
     }
     const FirstComponent first{given.file, content, *horizontal};
+    OtherComponent vertical = other_component(given.vertical, "vertical", first, reading);
+    OtherComponent second = other_component(given.second, "second", first, reading);
     auto record = std::make_shared<const Accelerogram>(
-        over_gravity(*horizontal, reading.gravity),
-        other_component(given.vertical, "vertical", first, reading), horizontal->time_step,
-        other_component(given.second, "second", first, reading));
+        over_gravity(*horizontal, reading.gravity), std::move(vertical.acceleration),
+        horizontal->time_step, std::move(second.acceleration));
     if (given.second && record->second() == record->upwards()) {
         refuse(*given.second, " = {} is also the vertical component. Correct one of them.",
                component_text(*given.second));
@@ -245,6 +252,8 @@ std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRe
         .label = label_of(content, *horizontal),
         .vertical = given.vertical ? component_text(*given.vertical) : "",
         .second = given.second ? component_text(*given.second) : "",
+        .is_uncorrected =
+            horizontal->is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
         .header = {},
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
         .checksum = checksum_of(*record)};

@@ -196,7 +196,7 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
                     "warning"_a = warning);
 }
 
-/// The components of a file: dictionaries with name, acceleration (over g), time_step and header.
+/// The components of a file: dictionaries of the members of Record in tools/overturn/records.py.
 py::list components_of(const std::string& path, std::optional<double> time_step,
                        const std::optional<std::string>& units, double gravity)
 {
@@ -222,7 +222,8 @@ py::list components_of(const std::string& path, std::optional<double> time_step,
         components.append(py::dict(
             "name"_a = component.name,
             "acceleration"_a = py::array_t<double>(py::ssize_t(values.size()), values.data()),
-            "time_step"_a = component.time_step, "format"_a = file.format, "header"_a = header));
+            "time_step"_a = component.time_step, "format"_a = file.format,
+            "is_uncorrected"_a = component.is_uncorrected, "header"_a = header));
     }
     return components;
 }

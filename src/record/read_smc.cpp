@@ -57,6 +57,7 @@ RecordFile read_smc(Lines lines)
                               .acceleration = take_free_numbers(lines, announced),
                               .unit = AccelerationUnit::cm_per_s2,
                               .time_step = time_step,
+                              .is_uncorrected = contains(ahead_by(before, 1).line(), "UNCORRECTED"),
                               .header = std::move(header).kept()};
     return {.format = "SMC", .components = {std::move(component)}};
 }

@@ -69,6 +69,12 @@ TEST(Smc, MayBeUncorrected)
     EXPECT_EQ(component_of(with(sound, "2 CORRECTED", "1 UNCORRECTED")).acceleration.size(), 10);
 }
 
+TEST(Smc, IsNotCorrectedIfItsTitleSaysSo)
+{
+    EXPECT_FALSE(component_of(sound).is_uncorrected);
+    EXPECT_TRUE(component_of(with(sound, "2 CORRECTED", "1 UNCORRECTED")).is_uncorrected);
+}
+
 TEST(Smc, MayHaveNoComments)
 {
     EXPECT_EQ(component_of(with(sound, "|\n| a comment\n", "")).header.size(), 27);

@@ -20,6 +20,7 @@ struct Motion {
     std::string label;     ///< the component, or its number if it has no name of its own
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
     std::string second;    ///< of the second horizontal component
+    bool is_uncorrected;   ///< whether one of the files states that it was not corrected
     std::vector<std::string> header; ///< lines of the file in UTF-8
     IntensityMeasures measures;      ///< not scaled
     std::string checksum;            ///< XXH64 of the accelerations over g, in hexadecimal digits

@@ -30,7 +30,9 @@ struct RecordComponent {
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
-    double start = 0;     ///< time of the first sample, if the file states times [s]
+    /// Whether the file states that it was neither filtered nor corrected for the instrument.
+    bool is_uncorrected = false;
+    double start = 0; ///< time of the first sample, if the file states times [s]
     /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
     std::vector<std::string> header;
 };
