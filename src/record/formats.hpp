@@ -18,6 +18,10 @@ RecordFile read_v2a(Lines lines);
 /// USGS: 27 lines of header, comments that begin with |, then numbers in cm/s2.
 RecordFile read_smc(Lines lines);
 
+/// K-NET and KiK-net: a header of keys, then counts of the digitiser. One component. The mean of
+/// all counts is removed; a scale factor in the header gives gal per count.
+RecordFile read_knet(Lines lines);
+
 /// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 

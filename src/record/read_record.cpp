@@ -41,6 +41,37 @@ bool next_content(Lines& lines)
     return false;
 }
 
+/// Words by which a line of a header shows its format.
+struct Mark {
+    std::string_view words;
+    bool is_at_begin; ///< of a line
+    RecordFile (*read)(Lines lines);
+};
+
+constexpr std::array<Mark, 3> marks{{
+    {"Origin Time", true, read_knet},
+    {"Sampling Freq", true, read_knet},
+    {"Scale Factor", true, read_knet},
+}};
+
+/// The reader of the first mark in the lines that may be a header; null if they have none.
+const Mark* first_mark(Lines lines)
+{
+    constexpr std::size_t most_lines = 100;
+    constexpr std::size_t most_characters = 200;
+    while (lines.number() < most_lines && lines.next()) {
+        const std::string_view line = trimmed(lines.line()).substr(0, most_characters);
+        for (const Mark& mark : marks) {
+            const std::size_t end = place_after(line, mark.words);
+            if (!is_comment(line) && end != std::string_view::npos &&
+                (!mark.is_at_begin || end == mark.words.size())) {
+                return &mark;
+            }
+        }
+    }
+    return nullptr;
+}
+
 [[noreturn]] void refuse_format(Lines lines)
 {
     if (!next_content(lines)) {
@@ -49,8 +80,8 @@ bool next_content(Lines& lines)
                                     : "has no samples. Give a file with a recorded motion.");
     }
     lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
-                 "SMC, or text of one or two columns, in which # or % precedes comments. Convert "
-                 "the file to one of these.",
+                 "SMC, K-NET, KiK-net, or text of one or two columns, in which # or % precedes "
+                 "comments. Convert the file to one of these.",
                  quoted_bytes(trimmed(lines.line())));
 }
 
@@ -70,6 +101,9 @@ RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
             return read_v2a(lines);
         }
     }
+    if (const Mark* const mark = first_mark(lines)) {
+        return mark->read(lines);
+    }
     Lines data = lines;
     if (next_content(data)) {
         const std::string_view line = trimmed(data.line());
@@ -86,7 +120,7 @@ std::string words_of_comment(std::string_view line)
     std::string words(line);
     for (const std::string_view blank : {"\u00a0", "\u2009", "\u202f"}) {
         for (std::size_t at = 0; (at = words.find(blank, at)) != words.npos;) {
-            words.replace(at, blank.size(), " ");
+            words.replace(at, blank.size(), 1, ' ');
         }
     }
     return words.substr(std::min(words.find_first_not_of(" \t#%"), words.size()));
@@ -142,8 +176,8 @@ void expect_text(Lines lines)
                     "a carriage return is within the line. Convert line ends to LF or CR LF.");
             }
             if (code < 0x20 && letter != '\t') {
-                lines.refuse("the character 0x{:02x} is not text. Give a file of text: AT2, V2A, "
-                             "SMC or columns.",
+                lines.refuse("the character 0x{:02x} is not text. Give a file of text: a "
+                             "published record, or columns.",
                              code);
             }
         }

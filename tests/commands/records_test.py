@@ -362,6 +362,50 @@ class ABadRecord(ScratchWithRecords):
                                        "--set=numerics.method=taylor"), 0, "one.AT2", "size")
 
 
+class AStationOfThreeFiles(Scratch):
+    """K-NET gives each component a file of its own, in counts."""
+
+    def setUp(self):
+        super().setUp()
+        for number, direction in enumerate(("E-W", "N-S", "U-D")):
+            counts = np.round(1e4 + 1e5 * np.sin(np.arange(400) / (10 + number))).astype(int)
+            header = ("Origin Time       2020/01/01 00:00:00", "Sampling Freq(Hz) 100Hz", "Duration Time(s)  4",
+                      f"Dir.              {direction}", "Scale Factor      3920(gal)/600000", "Memo.             ")
+            name = f"NONE01.{direction.replace('-', '')}"
+            (self.folder / name).write_text("\n".join(header) + "\n" + "\n".join(map(str, counts)) + "\n")
+        (self.folder / "job.toml").write_text('''
+[scene]
+record = "NONE01.EW"
+second_component = "NONE01.NS"
+vertical = "NONE01.UD"
+[plane]
+direction = { values = [0, 90] }
+scale = 1
+size = 1
+slenderness = 0.3
+restitution_of_maximum = 1
+''')
+
+    def test_is_one_motion_that_is_not_corrected(self):
+        self.assert_exit(self.overturn("check", "job.toml"), 0,
+                         "NONE01.EW, component E-W, second NONE01.NS up to", ", vertical NONE01.UD up to",
+                         " g, not corrected: 400 samples, 3.99 s, ")
+        self.assert_exit(self.overturn("run", "job.toml", "-o", "out.h5"), 0)
+        data = self.opened("out.h5")
+        self.assertEqual(data.attrs["record_processing"], "not corrected")
+        counts = np.loadtxt(self.folder / "NONE01.EW", skiprows=6)
+        pga = np.abs(counts - counts.mean()).max() * 3920 / 600000 / 981
+        self.assertAlmostEqual(float(data.record_pga), pga, places=12)
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertIn("vertical NONE01.UD, not corrected\n    Origin Time", file["run/records"][()].tobytes().decode())
+
+    def test_is_not_corrected_in_the_answers_of_topple(self):
+        arguments = ("--width", "0.6", "--height", "1.8", "--record", "NONE01.EW", "--scale", "1")
+        self.assert_exit(self.overturn("topple", *arguments), 0, "NONE01.EW, component E-W, not corrected: ")
+        result = self.overturn("topple", *arguments, "--json")
+        self.assertIs(json.loads(result.stdout)["motion"]["uncorrected"], True)
+
+
 class AHistoryUnderARecord(ScratchWithRecords):
     def test_shows_the_ground_motion_and_the_peak_of_the_spectrum(self):
         at = "--at=scale=1,size=2,slenderness=0.2"

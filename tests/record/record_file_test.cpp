@@ -88,24 +88,24 @@ TEST(RecordText, IsRefusedIfItHasNoSamples)
 
 TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
 {
-    EXPECT_EQ(refusal_of("# a\n\nEVENT_NAME: none\nSTATION: none\n"),
-              "a.txt:3: \"EVENT_NAME: none\" is not the beginning of a known format: AT2 (NPTS and "
-              "DT in line 4), "
-              "V2A, SMC, or text of one or two columns, in which # or % precedes comments. Convert "
+    EXPECT_EQ(refusal_of("# a\n\nEVENT: none\nSTATION: none\n"),
+              "a.txt:3: \"EVENT: none\" is not the beginning of a known format: AT2 (NPTS and "
+              "DT in line 4), V2A, SMC, K-NET, KiK-net, or text of "
+              "one or two columns, in which # or % precedes comments. Convert "
               "the file to one of these.");
 }
 
 TEST(RecordText, IsRefusedIfItIsBinary)
 {
     EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)),
-              "a.txt:2: the character 0x1a is not text. Give a file of text: AT2, V2A, SMC or "
-              "columns.");
+              "a.txt:2: the character 0x1a is not text. Give a file of text: a published record, "
+              "or columns.");
     EXPECT_EQ(refusal_of(std::string("1\0", 2)),
-              "a.txt:1: the character 0x00 is not text. Give a file of text: AT2, V2A, SMC or "
-              "columns.");
+              "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
+              "or columns.");
     EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0", 6)), // UTF-16
-              "a.txt:1: the character 0x00 is not text. Give a file of text: AT2, V2A, SMC or "
-              "columns.");
+              "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
+              "or columns.");
 }
 
 TEST(RecordText, IsRefusedIfItsLinesEndWithCarriageReturnsOnly)
