@@ -22,6 +22,11 @@ RecordFile read_smc(Lines lines);
 /// all counts is removed; a scale factor in the header gives gal per count.
 RecordFile read_knet(Lines lines);
 
+/// COSMOS, version 1.20: channels, each with a text, integers, reals, comments, and samples in the
+/// unit and format that the line before them states. Velocities and displacements are skipped.
+/// Counts, of raw records, become accelerations in g: their mean is removed.
+RecordFile read_cosmos(Lines lines);
+
 /// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 

@@ -48,10 +48,11 @@ struct Mark {
     RecordFile (*read)(Lines lines);
 };
 
-constexpr std::array<Mark, 3> marks{{
+constexpr std::array<Mark, 4> marks{{
     {"Origin Time", true, read_knet},
     {"Sampling Freq", true, read_knet},
     {"Scale Factor", true, read_knet},
+    {"(Format v", false, read_cosmos},
 }};
 
 /// The reader of the first mark in the lines that may be a header; null if they have none.
@@ -80,8 +81,8 @@ const Mark* first_mark(Lines lines)
                                     : "has no samples. Give a file with a recorded motion.");
     }
     lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
-                 "SMC, K-NET, KiK-net, or text of one or two columns, in which # or % precedes "
-                 "comments. Convert the file to one of these.",
+                 "SMC, K-NET, KiK-net, COSMOS, or text of one or two columns, in which # or % "
+                 "precedes comments. Convert the file to one of these.",
                  quoted_bytes(trimmed(lines.line())));
 }
 

@@ -1,0 +1,173 @@
+#include "channel_name.hpp"
+#include "cosmos_values.hpp"
+#include "counts.hpp"
+#include "formats.hpp"
+#include "numbers.hpp"
+#include "stated_unit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace overturn {
+
+namespace {
+
+/// Takes the comments. The channel of `<SCNL>BMR.BNZ.AK.--`; empty if they contain none.
+std::string take_comments(Lines& lines, Header& header)
+{
+    std::string channel;
+    for (Lines ahead = lines; next_text(ahead) && (contains(ahead.line(), "comment line") ||
+                                                   trimmed(ahead.line()).starts_with('|'));) {
+        header.take(lines, ahead.number() - lines.number());
+        const std::size_t station = place_after(lines.line(), "<SCNL>");
+        const std::size_t point = lines.line().find('.', station);
+        if (station != point && point != std::string_view::npos) {
+            const std::string_view rest = lines.line().substr(point + 1);
+            channel = rest.substr(0, rest.find_first_of(". \t"));
+        }
+    }
+    return channel;
+}
+
+struct Unit {
+    std::optional<AccelerationUnit> acceleration; ///< nullopt: counts
+    int code;                                     ///< in integer 3 of the header
+};
+
+/// The unit in the line before the samples. Refuses other units, and one that contradicts its code.
+std::optional<AccelerationUnit> unit_of(const Lines& lines, const std::optional<double>& code)
+{
+    using enum AccelerationUnit;
+    constexpr std::array<Unit, 4> known{
+        {{g, 2}, {cm_per_s2, 4}, {cm_per_s2, 10}, {std::nullopt, 50}}};
+    const auto stated = stated_units(lines.line(), UnitPlaces::after_units);
+    const std::string text = stated.empty() ? "" : lower(stated[0].text);
+    if (!(stated.size() == 1 && (stated[0].unit || text == "counts" || text == "count"))) {
+        lines.refuse("the unit {} of the samples is not understood; cm/sec2 and counts are, for "
+                     "example. Give the values as text with their unit.",
+                     quoted_bytes(text));
+    }
+    const auto is_same = [&](const Unit& unit) {
+        return unit.code == code && unit.acceleration == stated[0].unit;
+    };
+    if (code && std::ranges::none_of(known, is_same)) {
+        lines.refuse("the unit {} contradicts integer 3 of the header, {}. Correct one of them.",
+                     quoted_bytes(stated[0].text), *code);
+    }
+    return stated[0].unit;
+}
+
+/// Interval [s] of the samples, or of the recorder if the former is unknown. announcing: the line
+/// before the samples, which states their duration in seconds, rounded.
+double time_step_of(const CosmosValues& reals, const Lines& announcing, std::size_t count)
+{
+    const auto interval = reals[62]; // [ms]
+    const auto of_recorder = reals[34];
+    const double step = interval ? *interval / 1000 : of_recorder.value_or(0);
+    if (!(step > 0)) {
+        reals.lines().refuse("the time step, real 62 of the header in ms, is unknown or 0. Correct "
+                             "it.");
+    }
+    const std::size_t place = place_after(announcing.line(), "approx");
+    const std::string_view rounded =
+        first_word(announcing.line().substr(std::min(place, announcing.line().size())));
+    if (const auto length = reals[63]; length && *length > 0) {
+        expect_duration(reals.lines(), *length, {count, step});
+    } else if (is_number(rounded)) {
+        expect_duration(announcing, number_of(announcing, rounded), {count, step}, 1);
+    }
+    return step;
+}
+
+/// Counts in g: real 22 is the voltage of a count [uV], real 42 the sensitivity [V/g], real 47 the
+/// gain.
+std::vector<double> over_g(const CosmosValues& reals, std::vector<double> counts)
+{
+    const auto voltage = reals[22], sensitivity = reals[42];
+    const double gain = reals[47].value_or(1);
+    if (!(voltage.value_or(0) > 0 && sensitivity.value_or(0) > 0 && gain == 1)) {
+        reals.lines().refuse("the samples are counts, but reals 22 (microvolts per count), 42 "
+                             "(volts per g) and 47 (gain, must be 1) of the header are {}, {} and "
+                             "{}. Give the file of volume 1 or 2, in cm/sec2.",
+                             voltage.value_or(-999), sensitivity.value_or(-999), gain);
+    }
+    return acceleration_of_counts(reals.lines(), std::move(counts), *voltage / 1e6, *sensitivity);
+}
+
+/// Whether the title of a channel says so.
+bool is_uncorrected(Lines lines)
+{
+    next_text(lines);
+    return contains(lines.line(), "uncorrected") || lower(trimmed(lines.line())).starts_with("raw");
+}
+
+/// A channel; nullopt if it is not an acceleration.
+std::optional<RecordComponent> take_channel(Lines& lines)
+{
+    const Lines before = lines;
+    Header header;
+    const CosmosValues integers(lines, header, "Integer-header");
+    std::string name = channel_name(before, lines.number());
+    const CosmosValues reals(lines, header, "Real-header");
+    const std::string code = take_comments(lines, header);
+    header.take_text(lines);
+    const Lines announcing = lines;
+    std::vector<double> samples = take_announced(lines, "the series");
+    const bool is_acceleration = contains(announcing.line(), "accel");
+    if (integers[2] && is_acceleration != (*integers[2] == 1)) {
+        announcing.refuse("{} contradicts integer 2 of the header, {}: 1 is acceleration. Correct "
+                          "one of them.",
+                          quoted_bytes(trimmed(announcing.line())), *integers[2]);
+    }
+    if (!is_acceleration) {
+        return std::nullopt;
+    }
+    const bool is_named = !name.empty() && name != "?" && lower(name) != "other";
+    const double time_step = time_step_of(reals, announcing, samples.size());
+    const auto unit = unit_of(announcing, integers[3]);
+    return RecordComponent{.name = is_named || code.empty() ? std::move(name) : code,
+                           .acceleration =
+                               unit ? std::move(samples) : over_g(reals, std::move(samples)),
+                           .unit = unit.value_or(AccelerationUnit::g),
+                           .time_step = time_step,
+                           // 0: counts, 1: accelerations, 2: corrected ones
+                           .is_uncorrected = integers[1].value_or(2) < 2 || is_uncorrected(before),
+                           .header = std::move(header).kept()};
+}
+
+/// Proceeds beyond the line that ends a channel. Refuses further samples.
+void expect_end(Lines& lines)
+{
+    Lines ahead = lines;
+    if (next_text(ahead) && !contains(ahead.line(), "(Format v")) {
+        lines = ahead;
+        if (!contains(lines.line(), "end-of-data") && !contains(lines.line(), "end of data")) {
+            lines.refuse("{} follows the last of the samples that were announced. Correct their "
+                         "number, or give the file as it was published.",
+                         quoted_bytes(trimmed(lines.line())));
+        }
+    }
+}
+
+} // namespace
+
+RecordFile read_cosmos(Lines lines)
+{
+    Lines title = lines;
+    next_text(title);
+    RecordFile file{.format = "COSMOS", .components = {}};
+    do {
+        if (auto component = take_channel(lines)) {
+            file.components.push_back(std::move(*component));
+        }
+        expect_end(lines);
+    } while (!is_at_end(lines));
+    if (file.components.empty()) {
+        title.refuse("{} contains no acceleration. Give the file of the acceleration.",
+                     quoted_bytes(trimmed(title.line())));
+    }
+    return file;
+}
+
+} // namespace overturn
