@@ -27,6 +27,10 @@ RecordFile read_knet(Lines lines);
 /// Counts, of raw records, become accelerations in g: their mean is removed.
 RecordFile read_cosmos(Lines lines);
 
+/// CSMIP (CGS, CDMG), volume 2: channels, each with a text, integers, reals, and acceleration,
+/// velocity and displacement. Only the acceleration is kept.
+RecordFile read_csmip(Lines lines);
+
 /// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 
