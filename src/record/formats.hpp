@@ -31,6 +31,9 @@ RecordFile read_cosmos(Lines lines);
 /// velocity and displacement. Only the acceleration is kept.
 RecordFile read_csmip(Lines lines);
 
+/// ESM: a header of keys, then one number per line in the unit of the header. One component.
+RecordFile read_esm(Lines lines);
+
 /// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 

@@ -48,13 +48,16 @@ struct Mark {
     RecordFile (*read)(Lines lines);
 };
 
-constexpr std::array<Mark, 7> marks{{{"Origin Time", true, read_knet},
-                                     {"Sampling Freq", true, read_knet},
-                                     {"Scale Factor", true, read_knet},
-                                     {"(Format v", false, read_cosmos},
-                                     {"Uncorrected accelerogram", true, read_csmip},
-                                     {"equally-spaced intervals of", false, read_csmip},
-                                     {"data equally spaced at", false, read_csmip}}};
+constexpr std::array<Mark, 10> marks{{{"Origin Time", true, read_knet},
+                                      {"Sampling Freq", true, read_knet},
+                                      {"Scale Factor", true, read_knet},
+                                      {"EVENT_NAME:", true, read_esm},
+                                      {"SAMPLING_INTERVAL_S:", true, read_esm},
+                                      {"NDATA:", true, read_esm},
+                                      {"(Format v", false, read_cosmos},
+                                      {"Uncorrected accelerogram", true, read_csmip},
+                                      {"equally-spaced intervals of", false, read_csmip},
+                                      {"data equally spaced at", false, read_csmip}}};
 
 /// The reader of the first mark in the lines that may be a header; null if they have none.
 const Mark* first_mark(Lines lines)
@@ -82,8 +85,8 @@ const Mark* first_mark(Lines lines)
                                     : "has no samples. Give a file with a recorded motion.");
     }
     lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
-                 "SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), or text of one or two columns, in "
-                 "which # or % precedes comments. Convert the file to one of these.",
+                 "SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text of one or two "
+                 "columns, in which # or % precedes comments. Convert the file to one of these.",
                  quoted_bytes(trimmed(lines.line())));
 }
 

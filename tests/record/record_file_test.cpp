@@ -90,7 +90,7 @@ TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
 {
     EXPECT_EQ(refusal_of("# a\n\nEVENT: none\nSTATION: none\n"),
               "a.txt:3: \"EVENT: none\" is not the beginning of a known format: AT2 (NPTS and "
-              "DT in line 4), V2A, SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), or text of "
+              "DT in line 4), V2A, SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text of "
               "one or two columns, in which # or % precedes comments. Convert "
               "the file to one of these.");
 }

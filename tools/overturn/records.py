@@ -22,7 +22,7 @@ class Record:
     acceleration: NDArray[np.float64]  #: over g [1]
     time_step: float  #: between two samples [s]
     name: str  #: of the component, as in the file; may be empty
-    format: str  #: "AT2", "V2A", "SMC", "K-NET", "KiK-net", "COSMOS", "CSMIP" or "text"
+    format: str  #: "AT2", "V2A", "SMC", "K-NET", "KiK-net", "COSMOS", "CSMIP", "ESM" or "text"
     is_uncorrected: bool  #: whether the file states that it was not corrected
     header: list[str]  #: lines of the file before the samples
 

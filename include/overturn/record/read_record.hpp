@@ -1,5 +1,5 @@
 // Reads files of recorded ground motions: PEER AT2, GeoNet V2A, USGS SMC, K-NET, KiK-net, COSMOS,
-// CSMIP, and plain text. Values are those of the file: nothing is scaled, filtered, resampled
+// CSMIP, ESM, and plain text. Values are those of the file: nothing is scaled, filtered, resampled
 // or corrected. Only counts of a digitiser are converted, and lose their mean.
 #pragma once
 
@@ -42,7 +42,7 @@ struct RecordComponent {
 std::vector<double> over_gravity(const RecordComponent& component, double gravity);
 
 struct RecordFile {
-    /// "AT2", "V2A", "SMC", "K-NET", "KiK-net", "COSMOS", "CSMIP" or "text"
+    /// "AT2", "V2A", "SMC", "K-NET", "KiK-net", "COSMOS", "CSMIP", "ESM" or "text"
     std::string format;
     std::vector<RecordComponent> components;
     bool has_given_unit = false; ///< whether the unit is that of the options
@@ -69,6 +69,7 @@ inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [b
 ///   COSMOS  a line contains "(Format v"
 ///   CSMIP  a line begins with "Uncorrected accelerogram", or contains "equally-spaced intervals
 ///         of" or "data equally spaced at"
+///   ESM   a line begins with "EVENT_NAME:", "SAMPLING_INTERVAL_S:" or "NDATA:"
 ///   text  the first line that is neither blank nor a comment (# or %) begins with a number: one
 ///         column of accelerations, or two of times and accelerations. Times are evenly spaced if
 ///         each differs from first + i * step by at most half a unit of its last printed digit; the

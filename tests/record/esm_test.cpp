@@ -1,0 +1,116 @@
+// Files of ESM.
+#include "reading.hpp"
+
+namespace overturn {
+namespace {
+
+const std::string sound = "EVENT_NAME: NOWHERE\n"
+                          "STATION_CODE: NONE\n"
+                          "EARTHQUAKE_BACKAZIMUTH_DEGREE: \n"
+                          "SAMPLING_INTERVAL_S: 0.005000\n"
+                          "NDATA: 4\n"
+                          "DURATION_S: 0.020\n"
+                          "STREAM: HNE\n"
+                          "UNITS: cm/s^2\n"
+                          "FULL_SCALE_G: \n"
+                          "PGA_CM/S^2: -1.500000\n"
+                          "BASELINE_CORRECTION: BASELINE REMOVED\n"
+                          "DATA_TYPE: ACCELERATION\n"
+                          "PROCESSING: manual (Nobody, 2011)\n"
+                          "USER5: \n"
+                          "0.000000\n-1.500000\n0.250000\n1.000000\n";
+
+TEST(Esm, GivesItsSamplesInTheUnitOfItsHeader)
+{
+    const RecordFile file = parse_record(sound, "a.txt");
+    EXPECT_EQ(file.format, "ESM");
+    ASSERT_EQ(file.components.size(), 1);
+    EXPECT_EQ(file.components[0].unit, AccelerationUnit::cm_per_s2);
+    EXPECT_EQ(file.components[0].acceleration, (Values{0, -1.5, 0.25, 1}));
+    EXPECT_EQ(component_of(with(sound, "cm/s^2", "m/s^2")).unit, AccelerationUnit::m_per_s2);
+    EXPECT_EQ(component_of(with(sound, "cm/s^2", "g")).unit, AccelerationUnit::g);
+}
+
+TEST(Esm, HasTheTimeStepAndTheStreamOfItsHeader)
+{
+    EXPECT_EQ(component_of(sound).time_step, 0.005);
+    EXPECT_EQ(component_of(sound).name, "HNE");
+    EXPECT_EQ(component_of(with(sound, "STREAM: HNE\n", "")).name, "");
+}
+
+TEST(Esm, IsNotCorrectedIfItWasNotProcessed)
+{
+    EXPECT_FALSE(component_of(sound).is_uncorrected);
+    for (const char* processing : {"", "none", "NONE"}) {
+        EXPECT_TRUE(component_of(with(sound, "manual (Nobody, 2011)", processing)).is_uncorrected)
+            << processing;
+    }
+}
+
+TEST(Esm, KeepsItsHeader)
+{
+    const std::vector<std::string> header = component_of(sound).header;
+    ASSERT_EQ(header.size(), 14);
+    EXPECT_EQ(header.front(), "EVENT_NAME: NOWHERE");
+    EXPECT_EQ(header.back(), "USER5: ");
+}
+
+TEST(Esm, MayHaveTheLineEndsOfAnySystemAndBlankLines)
+{
+    for (const char* end : {"\r\n", "\n\n", " \n"}) {
+        EXPECT_EQ(component_of(with_line_ends(sound, end)).acceleration,
+                  component_of(sound).acceleration);
+    }
+}
+
+TEST(Esm, MayLackKeysThatAreNotNeeded)
+{
+    for (const char* line : {"EVENT_NAME: NOWHERE\n", "DURATION_S: 0.020\n", "USER5: \n",
+                             "DATA_TYPE: ACCELERATION\n"}) {
+        EXPECT_EQ(component_of(with(sound, line, "")).acceleration.size(), 4);
+    }
+    EXPECT_EQ(component_of(with(sound, "DURATION_S: 0.020", "DURATION_S: ")).acceleration.size(),
+              4);
+}
+
+// clang-format off
+TEST(Esm, IsRefusedWithFileLineAndReason)
+{
+    expect_refused({
+        {"Velocities", with(with(sound, "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"), "cm/s^2", "cm/s"),
+            "a.txt:12: \"DATA_TYPE: VELOCITY\" is not ACCELERATION. Give the file of the acceleration (.ACC.)."},
+        {"Displacements", with(with(sound, "DATA_TYPE: ACCELERATION\n", ""), "cm/s^2", "cm"),
+            "a.txt:8: the unit \"cm\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their usual "
+            "spellings, such as cm/s^2. Give the file of the acceleration (.ACC.)."},
+        {"Spectra", with(sound, "DATA_TYPE: ACCELERATION", "DATA_TYPE: ACCELERATION RESPONSE SPECTRUM"),
+            "a.txt:12: \"DATA_TYPE: ACCELERATION RESPONSE SPECTRU...\" is not ACCELERATION. Give the file of the "
+            "acceleration (.ACC.)."},
+        {"NoUnit", with(sound, "UNITS: cm/s^2", "UNITS: "),
+            "a.txt:8: the unit \"\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their usual "
+            "spellings, such as cm/s^2. Give the file of the acceleration (.ACC.)."},
+        {"NoLineOfTheUnit", with(sound, "UNITS: cm/s^2\n", ""),
+            "a.txt:13: the header, which ends with this line, has no line that begins with \"UNITS:\". Give the file "
+            "as it was published."},
+        {"NoTimeStep", with(sound, "SAMPLING_INTERVAL_S: 0.005000\n", ""),
+            "a.txt:13: the header, which ends with this line, has no line that begins with \"SAMPLING_INTERVAL_S:\". "
+            "Give the file as it was published."},
+        {"ATimeStepOfZero", with(sound, "0.005000", "0.000000"),
+            "a.txt:4: the time step is 0 s, but must be above 0. Correct it."},
+        {"AContradictoryTimeStep", with(sound, "0.005000", "0.020000"),
+            "a.txt:6: the duration 0.02 s is not that of 4 samples at 0.02 s, 0.08 s. Correct it, or give the file as "
+            "it was published."},
+        {"TwoTimeSteps", with(sound, "USER5: ", "SAMPLING_INTERVAL_S: 0.01"),
+            "a.txt:14: the header states \"SAMPLING_INTERVAL_S:\" for the second time; the first is line 4. Remove one "
+            "of them."},
+        {"FewerSamples", with(sound, "1.000000\n", ""),
+            "a.txt:17: the file ends after 3 samples, but NDATA announces 4 in line 5. Give the complete file."},
+        {"MoreSamples", sound + "1.0\n",
+            "a.txt:19: \"1.0\" follows the last of the 4 samples that NDATA announces in line 5. Correct NDATA or "
+            "remove the rest."},
+        {"NoCount", with(sound, "NDATA: 4", "NDATA: "),
+            "a.txt:5: NDATA is \"\", but must be an integer from 1 to 10000000. Correct it, or give another record."}});
+}
+// clang-format on
+
+} // namespace
+} // namespace overturn
