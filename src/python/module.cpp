@@ -250,6 +250,8 @@ PYBIND11_MODULE(_core, module)
     module.def("numerics", &numerics_of);
     module.def("evaluate", &evaluate);
     module.def("components_of", &components_of);
+    // Earlier versions of pybind11 exchange wrong values with NumPy 2, without an error.
+    module.attr("supports_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;
     module.attr("safe_regions") = regions(&is_safe);
     module.attr("unsafe_regions") = regions(&is_unsafe);
 

@@ -235,11 +235,12 @@ fields = ["region", "margin", "peak", "angle"]
         # Sizes are interchanged by hand: the sides are plus and minus.
         one = self.rock("one.h5", 0.3, 0.2, [0, 30, 90, 200])
         self.ROCK = self.ROCK.replace("size_plus = 1\nsize_minus = 0.9", "size_plus = 0.9\nsize_minus = 1")
-        other = self.rock("other.h5", 0.2, 0.3, [180, 210, 270, 20])
+        other = self.rock("other.h5", 0.2, 0.3, [20, 180, 210, 270])
         by_value = {int(value): at for at, value in enumerate(other.direction.values)}
         order = [by_value[(int(value) + 180) % 360] for value in one.direction.values]
-        for field in ("margin", "peak"):
-            np.testing.assert_array_equal(one[field].values, other[field].values[order])
+        np.testing.assert_array_equal(one.margin.values, other.margin.values[order])
+        # Converted from one alpha to the other: rounded twice.
+        np.testing.assert_allclose(one.peak.values, other.peak.values[order], rtol=2 * np.finfo(float).eps)
         np.testing.assert_array_equal(one.angle.values, -other.angle.values[order])
         self.assertGreater(len(np.unique(one.region.values)), 2)
 
@@ -258,7 +259,7 @@ fields = ["region", "margin", "peak", "angle"]
                                "--record", "one.AT2", "--set", "scene.second_component=up.AT2", "--direction", "30",
                                "--scale", "4", "--json")
         answer = json.loads(answer.stdout)
-        self.assertAlmostEqual(answer["pga"], float(self.opened("one.h5").pga[-1]), places=12)
+        self.assertAlmostEqual(answer["pga"], self.opened("one.h5").pga.values.ravel()[-1], places=12)
         self.assertEqual(answer["topples"], bool(unsafe[-1]))
         self.assertEqual(answer["motion"]["second_component"], "up.AT2")
 

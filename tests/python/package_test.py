@@ -33,6 +33,11 @@ class ThePackage(unittest.TestCase):
         self.assertIn(f"(Python: {sys.executable}). Install it for this Python; Debian's python3-numpy is for",
                       done.stderr)
 
+    def test_refuses_a_numpy_that_its_module_does_not_support(self):
+        done = run_python("import numpy; from overturn import _core; _core.supports_numpy_2 = False; "
+                          "numpy.__version__ = '2.4.6'; import overturn; overturn.evaluate")
+        self.assertIn("has NumPy 2.4.6, but the compiled module", done.stderr)
+
     def test_reports_a_missing_program(self):
         done = run_python("import overturn; overturn.check('job.toml')", OVERTURN="/nowhere/overturn")
         self.assertIn('ProgramError: there is no program "/nowhere/overturn"', done.stderr)

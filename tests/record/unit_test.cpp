@@ -127,10 +127,10 @@ TEST(AStatedUnit, InAnySpellingCaseAndContextIsUnderstoodOrRefusedButNeverG)
 TEST(AStatedUnit, ThatIsNotUnderstoodIsNamedWithTheWaysToStateIt)
 {
     EXPECT_EQ(refusal_of(at2("ACCELERATION TIME SERIES IN G/10")),
-              "a.txt:3: the unit \"G/10\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, "
-              "gal and their usual spellings, such as CM/SEC/SEC. State the unit of the samples: "
-              "scene.units in a job, --set scene.units=... on the command line, or units=... in "
-              "Python.");
+              "a.txt:3: the unit \"G/10\" is not understood, or is changed by what follows it. "
+              "Understood are g, m/s2, cm/s2, mm/s2, gal and their usual spellings, such as "
+              "CM/SEC/SEC. State the unit of the samples: scene.units in a job, --set "
+              "scene.units=... on the command line, or units=... in Python.");
     EXPECT_THAT(refusal_of(at2("IN UNITS OF G (CM/S/S)")),
                 testing::StartsWith("a.txt:3: the unit \"CM/S/S\" contradicts \"G\". Understood"));
 }

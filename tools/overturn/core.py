@@ -3,6 +3,7 @@
 import pathlib
 import sys
 
+import numpy as np
 import overturn
 
 try:
@@ -19,4 +20,8 @@ except ImportError as error:
         "the headers of Python and build overturn (tools/quickstart does), or set OVERTURN to the path of "
         "another build's program.") from error
 
+if np.lib.NumpyVersion(np.__version__) >= "2.0.0" and not _core.supports_numpy_2:
+    raise ImportError(f"{sys.executable} has NumPy {np.__version__}, but the compiled module of overturn was built with "
+                      "a pybind11 before 2.12, which supports NumPy 1 only. Use the Python that it was built for, "
+                      "install \"numpy<2\", or build overturn with a newer pybind11.")
 sys.modules[__name__] = _core
