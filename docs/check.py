@@ -22,6 +22,7 @@ NOT_RUN = {
     ("docs/clusters.md", "sbatch"): "needs Slurm; tools/check slurm runs the scripts",
     ("docs/installing.md", "cmake --preset release"): "configures the build used by the other blocks",
     ("docs/developing.md", "cmake --preset dev"): "a second build; tools/check docs has already made the first",
+    ("docs/opensees.md", "/usr/bin/python3 -m venv"): "installs OpenSeesPy from PyPI; takes a quarter of an hour",
     ("CONTRIBUTING.md", "tools/check"): "runs all tests",
     ("docs/python.md", "import obspy"): "needs ObsPy; tests/python/traces_test.py runs it where ObsPy is installed",
 }
