@@ -193,12 +193,12 @@ def main():
     for row in compare(ops, record):
         rows.append(row)
         print(table_row(row, rows[0]), flush=True)
+    write_text(arguments.output + ".json", json.dumps(rows), "a comparison",
+               lambda beginning: beginning.startswith(b'[{"setting":'))
     summary(rows[0], record)
     processor = subprocess.run("lscpu | sed -n 's/Model name: *//p'", shell=True, capture_output=True, text=True).stdout
     print(processor.strip(), datetime.date.today(), "Python", platform.python_version(), "OpenSeesPy",
           importlib.metadata.version("openseespy"))
-    write_text(arguments.output + ".json", json.dumps(rows), "a comparison",
-               lambda beginning: beginning.startswith(b'[{"setting":'))
     draw(rows, record, arguments.output + ".png")
 
 
