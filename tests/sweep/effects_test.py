@@ -28,10 +28,12 @@ TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
 BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1,
                     "error": 8, "impacts": 8 + 2, "steps": 8 + 4,  # as computed and as stored
                     "peak": 8 + 8, "fall_time": 8 + 8}
+# A run of its own: end states, flags and regions, peaks, points, demands as computed and completed, and the field.
+BYTES_OF_A_POINT["friction"] = BYTES_OF_A_POINT["normal"] = 3 * 8 + 2 + 8 + 4 + 2 * (8 + 8) + 8
 BYTES_BESIDE = 0.25
-# Impacts, errors and peaks have kernels of their own. The compiler may make the one that counts
+# Friction and normal force have a run of their own. Impacts, errors and peaks have kernels of their own. The compiler may make the one that counts
 # impacts cheaper than the one without: it has no cost that a test could rely on.
-MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak")]
+MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak", "friction", "normal")]
 
 
 @functools.cache
