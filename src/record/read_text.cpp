@@ -205,6 +205,12 @@ std::vector<std::string> words_of(std::string_view comment)
     return words;
 }
 
+/// The word without a number at its beginning: "hz" of "100hz".
+std::string_view without_number(std::string_view word)
+{
+    return word.substr(std::min(word.find_first_not_of("0123456789.+-"), word.size()));
+}
+
 /// What a comment says of the time step, as in DT= .01, "time step: 10 ms" or "sampling rate 100
 /// Hz".
 struct StatedSampling {
@@ -217,10 +223,7 @@ StatedSampling stated_sampling(std::string_view comment)
     const std::vector<std::string> words = words_of(comment);
     const auto has = [&](auto... names) {
         return std::ranges::any_of(words, [&](const std::string& word) {
-            const std::string_view letters =
-                std::string_view(word).substr(std::min(word.find_first_not_of("0123456789.+-"),
-                                                       word.size())); // of 100hz
-            return ((letters == names) || ...);
+            return ((without_number(word) == names) || ...);
         });
     };
     const auto begins = [&](std::string_view name) {

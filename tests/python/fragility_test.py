@@ -59,7 +59,8 @@ class TheFriction(unittest.TestCase):
             self.assertIn(f"{lost} of the undecided points need a friction coefficient above", found.summary())
             share = overturn.supported_share(data, friction)
             self.assertEqual(share, known.sum() / np.isin(region, [S, U0]).sum())
-            self.assertEqual(overturn.supported_share(data.isel(motion=[0]), friction, "block").dims, ("motion", "scale"))
+            of_blocks = overturn.supported_share(data.isel(motion=[0]), friction, "block")
+            self.assertEqual(of_blocks.dims, ("motion", "scale"))
         with self.assertRaisesRegex(ValueError, "no field friction"):
             overturn.fragility(data.drop_vars("friction"), friction=0.5)
         for wrong in (0, -1, float("nan"), float("inf"), 35, True, "0.5"):

@@ -33,8 +33,9 @@ BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status
 # A run of its own: end states, flags and regions, peaks, points, demands as computed and completed, and the field.
 BYTES_OF_A_POINT["friction"] = BYTES_OF_A_POINT["normal"] = 3 * 8 + 2 + 8 + 4 + 2 * (8 + 8) + 8
 BYTES_BESIDE = 0.25
-# Friction and normal force have a run of their own. Impacts, errors and peaks have kernels of their own. The compiler may make the one that counts
-# impacts cheaper than the one without: it has no cost that a test could rely on.
+# Friction and normal force have a run of their own. Impacts, errors and peaks have kernels of their
+# own. The compiler may make the one that counts impacts cheaper than the one without: it has no cost
+# that a test could rely on.
 MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak", "friction", "normal")]
 
 

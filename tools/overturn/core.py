@@ -21,7 +21,7 @@ except ImportError as error:
         "another build's program.") from error
 
 if np.lib.NumpyVersion(np.__version__) >= "2.0.0" and not _core.supports_numpy_2:
-    raise ImportError(f"{sys.executable} has NumPy {np.__version__}, but the compiled module of overturn was built with "
-                      "a pybind11 before 2.12, which supports NumPy 1 only. Use the Python that it was built for, "
+    raise ImportError(f"{sys.executable} has NumPy {np.__version__}, but the compiled module of overturn was built "
+                      "with a pybind11 before 2.12, which supports NumPy 1 only. Use the Python that it was built for, "
                       "install \"numpy<2\", or build overturn with a newer pybind11.")
 sys.modules[__name__] = _core

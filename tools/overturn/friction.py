@@ -39,8 +39,8 @@ def supported_share(dataset: xarray.Dataset, friction: float,
 def decided_points(region):
     """Returns whether each point has a verdict. NaN, as after where(), and unknown codes are no verdicts."""
     if "flag_meanings" not in region.attrs:
-        raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points by "
-                         "sel() or isel(); do not compute with region codes.")
+        raise ValueError("region has no flag_meanings: it is not a field of a result as it was opened. Choose points "
+                         "by sel() or isel(); do not compute with region codes.")
     if region.dtype.kind == "f" and bool((region.notnull() & (region % 1 != 0)).any()):
         raise ValueError("region has values between the region codes, as after interp(). Choose points by sel() or "
                          "isel().")

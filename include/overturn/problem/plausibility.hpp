@@ -8,9 +8,9 @@
 
 namespace overturn {
 
-/// What looks like a mistake in the units or in the restitution, as one text without a full stop;
-/// empty if nothing does. Judged are alpha, R, the period of the pulse, the peak ground
-/// acceleration and r of the blocks, g, and peak and time step of the records.
+/// What looks like a mistake, most often in a unit, as one text without a full stop; empty if
+/// nothing does. Judged are alpha, R, the period of the pulse, the amplitude, the peak ground
+/// acceleration and r of the blocks, g, samples and time steps of the records, and the directions.
 ///
 /// Every value that is given in metres, seconds, g or radians, and every row of a list, must be
 /// plausible. Of the values that follow from dimensionless axes, one is enough: wide axes are

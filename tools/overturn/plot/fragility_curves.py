@@ -111,10 +111,24 @@ def draw_fit(ax, curve, colour, line, count):
                   rf"$\beta$ = {curve.beta:.2f}")
 
 
-def add_friction(parser):
+def add_curve_arguments(parser, bins):
+    """Adds the arguments of a curve, see compute_curve()."""
+    parser.add_argument("--limit", type=float, metavar="PEAK",
+                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
+                             "otherwise those that overturn")
     parser.add_argument("--friction", type=float, metavar="MU",
                         help="friction coefficient between block and ground: points whose field friction is above MU "
                              "have no verdict")
+    parser.add_argument("--bins", type=int, metavar="N", default=bins,
+                        help="number of bins, which do not change the fit (default: %(default)s)")
+    parser.add_argument("--samples", type=int, metavar="N", default=1000,
+                        help="samples of the bootstrap (default: %(default)s)")
+    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
+
+
+def compute_curve(dataset, im, arguments, **further):
+    return overturn.fragility(dataset, im, arguments.limit, friction=arguments.friction, bins=arguments.bins,
+                              samples=arguments.samples, seed=arguments.seed, **further)
 
 
 def read_arguments(argv):
@@ -122,17 +136,10 @@ def read_arguments(argv):
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
                         help="intensity measures: pga, pgv, arias_intensity or significant_duration "
                              "(default: pgv)")
-    parser.add_argument("--limit", type=float, metavar="PEAK",
-                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
-                             "otherwise those that overturn")
-    add_friction(parser)
     parser.add_argument("--by", metavar="COLUMN",
                         help="a curve for each value of a column of the table of blocks, or of an axis such as "
                              "size; of more than 6 numbers, for each quarter of the blocks")
-    parser.add_argument("--bins", type=int, metavar="N", default=10, help="number of bins (default: %(default)s)")
-    parser.add_argument("--samples", type=int, metavar="N", default=1000,
-                        help="samples of the bootstrap (default: %(default)s)")
-    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
+    add_curve_arguments(parser, bins=10)
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
                              "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
@@ -154,14 +161,11 @@ def compute(arguments):
 
 
 def curves_of(dataset, im, arguments):
-    def curve_of(blocks):
-        return overturn.fragility(blocks, im, arguments.limit, friction=arguments.friction, bins=arguments.bins,
-                                  samples=arguments.samples, seed=arguments.seed)
     if arguments.by is None:
-        return [curve_of(dataset)]
+        return [compute_curve(dataset, im, arguments)]
     from overturn.fragility_curve import expect_records  # needs SciPy
     expect_records(dataset)
-    return [dataclasses.replace(curve_of(blocks), group=group)
+    return [dataclasses.replace(compute_curve(blocks, im, arguments), group=group)
             for group, blocks in groups_of(dataset, arguments.by).items()]
 
 

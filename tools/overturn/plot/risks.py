@@ -8,7 +8,8 @@ import numpy as np
 import overturn
 from matplotlib import pyplot
 from overturn.output_file import save
-from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, add_friction, draw_bins
+from overturn.plot.fragility_curves import (BAND, COLOURS, NAMES, POINT, UNITS, add_curve_arguments, compute_curve,
+                                             draw_bins)
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -113,15 +114,7 @@ def read_arguments(argv):
     parser.add_argument("--together", metavar="COLUMN",
                         help="the blocks stand at one site and differ in this column of their table, or along this "
                              "axis, such as block: the rate at which one of them overturns")
-    parser.add_argument("--limit", type=float, metavar="PEAK",
-                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
-                             "otherwise those that overturn")
-    add_friction(parser)
-    parser.add_argument("--bins", type=int, metavar="N", default=20,
-                        help="number of bins of the fragility, which do not change its fit (default: %(default)s)")
-    parser.add_argument("--samples", type=int, metavar="N", default=1000,
-                        help="samples of the bootstrap (default: %(default)s)")
-    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
+    add_curve_arguments(parser, bins=20)
     return parse_with_picture(parser, argv, "FILE_risk.png")
 
 
@@ -140,9 +133,7 @@ def compute(arguments):
         raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
     with dataset:
         try:
-            curve = overturn.fragility(dataset, hazard.im, arguments.limit, friction=arguments.friction,
-                                       together=arguments.together, bins=arguments.bins, samples=arguments.samples,
-                                       seed=arguments.seed)
+            curve = compute_curve(dataset, hazard.im, arguments, together=arguments.together)
         except ValueError as error:
             raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
         return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve
