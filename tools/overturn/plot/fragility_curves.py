@@ -114,8 +114,8 @@ def draw_fit(ax, curve, colour, line, count):
 def add_curve_arguments(parser, bins):
     """Adds the arguments of a curve, see compute_curve()."""
     parser.add_argument("--limit", type=float, metavar="PEAK",
-                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK; "
-                             "otherwise those that overturn")
+                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK, at "
+                             "most 1; otherwise those that overturn")
     parser.add_argument("--friction", type=float, metavar="MU",
                         help="friction coefficient between block and ground: points whose field friction is above MU "
                              "have no verdict")
