@@ -199,9 +199,9 @@ class TwoSides(Scratch):
                     error = np.abs(np.diff(angle)[inner] / step[inner] - mean[inner])
                     # Trapezoidal rule: h^2 / 12 times a third derivative of a few times alpha.
                     self.assertLess(error.max(), 0.05 ** 2)
-                drawn = self.tool("plot_history", "history.h5")
-                self.assertEqual(drawn.returncode, 0, drawn.stderr)
-                (self.folder / "history.h5").unlink()
+                path.rename(self.folder / "last.h5")
+        drawn = self.tool("plot_history", "last.h5")
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
 
 
 if __name__ == "__main__":

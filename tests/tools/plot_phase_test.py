@@ -151,11 +151,12 @@ class TestAPortrait(InAFolder):
         self.assertTrue(seen & {9, 10})
 
     def test_can_be_drawn_for_any_block(self):
-        for alpha, r in (("0.02", "0.999"), ("0.1746", "0.9115"), ("1.4", "0.05"), ("1.5", "1")):
-            for portrait, loss in (("pendulum", ()), ("libration", ("--restitution", r)),
-                                   ("regions", ("--restitution", r))):
-                run = self.run_tool(portrait, "--slenderness", alpha, *loss)
+        for alpha, r in (("0.02", "0.999"), ("1.4", "0.05"), ("1.5", "1")):
+            for portrait in ("libration", "regions"):
+                run = self.run_tool(portrait, "--slenderness", alpha, "--restitution", r)
                 self.assertEqual((run.returncode, run.stderr), (0, ""), (portrait, alpha, r))
+        run = self.run_tool("pendulum", "--slenderness", "1.5")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
 
     def test_is_refused_for_invalid_blocks_and_formats(self):
         for arguments, sentence in ((("regions", "--slenderness", "1.6"), "outside (0, pi/2)"),
