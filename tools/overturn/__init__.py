@@ -6,8 +6,29 @@ Modules are imported when they are used, because every tool imports this package
 
 import importlib
 import sys
+from typing import TYPE_CHECKING
 
 from overturn.checkout import overturn_path
+
+if TYPE_CHECKING:
+    from overturn import plot as plot
+    from overturn import risk as risk
+    from overturn.datasets import open as open
+    from overturn.evaluation import Outcome as Outcome
+    from overturn.evaluation import Verdict as Verdict
+    from overturn.evaluation import evaluate as evaluate
+    from overturn.floors import FloorMotion as FloorMotion
+    from overturn.floors import floor_motion as floor_motion
+    from overturn.fragility_curve import Fragility as Fragility
+    from overturn.fragility_curve import fragility as fragility
+    from overturn.friction import supported_share as supported_share
+    from overturn.program import ProgramError as ProgramError
+    from overturn.program import check as check
+    from overturn.program import run as run
+    from overturn.records import Record as Record
+    from overturn.records import RecordError as RecordError
+    from overturn.records import read_record as read_record
+    from overturn.tool import ToolError as ToolError
 
 _MODULE_OF = {
     "evaluate": "evaluation",

@@ -4,13 +4,17 @@ Every tool imports this module: it must remain light."""
 
 import os
 import pathlib
+import shutil
 
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
+IS_CHECKOUT = pathlib.Path(__file__).resolve().parents[1] == CHECKOUT / "tools"
 
 
 def overturn_path(given=None):
-    """Returns the path of the program given by an argument or $OVERTURN, or of the one built here."""
-    return pathlib.Path(given or os.environ.get("OVERTURN") or CHECKOUT / "build" / "overturn").absolute()
+    """Returns the path of the program given by an argument or $OVERTURN, or of the one built here; of a package that
+    was installed by pip, of the one on the PATH."""
+    found = given or os.environ.get("OVERTURN") or (None if IS_CHECKOUT else shutil.which("overturn"))
+    return pathlib.Path(found or CHECKOUT / "build" / "overturn").absolute()
 
 
 def is_program(path):

@@ -1,0 +1,42 @@
+"""The compiled module; evaluation.py and records.py call it with checked arguments."""
+
+from collections.abc import Mapping, Sequence
+from typing import TypedDict
+
+from numpy import float64, uint8
+from numpy.typing import ArrayLike, NDArray
+
+class Scene: ...
+class Numerics: ...
+
+class GivenError(ValueError):
+    """A value that is not allowed; arguments: row or -1, name of the quantity, message."""
+
+class RecordError(ValueError): ...
+
+class _Fields(TypedDict):
+    region: NDArray[uint8]
+    status: NDArray[uint8]
+    peak: NDArray[float64]
+    margin: NDArray[float64]
+    warning: str
+
+class _Component(TypedDict):
+    name: str
+    acceleration: NDArray[float64]
+    time_step: float
+    format: str
+    is_uncorrected: bool
+    header: list[str]
+
+supports_numpy_2: bool
+safe_regions: dict[str, int]
+unsafe_regions: dict[str, int]
+
+def scene_of_pulse(pulse: str, theory: str, gravity: float, shape: Mapping[str, float], /) -> Scene: ...
+def scene_of_record(horizontal: ArrayLike, second: ArrayLike, upwards: ArrayLike, time_step: float, theory: str,
+                    gravity: float, /) -> Scene: ...
+def numerics(scene: Scene, method: str, tolerance: float | None, resolve: bool, /) -> Numerics: ...
+def evaluate(scene: Scene, numerics: Numerics, columns: Mapping[str, Sequence[float] | NDArray[float64]],
+             /) -> _Fields: ...
+def components_of(path: str, time_step: float | None, units: str | None, gravity: float, /) -> list[_Component]: ...
