@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Builds the documentation as a site and checks links and anchors, the API of the headers and the
-spelling; runs every code block of sh, python and toml. Called by tools/check docs."""
+spelling; runs every code block of sh, python and toml, and the notebooks. Called by tools/check docs."""
 
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -24,6 +25,7 @@ NOT_RUN = {
     ("docs/developing.md", "cmake --preset dev"): "a second build; tools/check docs has already made the first",
     ("docs/opensees.md", "/usr/bin/python3 -m venv"): "installs OpenSeesPy from PyPI; takes a quarter of an hour",
     ("CONTRIBUTING.md", "tools/check"): "runs all tests",
+    ("docs/python.md", "sudo apt-get install"): "installs the package from PyPI, as tools/check wheel does",
     ("docs/python.md", "import obspy"): "needs ObsPy; tests/python/traces_test.py runs it where ObsPy is installed",
 }
 
@@ -77,8 +79,28 @@ def run_blocks(python):
     return failed
 
 
-def run(what, *command):
-    result = subprocess.run(command, cwd=CHECKOUT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+def texts_of(notebook):
+    """Returns what each code cell of a notebook prints."""
+    return ["".join("".join(output["text"]) for output in cell["outputs"] if output["output_type"] == "stream")
+            for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
+
+
+def run_notebooks():
+    """Runs the notebooks and compares what they print with what is stored in them."""
+    failed = []
+    for notebook in sorted((CHECKOUT / "docs").glob("*.ipynb")):
+        executed = BUILT / notebook.name
+        environment = dict(os.environ, PYTHONPATH=str(CHECKOUT / "tools"))
+        failed += run(f"notebook {notebook.name}", "/usr/bin/python3", "-m", "nbconvert", "--execute", "--to", "notebook",
+                      "--output", str(executed), str(notebook), env=environment)
+        if not failed and texts_of(executed) != texts_of(notebook):
+            failed.append(f"{notebook.name} prints something else than what is stored in it; {executed} is the new one")
+    return failed
+
+
+def run(what, *command, **options):
+    result = subprocess.run(command, cwd=CHECKOUT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            **options)
     print(f"{what}: {'failed' if result.returncode else 'passed'}")
     return [f"{what}:\n{result.stdout}"] if result.returncode else []
 
@@ -97,6 +119,7 @@ def main():
     sources = subprocess.run(["git", "ls-files", "*.md", "*.hpp", "*.cpp", "*.py", "*.toml", "*.txt", "tools", "jobs"], text=True,
                              cwd=CHECKOUT, check=True, stdout=subprocess.PIPE).stdout.split()
     failed += run("spelling", "codespell", "--ignore-words", "docs/words", "--skip", "*.png", *sources)
+    failed += run_notebooks()
     failed += run_blocks(arguments.python)
     for failure in failed:
         print(f"\n{failure}", file=sys.stderr)
