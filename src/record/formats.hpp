@@ -6,42 +6,42 @@
 
 namespace overturn {
 
-/// PEER: four lines of header, the fourth with NPTS and DT, then NPTS numbers in the unit that the
-/// header states. If it states none, or one that is not understood, `unit` is used; it is refused
-/// otherwise. Without both, the unit is g.
-RecordFile read_at2(Lines lines, const std::optional<AccelerationUnit>& unit);
+/// PEER: four lines of header, the third with the unit, the fourth with NPTS and DT, then NPTS
+/// numbers. The unit of the options is that of a file that states none, or one that is not
+/// understood; such a file is refused without it.
+RecordFile read_at2(Lines lines, const RecordOptions& options);
 
 /// GeoNet: up to three components, each with 26 lines of header and with acceleration, velocity and
 /// displacement in mm/s2, mm/s and mm. Only the acceleration is kept.
-RecordFile read_v2a(Lines lines);
+RecordFile read_v2a(Lines lines, const RecordOptions& options);
 
 /// USGS: 27 lines of header, comments that begin with |, then numbers in cm/s2.
-RecordFile read_smc(Lines lines);
+RecordFile read_smc(Lines lines, const RecordOptions& options);
 
 /// K-NET and KiK-net: a header of keys, then counts of the digitiser. One component. The mean of
 /// all counts is removed; a scale factor in the header gives gal per count.
-RecordFile read_knet(Lines lines);
+RecordFile read_knet(Lines lines, const RecordOptions& options);
 
 /// COSMOS, version 1.20: channels, each with a text, integers, reals, comments, and samples in the
 /// unit and format that the line before them states. Velocities and displacements are skipped.
 /// Counts, of raw records, become accelerations in g: their mean is removed.
-RecordFile read_cosmos(Lines lines);
+RecordFile read_cosmos(Lines lines, const RecordOptions& options);
 
 /// CSMIP (CGS, CDMG), volume 2: channels, each with a text, integers, reals, and acceleration,
 /// velocity and displacement. Only the acceleration is kept.
-RecordFile read_csmip(Lines lines);
+RecordFile read_csmip(Lines lines, const RecordOptions& options);
 
 /// ESM: a header of keys, then one number per line in the unit of the header. One component.
-RecordFile read_esm(Lines lines);
+RecordFile read_esm(Lines lines, const RecordOptions& options);
 
 /// One column of accelerations, or two of times and accelerations.
 RecordFile read_text(Lines lines, const RecordOptions& options);
 
-/// Whether a line of text is a comment.
-inline bool is_comment(std::string_view line)
+/// Refuses a line that announces another quantity.
+[[noreturn]] inline void refuse_motion(const Lines& lines)
 {
-    const std::string_view text = trimmed(line);
-    return text.starts_with('#') || text.starts_with('%');
+    lines.refuse("{} does not announce accelerations. Give the file of the acceleration.",
+                 quoted_bytes(trimmed(lines.line())));
 }
 
 } // namespace overturn

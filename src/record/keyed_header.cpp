@@ -6,13 +6,10 @@ namespace overturn {
 
 KeyedHeader::KeyedHeader(Lines& lines) : before_(lines), last_(lines)
 {
-    for (Lines ahead = lines; ahead.next();) {
-        if (is_number(first_word(ahead.line()))) {
-            break;
-        }
-        header_.take(lines, 1);
+    for (Lines ahead = lines; ahead.next() && !is_number(first_word(ahead.line()));) {
+        last_ = ahead;
     }
-    last_ = lines;
+    lines = last_;
 }
 
 std::optional<KeyedHeader::Entry> KeyedHeader::find(std::string_view key) const

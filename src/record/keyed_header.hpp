@@ -29,12 +29,11 @@ public:
     /// The same. Refuses a header without this key.
     Entry required(std::string_view key) const;
 
-    std::vector<std::string> kept() && { return std::move(header_).kept(); }
+    std::vector<std::string> kept() const { return kept_lines(before_, last_.number()); }
 
 private:
     Lines before_;
     Lines last_; ///< at the last line of the header
-    Header header_;
 };
 
 } // namespace overturn

@@ -1,5 +1,7 @@
 #include "lines.hpp"
 
+#include <algorithm>
+
 namespace overturn {
 
 bool Lines::next()
@@ -19,8 +21,10 @@ bool Lines::next()
 
 Lines ahead_by(Lines lines, std::size_t count)
 {
-    while (count > 0 && lines.next()) {
-        --count;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!lines.next()) {
+            lines.refuse("the file ends within the header. Give the complete file.");
+        }
     }
     return lines;
 }
@@ -35,53 +39,40 @@ bool next_text(Lines& lines)
     return false;
 }
 
-bool is_at_end(Lines lines)
-{
-    return !next_text(lines);
-}
-
-void Header::add(const Lines& lines)
-{
-    constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
-    size_ += lines.line().size() + 1;
-    if (size_ > most) {
-        lines.refuse("header and comments are larger than {} KiB, the maximum. Remove comments.",
-                     most >> 10);
-    }
-    kept_.emplace_back(lines.line());
-}
-
-void Header::take(Lines& lines, std::size_t count)
-{
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!lines.next()) {
-            if (count == 1) {
-                lines.refuse("the file ends within the header. Give the complete file.");
-            }
-            lines.refuse(
-                "the file ends after {} of the {} lines of the header. Give the complete file.", i,
-                count);
-        }
-        add(lines);
-    }
-}
-
-void Header::take_text(Lines& lines)
-{
-    do {
-        take(lines, 1);
-    } while (trimmed(lines.line()).empty());
-}
-
-bool Header::take_through(Lines& lines, std::string_view words)
+bool next_with(Lines& lines, std::string_view words)
 {
     while (lines.next()) {
-        add(lines);
         if (contains(lines.line(), words)) {
             return true;
         }
     }
     return false;
+}
+
+bool is_at_end(Lines lines)
+{
+    return !next_text(lines);
+}
+
+std::vector<std::string> kept_lines(Lines lines, std::size_t last,
+                                    bool (*is_kept)(std::string_view))
+{
+    constexpr std::size_t most = std::size_t(1) << 20; // [bytes], with line ends
+    std::vector<std::string> kept;
+    std::size_t size = 0;
+    while (lines.number() < last && lines.next()) {
+        if (!is_kept(lines.line())) {
+            continue;
+        }
+        size += lines.line().size() + 1;
+        if (size > most) {
+            lines.refuse(
+                "header and comments are larger than {} KiB, the maximum. Remove comments.",
+                most >> 10);
+        }
+        kept.emplace_back(lines.line());
+    }
+    return kept;
 }
 
 std::string_view first_word(std::string_view text)
@@ -107,6 +98,21 @@ std::size_t place_after(std::string_view text, std::string_view words)
 {
     const std::size_t place = lower(text).find(lower(words));
     return place == text.npos ? place : place + words.size();
+}
+
+std::vector<std::string_view> words_of(std::string_view text, std::string_view separators)
+{
+    std::vector<std::string_view> words;
+    for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != text.npos;) {
+        words.push_back(text.substr(begin, text.find_first_of(separators, begin) - begin));
+        begin += words.back().size();
+    }
+    return words;
+}
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words)
+{
+    return std::ranges::find(words, word) != words.end();
 }
 
 } // namespace overturn

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,37 +55,23 @@ private:
     const std::string* name_;
 };
 
-/// A cursor that is `count` lines ahead, or at the last line.
+/// A cursor that is `count` lines ahead. Refuses a file that ends earlier, within its header.
 Lines ahead_by(Lines lines, std::size_t count);
 
 /// Proceeds to the next line that is not blank; false if there is none.
 bool next_text(Lines& lines);
 
+/// Proceeds to the next line that contains the words, ignoring case; false if there is none.
+bool next_with(Lines& lines, std::string_view words);
+
 /// Whether only blank lines follow.
 bool is_at_end(Lines lines);
 
-/// Lines that are kept. Their size is limited, so that no file can fill the memory with short ones.
-class Header {
-public:
-    /// Keeps the current line.
-    void add(const Lines& lines);
-
-    /// Proceeds by `count` lines and keeps them. Refuses a file that ends earlier.
-    void take(Lines& lines, std::size_t count);
-
-    /// Proceeds to the next line that is not blank, and keeps the lines up to it.
-    void take_text(Lines& lines);
-
-    /// Proceeds to the next line that contains the words, ignoring case, and keeps the lines up to
-    /// it; false if there is none.
-    bool take_through(Lines& lines, std::string_view words);
-
-    std::vector<std::string> kept() && { return std::move(kept_); }
-
-private:
-    std::vector<std::string> kept_;
-    std::size_t size_ = 0;
-};
+/// The next lines, up to line `last`, of those that are kept. Refuses more than 1 MiB, so that no
+/// file can fill the memory with short lines.
+std::vector<std::string> kept_lines(
+    Lines lines, std::size_t last,
+    bool (*is_kept)(std::string_view) = [](std::string_view) { return true; });
 
 /// The text up to the first blank, without blanks before it.
 std::string_view first_word(std::string_view text);
@@ -97,5 +84,11 @@ bool contains(std::string_view text, std::string_view words);
 
 /// The place after the first occurrence of the words, ignoring case; npos if there is none.
 std::size_t place_after(std::string_view text, std::string_view words);
+
+/// The words between separators.
+std::vector<std::string_view> words_of(std::string_view text, std::string_view separators);
+
+/// Whether a word is one of these.
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words);
 
 } // namespace overturn

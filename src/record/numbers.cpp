@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <system_error>
 
@@ -21,22 +22,15 @@ struct Parsed {
 
 Parsed parse(std::string_view word)
 {
-    std::string with_e;
-    if (word.find_first_of("dD") != word.npos) {
-        with_e = word;
-        std::replace(with_e.begin(), with_e.end(), 'd', 'e');
-        std::replace(with_e.begin(), with_e.end(), 'D', 'E');
-        word = with_e;
-    }
-    if (word.starts_with('+')) { // std::from_chars does not accept a plus sign
-        word.remove_prefix(1);
-        if (word.starts_with('-')) {
-            return {0, std::errc::invalid_argument};
-        }
-    }
+    std::string text(word);
+    std::ranges::replace(text, 'd', 'e');
+    std::ranges::replace(text, 'D', 'E');
+    // std::from_chars does not accept a plus sign.
+    const std::size_t plus = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
+    const char* const last = text.data() + text.size();
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return {value, end == word.data() + word.size() ? error : std::errc::invalid_argument};
+    const auto [end, error] = std::from_chars(text.data() + plus, last, value);
+    return {value, end == last ? error : std::errc::invalid_argument};
 }
 
 /// The length of the first number of a text: up to a blank, or to a sign that does not belong to an
@@ -193,6 +187,23 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
         }
     }
     return values;
+}
+
+std::vector<double> acceleration_of_counts(const Lines& lines, std::vector<double> samples,
+                                           double acceleration, double counts)
+{
+    // The sum of integers of up to 30 bits is exact.
+    const double mean =
+        std::accumulate(samples.begin(), samples.end(), 0.0) / double(samples.size());
+    for (double& sample : samples) {
+        sample = (sample - mean) * acceleration / counts;
+        if (!std::isfinite(sample)) {
+            lines.refuse("with {} per {} counts, the accelerations exceed the range of double "
+                         "precision. Correct it.",
+                         acceleration, counts);
+        }
+    }
+    return samples;
 }
 
 } // namespace overturn

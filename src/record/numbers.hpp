@@ -63,4 +63,13 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
 /// The text of a column, counted from 0, without blanks; empty if the line is too short.
 std::string_view column_of(std::string_view line, std::size_t width, std::size_t index);
 
+/// The accelerations of counts c with the mean m, which is the offset of the sensor:
+///
+///     a = (c - m) acceleration / counts
+///
+/// `counts` is the number of counts of `acceleration`, in any unit. lines: where both are stated.
+/// Refuses numbers whose accelerations are not finite.
+std::vector<double> acceleration_of_counts(const Lines& lines, std::vector<double> samples,
+                                           double acceleration, double counts);
+
 } // namespace overturn

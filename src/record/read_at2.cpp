@@ -5,8 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
+#include <map>
 #include <utility>
 
 namespace overturn {
@@ -14,206 +13,114 @@ namespace overturn {
 namespace {
 
 constexpr std::size_t header_lines = 4;
-constexpr std::size_t unit_line = 3;
+constexpr std::size_t title_line = 3; // states the kind of data and their unit
 
-constexpr std::string_view separators = " \t,=";
-
-/// The text from the next word on: without blanks, tabs, commas and equals signs.
-std::string_view from_word(std::string_view text)
+bool is_seconds(std::string_view word)
 {
-    return text.substr(std::min(text.find_first_not_of(separators), text.size()));
+    return is_one_of(lower(word), {"s", "sec", "sec.", "secs", "second", "seconds"});
 }
 
-std::string_view word_at(std::string_view text)
-{
-    return text.substr(0, text.find_first_of(separators));
-}
-
-/// The text from the word after a key and an equals sign on; empty if there is none.
-std::string_view from_value(std::string_view line, std::string_view key)
-{
-    const std::size_t place = place_after(line, key);
-    return place == line.npos || !trimmed(line.substr(place)).starts_with('=')
-               ? ""
-               : from_word(line.substr(place));
-}
-
-/// Refuses a time step with a decimal comma or with another unit than seconds.
-void expect_seconds(const Lines& lines, std::string_view step, std::string_view after)
-{
-    if (after.starts_with(',') && after.size() > 1 && '0' <= after[1] && after[1] <= '9') {
-        lines.refuse(
-            "the time step {} has a decimal comma. Write it with a point, as in DT= .01 SEC.",
-            quoted_bytes(std::string(step).append(after.substr(0, 2))));
-    }
-    const std::string_view unit = word_at(from_word(after));
-    const std::string word = lower(unit.substr(0, unit.find_first_of(",;.")));
-    constexpr std::array<std::string_view, 7> allowed{"",     "npts",   "s",      "sec",
-                                                      "secs", "second", "seconds"};
-    if (std::ranges::count(allowed, word) == 0) {
-        lines.refuse("the unit {} of the time step is not understood. Write it in seconds, as in "
-                     "DT= .01 SEC.",
-                     quoted_bytes(unit));
-    }
-}
-
-/// The number of words that begin like a number.
-std::size_t count_numbers(std::string_view line)
-{
-    std::size_t count = 0;
-    for (std::string_view rest = from_word(line); !rest.empty();) {
-        const std::string_view word = word_at(rest);
-        const std::size_t digit = word.find_first_not_of("+-.");
-        count += digit != word.npos && '0' <= word[digit] && word[digit] <= '9';
-        rest = from_word(rest.substr(word.size()));
-    }
-    return count;
-}
-
-/// New files: `NPTS=  4000, DT= .01000 SEC`. Old ones: `7997 0.0050 NPTS, DT`.
+/// New files: `NPTS=  4000, DT= .01000 SEC`, perhaps with `DURATION= 40 SEC`. Old ones: `7997
+/// 0.0050 NPTS, DT`.
 Sampling read_sampling(const Lines& lines)
 {
-    const std::string_view line = lines.line();
-    std::string_view count = from_value(line, "NPTS");
-    std::string_view step = from_value(line, "DT");
-    const bool is_old = count.empty() && step.empty() && contains(line, "DT");
-    if (is_old) {
-        count = from_word(line);
-        step = from_word(count.substr(word_at(count).size()));
-    }
-    const bool begins_with_key =
-        contains(word_at(from_word(line)), "NPTS") || contains(word_at(from_word(line)), "DT");
-    if (count.empty() || step.empty() || !(is_old || begins_with_key)) {
-        lines.refuse("{} lacks the number of points or the time step. Write it as in NPTS= 4000, "
-                     "DT= .01 SEC.",
-                     quoted_bytes(line));
-    }
-    std::string_view number = word_at(step);
-    if (const std::size_t unit = number.find_first_of("sS"); unit > 0) { // as in .01SEC
-        number = number.substr(0, unit);
-    }
-    std::string_view after = step.substr(number.size());
-    if (is_old) {
-        for (const std::string_view key : {"npts", "dt"}) {
-            const std::string_view word = word_at(from_word(after));
-            if (lower(word) != key) {
-                lines.refuse("{} is not understood. Write it as in NPTS= 4000, DT= .01 SEC.",
-                             quoted_bytes(trimmed(line)));
-            }
-            after = from_word(after).substr(word.size());
-        }
-    }
-    expect_seconds(lines, number, after);
-    if (count_numbers(line) > (contains(line, "DURATION") ? 3 : 2)) {
-        lines.refuse("{} has other numbers beside the number of points and the time step. Write it "
-                     "as in NPTS= 4000, DT= .01 SEC.",
-                     quoted_bytes(trimmed(line)));
-    }
-    return {.count = count_of(lines, word_at(count), "NPTS"),
-            .time_step = time_step_of(lines, number)};
-}
-
-void expect_acceleration(const Lines& lines)
-{
-    const std::string_view line = lines.line();
-    if (contains(line, "SPECTR") ||
-        (!contains(line, "ACCELERATION") &&
-         (contains(line, "VELOCITY") || contains(line, "DISPLACEMENT")))) {
-        lines.refuse("{} does not contain accelerations. Give the AT2 file of this record.",
-                     quoted_bytes(trimmed(line)));
-    }
-}
-
-/// Refuses words behind the unit in the title, which may be a factor on the samples, as in UNITS OF
-/// G, SCALED. Corner frequencies of filters and the peak may follow.
-void expect_no_factor(const Lines& title_line, std::string_view unit)
-{
-    const std::string_view title = title_line.line();
-    const std::size_t place = title.find(unit);
-    if (place == title.npos) {
-        return;
-    }
-    constexpr std::string_view marks = " \t.,;:()[]-";
-    std::string rest = lower(title.substr(place + unit.size()));
-    const auto next_word = [&] {
-        rest.erase(0, rest.find_first_not_of(marks));
-        return rest.substr(0, rest.find_first_of(marks));
+    const auto refuse = [&] {
+        lines.refuse("{} is not understood. Write only the number of points and the time step in "
+                     "seconds, as in NPTS= 4000, DT= .01 SEC.",
+                     quoted_bytes(trimmed(lines.line())));
     };
-    std::string word = next_word();
-    while (word == "units" || word == "corrected" || word == "uncorrected") {
-        rest.erase(0, word.size());
-        word = next_word();
+    std::vector<std::string_view> words = words_of(lines.line(), " \t,;=");
+    std::erase_if(words, is_seconds);
+    if (words.size() == 4 && lower(words[2]) == "npts") { // an old one
+        words = {words[2], words[0], words[3], words[1]};
     }
-    if (!word.empty() && !word.starts_with("filter") && word != "peak" && word != "dt") {
-        title_line.refuse(
-            "the unit {} may be changed by what follows it. State the unit of the samples: "
-            "{}.",
-            quoted_bytes(unit), how_to_state("units"));
+    std::map<std::string, std::string_view> values;
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+        const std::string key = lower(words[i]);
+        if (i + 1 == words.size() || !is_one_of(key, {"npts", "dt", "duration"}) ||
+            !values.emplace(key, words[i + 1]).second) {
+            refuse();
+        }
+    }
+    if (!values.contains("npts") || !values.contains("dt")) {
+        refuse();
+    }
+    std::string_view step = values["dt"];
+    const std::size_t unit = std::min(step.find_first_of("sS"), step.size()); // as in .01SEC
+    step.remove_suffix(is_seconds(step.substr(unit)) ? step.size() - unit : 0);
+    return {.count = count_of(lines, values["npts"], "NPTS"),
+            .time_step = time_step_of(lines, step)};
+}
+
+void expect_acceleration(const Lines& title)
+{
+    if (contains(title.line(), "SPECTR") ||
+        (!contains(title.line(), "ACCELERATION") &&
+         (contains(title.line(), "VELOCITY") || contains(title.line(), "DISPLACEMENT")))) {
+        refuse_motion(title);
     }
 }
 
-/// The unit that the header states; nullopt if it states none, or one that is not understood
-/// although another is given.
-std::optional<AccelerationUnit> unit_of_header(Lines lines,
-                                               const std::optional<AccelerationUnit>& given)
+/// What remains of a title without words that do not change its unit: "g" of "ACCELERATION TIME
+/// SERIES IN UNITS OF G, FILTERED". Corner frequencies of filters and the peak may follow.
+std::string unit_of_title(std::string_view title)
 {
-    const Lines before = lines;
-    std::optional<StatedUnit> found;
-    while (lines.number() < header_lines && lines.next()) {
-        // The first two lines name the database and the station.
-        const auto places =
-            lines.number() < unit_line ? UnitPlaces::after_units : UnitPlaces::title;
-        for (const StatedUnit& stated : stated_units(lines.line(), places)) {
-            if (stated.unit && (!found || found->unit == stated.unit)) {
-                found = stated;
-                continue;
-            }
-            if (given) {
-                return std::nullopt;
-            }
-            const std::string reason =
-                stated.unit ? fmt::format("contradicts {}", quoted_bytes(found->text))
-                            : "is not understood, or is changed by what follows it";
-            lines.refuse("the unit {} {}. Understood are {} and their usual spellings, such as "
-                         "CM/SEC/SEC. State the unit of the samples: {}.",
-                         quoted_bytes(stated.text), reason,
-                         fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+    constexpr std::string_view separators = " \t,;:=()[].-";
+    std::string text = lower(title);
+    for (const std::string_view word : words_of(text, separators)) {
+        const auto begin = text.begin() + (word.data() - text.data());
+        if (is_one_of(word, {"filter", "filters", "peak", "dt"})) {
+            text.erase(begin, text.end());
+            break;
+        }
+        if (is_one_of(word,
+                      {"acceleration", "accelerations", "accelerogram", "accel", "acc", "time",
+                       "series", "history", "in", "of", "unit", "units", "are", "fraction",
+                       "fractions", "multiples", "corrected", "uncorrected", "filtered"})) {
+            std::fill_n(begin, word.size(), ' ');
         }
     }
-    if (found && !given) {
-        expect_no_factor(ahead_by(before, unit_line), found->text);
-    }
-    return found ? found->unit : std::nullopt;
+    const std::size_t first = std::min(text.find_first_not_of(separators), text.size());
+    return text.substr(first, text.find_last_not_of(separators) + 1 - first);
+}
+
+/// The unit that the title states; nullopt if it states none, or one that is not understood, or if
+/// another line may state one.
+std::optional<AccelerationUnit> unit_of_header(const Lines& before)
+{
+    const bool is_stated_before = contains(ahead_by(before, 1).line(), "units") ||
+                                  contains(ahead_by(before, 2).line(), "units");
+    return is_stated_before ? std::nullopt
+                            : unit_named(unit_of_title(ahead_by(before, title_line).line()));
 }
 
 } // namespace
 
-RecordFile read_at2(Lines lines, const std::optional<AccelerationUnit>& unit)
+RecordFile read_at2(Lines lines, const RecordOptions& options)
 {
     const Lines before = lines;
-    Header header;
-    header.take(lines, header_lines);
-    expect_acceleration(ahead_by(before, unit_line));
+    lines = ahead_by(lines, header_lines);
+    const Lines title = ahead_by(before, title_line);
+    expect_acceleration(title);
     const Sampling sampling = read_sampling(lines);
-    const auto stated = unit_of_header(before, unit);
-    if (!stated && !unit) {
-        Lines title_line = ahead_by(before, unit_line);
-        title_line.refuse("{} states no unit that is understood, such as UNITS OF G. Give one of "
-                          "{}: {}.",
-                          quoted_bytes(trimmed(title_line.line())),
-                          fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+    const auto stated = unit_of_header(before);
+    if (!stated && !options.unit) {
+        title.refuse(
+            "{} does not state a unit that is understood, such as UNITS OF G or CM/SEC/SEC, "
+            "as the only one of the header and without a factor. Give one of {}: {}.",
+            quoted_bytes(trimmed(title.line())), fmt::join(acceleration_unit_names, ", "),
+            how_to_state("units"));
     }
-    const std::string_view title = ahead_by(before, 2).line(); // event, date, station, component
-    const std::size_t comma = title.rfind(',');
+    const std::string_view station = ahead_by(before, 2).line(); // event, date, station, component
+    const std::size_t comma = station.rfind(',');
     RecordComponent component{
-        .name = std::string(comma == title.npos ? "" : trimmed(title.substr(comma + 1))),
+        .name = std::string(comma == station.npos ? "" : trimmed(station.substr(comma + 1))),
         .acceleration = take_free_numbers(
             lines, {.count = sampling.count, .name = "NPTS", .line = header_lines}),
-        .unit = stated ? *stated : *unit,
+        .unit = stated ? *stated : *options.unit,
         .time_step = sampling.time_step,
-        .header = std::move(header).kept()};
-    return {
-        .format = "AT2", .components = {std::move(component)}, .has_given_unit = unit && !stated};
+        .header = kept_lines(before, header_lines)};
+    return {.format = "AT2", .components = {std::move(component)}, .has_given_unit = !stated};
 }
 
 } // namespace overturn

@@ -1,25 +1,47 @@
-#include "channel_name.hpp"
-#include "cosmos_values.hpp"
-#include "counts.hpp"
+#include "channels.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace overturn {
 
 namespace {
 
+/// Integers or real numbers of a header, counted from 1 as in the description of the format.
+struct HeaderValues {
+    Lines lines; ///< at the line that announces them
+    std::vector<double> values;
+
+    /// nullopt if it is missing or unknown, such as -999.
+    std::optional<double> operator[](std::size_t number) const
+    {
+        const double value = number <= values.size() ? values[number - 1] : -1;
+        return value < 0 ? std::nullopt : std::optional(value);
+    }
+};
+
+/// Takes the lines up to the one that contains the name, and the values that it announces.
+HeaderValues take_header_values(Lines& lines, std::string_view name)
+{
+    const std::size_t begin = lines.number() + 1;
+    if (!next_with(lines, name)) {
+        lines.refuse("no line such as 100 {} values follow after line {}. Give the complete file.",
+                     name, begin);
+    }
+    const Lines announcing = lines;
+    return {announcing, take_announced(lines, name)};
+}
+
 /// Takes the comments. The channel of `<SCNL>BMR.BNZ.AK.--`; empty if they contain none.
-std::string take_comments(Lines& lines, Header& header)
+std::string take_comments(Lines& lines)
 {
     std::string channel;
     for (Lines ahead = lines; next_text(ahead) && (contains(ahead.line(), "comment line") ||
                                                    trimmed(ahead.line()).starts_with('|'));) {
-        header.take(lines, ahead.number() - lines.number());
+        lines = ahead;
         const std::size_t station = place_after(lines.line(), "<SCNL>");
         const std::size_t point = lines.line().find('.', station);
         if (station != point && point != std::string_view::npos) {
@@ -30,50 +52,39 @@ std::string take_comments(Lines& lines, Header& header)
     return channel;
 }
 
-struct Unit {
-    std::optional<AccelerationUnit> acceleration; ///< nullopt: counts
-    int code;                                     ///< in integer 3 of the header
-};
-
-/// The unit in the line before the samples. Refuses other units, and one that contradicts its code.
+/// The unit in the line before the samples; nullopt for counts. Refuses other units, and one that
+/// contradicts its code.
 std::optional<AccelerationUnit> unit_of(const Lines& lines, const std::optional<double>& code)
 {
-    using enum AccelerationUnit;
-    constexpr std::array<Unit, 4> known{
-        {{g, 2}, {cm_per_s2, 4}, {cm_per_s2, 10}, {std::nullopt, 50}}};
-    const auto stated = stated_units(lines.line(), UnitPlaces::after_units);
-    const std::string text = stated.empty() ? "" : lower(stated[0].text);
-    if (!(stated.size() == 1 && (stated[0].unit || text == "counts" || text == "count"))) {
-        lines.refuse("the unit {} of the samples is not understood; cm/sec2 and counts are, for "
-                     "example. Give the values as text with their unit.",
-                     quoted_bytes(text));
-    }
-    const auto is_same = [&](const Unit& unit) {
-        return unit.code == code && unit.acceleration == stated[0].unit;
-    };
-    if (code && std::ranges::none_of(known, is_same)) {
+    const std::string_view name = text_after(lines.line(), "units");
+    const bool is_counts = is_one_of(lower(name), {"count", "counts"});
+    const auto unit = is_counts ? std::nullopt : std::optional(unit_of_samples(lines, name));
+    const bool agrees = (code == 2 && unit == AccelerationUnit::g) ||
+                        ((code == 4 || code == 10) && unit == AccelerationUnit::cm_per_s2) ||
+                        (code == 50 && is_counts);
+    if (code && !agrees) {
         lines.refuse("the unit {} contradicts integer 3 of the header, {}. Correct one of them.",
-                     quoted_bytes(stated[0].text), *code);
+                     quoted_bytes(name), *code);
     }
-    return stated[0].unit;
+    return unit;
 }
 
 /// Interval [s] of the samples, or of the recorder if the former is unknown. announcing: the line
 /// before the samples, which states their duration in seconds, rounded.
-double time_step_of(const CosmosValues& reals, const Lines& announcing, std::size_t count)
+double time_step_of(const HeaderValues& reals, const Lines& announcing, std::size_t count)
 {
     const auto interval = reals[62]; // [ms]
     const auto of_recorder = reals[34];
     const double step = interval ? *interval / 1000 : of_recorder.value_or(0);
     if (!(step > 0)) {
-        reals.lines().refuse("the time step, real 62 of the header in ms, is unknown or 0. Correct "
-                             "it.");
+        reals.lines.refuse("the time step, real 62 of the header in ms, is unknown or 0. Correct "
+                           "it.");
     }
     const std::size_t place = place_after(announcing.line(), "approx");
     const std::string_view rounded =
         first_word(announcing.line().substr(std::min(place, announcing.line().size())));
     if (const auto length = reals[63]; length && *length > 0) {
-        expect_duration(reals.lines(), *length, {count, step});
+        expect_duration(reals.lines, *length, {count, step});
     } else if (is_number(rounded)) {
         expect_duration(announcing, number_of(announcing, rounded), {count, step}, 1);
     }
@@ -82,17 +93,17 @@ double time_step_of(const CosmosValues& reals, const Lines& announcing, std::siz
 
 /// Counts in g: real 22 is the voltage of a count [uV], real 42 the sensitivity [V/g], real 47 the
 /// gain.
-std::vector<double> over_g(const CosmosValues& reals, std::vector<double> counts)
+std::vector<double> over_g(const HeaderValues& reals, std::vector<double> counts)
 {
     const auto voltage = reals[22], sensitivity = reals[42];
     const double gain = reals[47].value_or(1);
     if (!(voltage.value_or(0) > 0 && sensitivity.value_or(0) > 0 && gain == 1)) {
-        reals.lines().refuse("the samples are counts, but reals 22 (microvolts per count), 42 "
-                             "(volts per g) and 47 (gain, must be 1) of the header are {}, {} and "
-                             "{}. Give the file of volume 1 or 2, in cm/sec2.",
-                             voltage.value_or(-999), sensitivity.value_or(-999), gain);
+        reals.lines.refuse("the samples are counts, but reals 22 (microvolts per count), 42 "
+                           "(volts per g) and 47 (gain, must be 1) of the header are {}, {} and "
+                           "{}. Give the file of volume 1 or 2, in cm/sec2.",
+                           voltage.value_or(-999), sensitivity.value_or(-999), gain);
     }
-    return acceleration_of_counts(reals.lines(), std::move(counts), *voltage / 1e6, *sensitivity);
+    return acceleration_of_counts(reals.lines, std::move(counts), *voltage / 1e6, *sensitivity);
 }
 
 /// Whether the title of a channel says so.
@@ -106,12 +117,13 @@ bool is_uncorrected(Lines lines)
 std::optional<RecordComponent> take_channel(Lines& lines)
 {
     const Lines before = lines;
-    Header header;
-    const CosmosValues integers(lines, header, "Integer-header");
-    std::string name = channel_name(before, lines.number());
-    const CosmosValues reals(lines, header, "Real-header");
-    const std::string code = take_comments(lines, header);
-    header.take_text(lines);
+    const HeaderValues integers = take_header_values(lines, "Integer-header");
+    std::string name = channel_name(before, integers.lines.number());
+    const HeaderValues reals = take_header_values(lines, "Real-header");
+    const std::string code = take_comments(lines);
+    if (!next_text(lines)) {
+        lines.refuse("the file ends within the header. Give the complete file.");
+    }
     const Lines announcing = lines;
     std::vector<double> samples = take_announced(lines, "the series");
     const bool is_acceleration = contains(announcing.line(), "accel");
@@ -133,7 +145,7 @@ std::optional<RecordComponent> take_channel(Lines& lines)
                            .time_step = time_step,
                            // 0: counts, 1: accelerations, 2: corrected ones
                            .is_uncorrected = integers[1].value_or(2) < 2 || is_uncorrected(before),
-                           .header = std::move(header).kept()};
+                           .header = kept_lines(before, announcing.number())};
 }
 
 /// Proceeds beyond the line that ends a channel. Refuses further samples.
@@ -152,7 +164,7 @@ void expect_end(Lines& lines)
 
 } // namespace
 
-RecordFile read_cosmos(Lines lines)
+RecordFile read_cosmos(Lines lines, const RecordOptions&)
 {
     Lines title = lines;
     next_text(title);
@@ -164,8 +176,7 @@ RecordFile read_cosmos(Lines lines)
         expect_end(lines);
     } while (!is_at_end(lines));
     if (file.components.empty()) {
-        title.refuse("{} contains no acceleration. Give the file of the acceleration.",
-                     quoted_bytes(trimmed(title.line())));
+        refuse_motion(title);
     }
     return file;
 }

@@ -3,34 +3,11 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <fmt/ranges.h>
-
 #include <utility>
 
 namespace overturn {
 
 namespace {
-
-void expect_acceleration(const KeyedHeader& header)
-{
-    const auto kind = header.find("DATA_TYPE:");
-    if (kind && lower(kind->value) != "acceleration") {
-        kind->lines.refuse("{} is not ACCELERATION. Give the file of the acceleration (.ACC.).",
-                           quoted_bytes(trimmed(kind->lines.line())));
-    }
-}
-
-AccelerationUnit unit_of(const KeyedHeader& header)
-{
-    const KeyedHeader::Entry entry = header.required("UNITS:");
-    const auto stated = stated_units(entry.lines.line(), UnitPlaces::after_units);
-    if (stated.size() != 1 || !stated.front().unit) {
-        entry.lines.refuse("the unit {} is not understood. Understood are {} and their usual "
-                           "spellings, such as cm/s^2. Give the file of the acceleration (.ACC.).",
-                           quoted_bytes(entry.value), fmt::join(acceleration_unit_names, ", "));
-    }
-    return *stated.front().unit;
-}
 
 /// Whether the header says that the record was not processed.
 bool is_uncorrected(const KeyedHeader& header)
@@ -43,11 +20,14 @@ bool is_uncorrected(const KeyedHeader& header)
 
 } // namespace
 
-RecordFile read_esm(Lines lines)
+RecordFile read_esm(Lines lines, const RecordOptions&)
 {
     KeyedHeader header(lines);
-    expect_acceleration(header);
-    const AccelerationUnit unit = unit_of(header);
+    if (const auto kind = header.find("DATA_TYPE:"); kind && lower(kind->value) != "acceleration") {
+        refuse_motion(kind->lines);
+    }
+    const KeyedHeader::Entry units = header.required("UNITS:");
+    const AccelerationUnit unit = unit_of_samples(units.lines, units.value);
     const KeyedHeader::Entry count = header.required("NDATA:");
     const Announcement announced{.count = count_of(count.lines, count.value, "NDATA"),
                                  .name = "NDATA",
@@ -65,7 +45,7 @@ RecordFile read_esm(Lines lines)
                               .unit = unit,
                               .time_step = time_step,
                               .is_uncorrected = is_raw,
-                              .header = std::move(header).kept()};
+                              .header = header.kept()};
     return {.format = "ESM", .components = {std::move(component)}};
 }
 

@@ -1,4 +1,3 @@
-#include "counts.hpp"
 #include "formats.hpp"
 #include "keyed_header.hpp"
 #include "numbers.hpp"
@@ -10,15 +9,6 @@
 namespace overturn {
 
 namespace {
-
-/// Of the directions 1 to 6 of KiK-net: those of the borehole, then those of the surface.
-constexpr std::array<std::string_view, 6> kiknet_components{"NS1", "EW1", "UD1",
-                                                            "NS2", "EW2", "UD2"};
-
-bool is_kiknet(std::string_view direction)
-{
-    return direction.size() == 1 && '1' <= direction[0] && direction[0] <= '6';
-}
 
 /// The number of `100Hz`.
 double samples_per_second(const KeyedHeader::Entry& entry)
@@ -79,7 +69,7 @@ ScaleFactor scale_factor(const KeyedHeader::Entry& entry)
 
 } // namespace
 
-RecordFile read_knet(Lines lines)
+RecordFile read_knet(Lines lines, const RecordOptions&)
 {
     KeyedHeader header(lines);
     const double rate = samples_per_second(header.required("Sampling Freq(Hz)"));
@@ -87,16 +77,19 @@ RecordFile read_knet(Lines lines)
     const ScaleFactor factor = scale_factor(scale);
     const Announcement announced = announcement(header, rate);
     const std::string_view direction = header.required("Dir.").value;
-    const bool of_kiknet = is_kiknet(direction);
+    // Directions 1 to 6 of KiK-net: those of the borehole, then those of the surface.
+    constexpr std::array<std::string_view, 6> names{"NS1", "EW1", "UD1", "NS2", "EW2", "UD2"};
+    const std::size_t number =
+        direction.size() == 1 ? std::size_t(direction[0] - '1') : names.size();
+    const bool of_kiknet = number < names.size();
     RecordComponent component{
-        .name =
-            std::string(of_kiknet ? kiknet_components[std::size_t(direction[0] - '1')] : direction),
+        .name = std::string(of_kiknet ? names[number] : direction),
         .acceleration = acceleration_of_counts(scale.lines, take_free_numbers(lines, announced),
                                                factor.acceleration, factor.counts),
         .unit = AccelerationUnit::gal,
         .time_step = 1 / rate,
         .is_uncorrected = true,
-        .header = std::move(header).kept()};
+        .header = header.kept()};
     return {.format = of_kiknet ? "KiK-net" : "K-NET", .components = {std::move(component)}};
 }
 

@@ -3,6 +3,7 @@
 #include "overturn/record/text_file.hpp"
 #include "overturn/text/utf8.hpp"
 
+#include "comment.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
@@ -14,13 +15,6 @@
 namespace overturn {
 
 namespace {
-
-/// How many of a unit are one m/s2; 0 for g.
-double units_per_m_per_s2(AccelerationUnit unit)
-{
-    constexpr std::array<double, acceleration_unit_names.size()> numbers{0, 1, 100, 1000, 100};
-    return numbers[std::size_t(unit)];
-}
 
 /// Whether a line is like `2 CORRECTED ACCELEROGRAM`: the digit and the name of a kind of data.
 bool is_smc_title(std::string_view text)
@@ -45,10 +39,13 @@ bool next_content(Lines& lines)
 struct Mark {
     std::string_view words;
     bool is_at_begin; ///< of a line
-    RecordFile (*read)(Lines lines);
+    RecordFile (*read)(Lines lines, const RecordOptions& options);
+    std::size_t line = 0; ///< the only line that may contain them; 0: any
 };
 
-constexpr std::array<Mark, 10> marks{{{"Origin Time", true, read_knet},
+constexpr std::array<Mark, 12> marks{{{"NPTS", false, read_at2, 4},
+                                      {"Number of points", true, read_v2a, 10},
+                                      {"Origin Time", true, read_knet},
                                       {"Sampling Freq", true, read_knet},
                                       {"Scale Factor", true, read_knet},
                                       {"EVENT_NAME:", true, read_esm},
@@ -59,7 +56,7 @@ constexpr std::array<Mark, 10> marks{{{"Origin Time", true, read_knet},
                                       {"equally-spaced intervals of", false, read_csmip},
                                       {"data equally spaced at", false, read_csmip}}};
 
-/// The reader of the first mark in the lines that may be a header; null if they have none.
+/// The first mark in the lines that may be a header; null if they have none.
 const Mark* first_mark(Lines lines)
 {
     constexpr std::size_t most_lines = 100;
@@ -69,7 +66,8 @@ const Mark* first_mark(Lines lines)
         for (const Mark& mark : marks) {
             const std::size_t end = place_after(line, mark.words);
             if (!is_comment(line) && end != std::string_view::npos &&
-                (!mark.is_at_begin || end == mark.words.size())) {
+                (!mark.is_at_begin || end == mark.words.size()) &&
+                (mark.line == 0 || mark.line == lines.number())) {
                 return &mark;
             }
         }
@@ -93,21 +91,12 @@ const Mark* first_mark(Lines lines)
 /// Reads the samples in the format that the first lines have.
 RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
 {
-    constexpr std::string_view points = "Number of points";
-    for (Lines head = lines; head.next() && head.number() <= 10;) {
-        const std::string_view line = trimmed(head.line());
-        if (head.number() == 1 && is_smc_title(line)) {
-            return read_smc(lines);
-        }
-        if (head.number() == 4 && contains(line, "NPTS") && !is_comment(line)) {
-            return read_at2(lines, options.unit);
-        }
-        if (head.number() == 10 && place_after(line, points) == points.size()) {
-            return read_v2a(lines);
-        }
+    Lines title = lines;
+    if (title.next() && is_smc_title(trimmed(title.line()))) {
+        return read_smc(lines, options);
     }
     if (const Mark* const mark = first_mark(lines)) {
-        return mark->read(lines);
+        return mark->read(lines, options);
     }
     Lines data = lines;
     if (next_content(data)) {
@@ -119,53 +108,21 @@ RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
     refuse_format(lines);
 }
 
-/// A comment without its marks, and with plain blanks.
-std::string words_of_comment(std::string_view line)
-{
-    std::string words(line);
-    for (const std::string_view blank : {"\u00a0", "\u2009", "\u202f"}) {
-        for (std::size_t at = 0; (at = words.find(blank, at)) != words.npos;) {
-            words.replace(at, blank.size(), 1, ' ');
-        }
-    }
-    return words.substr(std::min(words.find_first_not_of(" \t#%"), words.size()));
-}
-
-/// Refuses a file whose header or comments state another unit than that of its samples, and not
-/// this one as well, as "converted from cm/s2, units: g" does.
+/// Refuses a header of which a line states another unit than that of the format, as in "units: g".
 void expect_no_other_unit(const RecordFile& file, const Lines& lines)
 {
-    // Comments of a text describe its columns, as in "time [s], acceleration [g]"; the header of a
-    // station contains other brackets.
-    const bool is_text = file.format == "text";
-    const auto places = is_text ? UnitPlaces::comment : UnitPlaces::after_units;
     for (const RecordComponent& component : file.components) {
-        const auto is_same = [&](const StatedUnit& stated) {
-            return stated.unit &&
-                   units_per_m_per_s2(*stated.unit) == units_per_m_per_s2(component.unit);
-        };
-        std::string refusal;
-        bool is_stated = false;
         for (const std::string& line : component.header) {
-            const std::string quoted = quoted_bytes(trimmed(line));
-            const std::string words = is_text ? words_of_comment(line) : line;
-            for (const StatedUnit& stated : stated_units(words, places)) {
-                if (is_text && stated.is_time) {
-                    lines.refuse_file("the line {} states times in {}. Give times in seconds.",
-                                      quoted, stated.text);
-                }
-                is_stated = is_stated || is_same(stated);
-                if (!is_same(stated) && refusal.empty() && (stated.unit || is_text)) {
-                    refusal = fmt::format(
-                        "the line {} states the unit {}, but {} is {}. Correct one of them.",
-                        quoted, quoted_bytes(stated.text),
-                        file.has_given_unit ? "the given unit" : "that of the format",
-                        name_of(component.unit));
+            for (const char* words : {"units", "units of", "units are"}) {
+                const std::string_view name = first_word(text_after(line, words));
+                const auto stated = unit_named(name);
+                if (stated && units_per_m_per_s2(*stated) != units_per_m_per_s2(component.unit)) {
+                    lines.refuse_file("the line {} states the unit {}, but that of the format is "
+                                      "{}. Correct one of them.",
+                                      quoted_bytes(trimmed(line)), quoted_bytes(name),
+                                      name_of(component.unit));
                 }
             }
-        }
-        if (!refusal.empty() && !is_stated) {
-            lines.refuse_file("{}", refusal);
         }
     }
 }
@@ -212,11 +169,11 @@ constexpr TextFileKind record_file{"a record", largest_record_file,
 
 std::vector<double> over_gravity(const RecordComponent& component, double gravity)
 {
+    const bool is_in_g = component.unit == AccelerationUnit::g;
+    const double g = is_in_g ? 1 : gravity * units_per_m_per_s2(component.unit);
     std::vector<double> values = component.acceleration;
-    if (component.unit != AccelerationUnit::g) {
-        const double g = gravity * units_per_m_per_s2(component.unit);
-        std::transform(values.begin(), values.end(), values.begin(),
-                       [&](double value) { return value / g; });
+    for (double& value : values) {
+        value /= g;
     }
     return values;
 }
@@ -239,11 +196,11 @@ RecordFile parse_record(std::string_view text, const std::string& name,
     for (RecordComponent& component : file.components) {
         component.name = as_utf8(component.name);
     }
-    if (file.format != "AT2") { // which may state any unit
-        expect_no_other_unit(file, lines);
-    }
-    if (file.format != "text") { // which states neither
+    if (file.format != "text") { // which states neither unit nor time step
         expect_no_options(file, options, lines);
+    }
+    if (file.format != "text" && file.format != "AT2") { // which may state any unit
+        expect_no_other_unit(file, lines);
     }
     return file;
 }

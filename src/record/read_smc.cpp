@@ -35,14 +35,13 @@ double time_step_of_rate(const Lines& lines)
 
 } // namespace
 
-RecordFile read_smc(Lines lines)
+RecordFile read_smc(Lines lines, const RecordOptions&)
 {
     const Lines before = lines;
-    Header header;
-    header.take(lines, header_lines);
-    if (const Lines kind = ahead_by(before, 1); !contains(kind.line(), "ACCELEROGRAM")) {
-        kind.refuse("{} is not an accelerogram. Give the file of the acceleration.",
-                    quoted_bytes(trimmed(kind.line())));
+    const Lines kind = ahead_by(before, 1);
+    lines = ahead_by(before, header_lines);
+    if (!contains(kind.line(), "ACCELEROGRAM")) {
+        refuse_motion(kind);
     }
     const Lines counts = ahead_by(before, 14);
     const Announcement announced{.count = count_of(counts, column_of(counts.line(), 10, 0),
@@ -51,14 +50,15 @@ RecordFile read_smc(Lines lines)
                                  .line = counts.number()};
     const double time_step = time_step_of_rate(ahead_by(before, 18));
     for (Lines ahead = lines; ahead.next() && ahead.line().starts_with('|');) { // a comment
-        header.take(lines, 1);
+        lines = ahead;
     }
+    const std::size_t last_of_header = lines.number();
     RecordComponent component{.name = component_name(ahead_by(before, 6).line()),
                               .acceleration = take_free_numbers(lines, announced),
                               .unit = AccelerationUnit::cm_per_s2,
                               .time_step = time_step,
-                              .is_uncorrected = contains(ahead_by(before, 1).line(), "UNCORRECTED"),
-                              .header = std::move(header).kept()};
+                              .is_uncorrected = contains(kind.line(), "UNCORRECTED"),
+                              .header = kept_lines(before, last_of_header)};
     return {.format = "SMC", .components = {std::move(component)}};
 }
 

@@ -1,3 +1,4 @@
+#include "comment.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
 #include "stated_unit.hpp"
@@ -60,11 +61,48 @@ class EvenTimes {
 public:
     /// Refuses a word of the current line that is not a number, and a time that is not after the
     /// previous one or is not evenly spaced with the previous ones.
-    void add(const Lines& lines, std::string_view word);
+    void add(const Lines& lines, std::string_view word)
+    {
+        const double time = number_of(lines, word);
+        if (std::abs(time) > largest_time) {
+            lines.refuse(
+                "the time {} s is outside {} to {} s. The first of two columns must be the "
+                "time in seconds.",
+                word, -largest_time, largest_time);
+        }
+        if (size_ == 0) {
+            first_ = time;
+        } else if (!(time > last_)) {
+            lines.refuse("the time {} s is not after the previous time, {} s. Give ascending times "
+                         "with enough digits, or one column and time_step.",
+                         word, last_);
+        } else {
+            // Rounding: of both times, of their difference, of its sum with the half unit.
+            constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+            const double half_unit =
+                printed_unit(word) / 2 + rounding * (std::abs(time) + std::abs(first_));
+            const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
+            const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
+            if (!(least <= most)) {
+                lines.refuse(
+                    "the time is {} s, but must be {:.9g} s to within half a unit of its last "
+                    "digit: times must be evenly spaced, and those before have the step "
+                    "{:.9g} s. Resample the record, or give one column and time_step.",
+                    word, first_ + double(size_) * step(), step());
+            }
+            least_ = least;
+            most_ = most;
+        }
+        last_ = time;
+        ++size_;
+    }
 
     /// The step with the fewest decimal digits; of several, the one nearest to the mean step [s].
     /// Requires two times.
-    double step() const;
+    double step() const
+    {
+        return simplest_decimal(least_, most_, (last_ - first_) / double(size_ - 1));
+    }
 
     double start() const { return first_; } ///< [s]
     std::size_t size() const { return size_; }
@@ -76,45 +114,6 @@ private:
     double most_ = std::numeric_limits<double>::infinity(); ///< upper bound of the step [s]
     std::size_t size_ = 0;
 };
-
-void EvenTimes::add(const Lines& lines, std::string_view word)
-{
-    const double time = number_of(lines, word);
-    if (std::abs(time) > largest_time) {
-        lines.refuse("the time {} s is outside {} to {} s. The first of two columns must be the "
-                     "time in seconds.",
-                     word, -largest_time, largest_time);
-    }
-    if (size_ == 0) {
-        first_ = time;
-    } else if (!(time > last_)) {
-        lines.refuse("the time {} s is not after the previous time, {} s. Give ascending times "
-                     "with enough digits, or one column and time_step.",
-                     word, last_);
-    } else {
-        // Rounding: of both times, of their difference, of its sum with the half unit.
-        constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-        const double half_unit =
-            printed_unit(word) / 2 + rounding * (std::abs(time) + std::abs(first_));
-        const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
-        const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
-        if (!(least <= most)) {
-            lines.refuse("the time is {} s, but must be {:.9g} s to within half a unit of its last "
-                         "digit: times must be evenly spaced, and those before have the step "
-                         "{:.9g} s. Resample the record, or give one column and time_step.",
-                         word, first_ + double(size_) * step(), step());
-        }
-        least_ = least;
-        most_ = most;
-    }
-    last_ = time;
-    ++size_;
-}
-
-double EvenTimes::step() const
-{
-    return simplest_decimal(least_, most_, (last_ - first_) / double(size_ - 1));
-}
 
 /// Columns are separated by blanks, or by a comma with or without blanks.
 std::vector<std::string_view> columns_of(std::string_view line)
@@ -157,140 +156,40 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
     }
 }
 
-/// Whether a comma is between two digits, as in 1,5: it separates two columns or is a decimal mark.
-bool has_doubtful_comma(std::string_view line)
+template <class IsWanted>
+bool any_line(Lines lines, const IsWanted& is_wanted)
 {
-    const auto is_digit = [&](std::size_t i) { return '0' <= line[i] && line[i] <= '9'; };
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-        if (line[i] == ',' && is_digit(i - 1) && is_digit(i + 1)) {
+    while (lines.next()) {
+        if (is_wanted(lines.line())) {
             return true;
         }
     }
     return false;
 }
 
-/// Refuses decimal commas: commas between digits in a file without any decimal point.
-void expect_decimal_points(Lines lines)
+/// Refuses a comma between digits, as in 1,5, of a file without any decimal point.
+void expect_no_decimal_comma(const Lines& lines)
 {
-    std::optional<Lines> doubtful;
-    while (lines.next()) {
-        if (is_comment(lines.line())) {
-            continue;
-        }
-        if (lines.line().find('.') != std::string_view::npos) {
-            return;
-        }
-        if (!doubtful && has_doubtful_comma(lines.line())) {
-            doubtful = lines;
-        }
-    }
-    if (doubtful) {
-        doubtful->refuse("{} may be a number with a decimal comma, because the file has no decimal "
+    const std::string_view line = lines.line();
+    const auto is_digit = [&](std::size_t i) { return '0' <= line[i] && line[i] <= '9'; };
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        if (line[i] == ',' && is_digit(i - 1) && is_digit(i + 1)) {
+            lines.refuse("{} may be a number with a decimal comma, because the file has no decimal "
                          "point. Write numbers with a point, and separate columns by blanks.",
-                         quoted_bytes(trimmed(doubtful->line())));
-    }
-}
-
-/// The words of a comment, in lower case.
-std::vector<std::string> words_of(std::string_view comment)
-{
-    constexpr std::string_view marks = " \t=:,;()[]{}_/#\"'";
-    const std::string text = lower(comment);
-    std::vector<std::string> words;
-    for (std::size_t begin = 0; (begin = text.find_first_not_of(marks, begin)) != text.npos;) {
-        const std::size_t end = std::min(text.find_first_of(marks, begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
-        begin = end;
-    }
-    return words;
-}
-
-/// The word without a number at its beginning: "hz" of "100hz".
-std::string_view without_number(std::string_view word)
-{
-    return word.substr(std::min(word.find_first_not_of("0123456789.+-"), word.size()));
-}
-
-/// What a comment says of the time step, as in DT= .01, "time step: 10 ms" or "sampling rate 100
-/// Hz".
-struct StatedSampling {
-    bool is_stated = false;
-    std::vector<double> steps; ///< that its numbers may mean [s]
-};
-
-StatedSampling stated_sampling(std::string_view comment)
-{
-    const std::vector<std::string> words = words_of(comment);
-    const auto has = [&](auto... names) {
-        return std::ranges::any_of(words, [&](const std::string& word) {
-            return ((without_number(word) == names) || ...);
-        });
-    };
-    const auto begins = [&](std::string_view name) {
-        return std::ranges::any_of(words,
-                                   [&](const std::string& word) { return word.starts_with(name); });
-    };
-    const bool samples = begins("sampl");
-    const bool in_time = samples || begins("time");
-    const bool has_step = has("dt", "timestep", "delta", "deltat") ||
-                          (in_time && (has("step", "interval", "increment", "spacing") ||
-                                       (samples && has("period")))) ||
-                          (has("interval") && has("s", "sec", "ms"));
-    const bool has_rate =
-        has("sps", "fs") || (samples && (has("hz", "rate", "frequency", "freq") ||
-                                         (has("s", "sec", "second") && has("samples", "per"))));
-    StatedSampling stated;
-    for (const std::string& word : words) {
-        double value = 0;
-        const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (failure == std::errc() && value > 0) {
-            stated.is_stated = has_step || has_rate;
-            if (has_step) {
-                stated.steps.push_back(has("ms", "msec") || begins("milli") ? value / 1000 : value);
-            }
-            if (has_rate) {
-                stated.steps.push_back(1 / value);
-            }
+                         quoted_bytes(trimmed(line)));
         }
     }
-    return stated;
 }
 
-/// Refuses a file whose comments speak of velocities or displacements, and not of accelerations.
-void expect_accelerations(Lines lines)
+/// Refuses a comment about velocities or displacements, of a file none of whose comments speaks of
+/// accelerations.
+void expect_acceleration(const Lines& comment)
 {
-    std::optional<Lines> other;
-    while (lines.next()) {
-        if (!is_comment(lines.line())) {
-            continue;
-        }
-        if (contains(lines.line(), "acc")) {
-            return;
-        }
-        if (!other &&
-            (contains(lines.line(), "velocit") || contains(lines.line(), "displacement"))) {
-            other = lines;
-        }
-    }
-    if (other) {
-        other->refuse("{} does not contain accelerations. Give the file with the accelerations, or "
-                      "remove the comment.",
-                      quoted_bytes(trimmed(other->line())));
-    }
-}
-
-/// Refuses a comment that states a time step or a rate, and not that of the only column.
-void expect_stated_step(const Lines& lines, double time_step)
-{
-    const StatedSampling stated = stated_sampling(lines.line());
-    constexpr double rounding = 1e-3; // of a printed step, such as 0.0078
-    const auto agrees = [&](double step) {
-        return std::abs(step - time_step) <= rounding * time_step;
-    };
-    if (stated.is_stated && std::ranges::none_of(stated.steps, agrees)) {
-        lines.refuse("the comment {} does not state the time step that was given, time_step = {} "
-                     "s. Correct one of them, or remove the comment.",
-                     quoted_bytes(trimmed(lines.line())), time_step);
+    if (contains(comment.line(), "velocit") || contains(comment.line(), "displacement")) {
+        comment.refuse(
+            "{} does not contain accelerations. Give the file with the accelerations, or "
+            "remove the comment.",
+            quoted_bytes(trimmed(comment.line())));
     }
 }
 
@@ -315,20 +214,29 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
     }
-    expect_accelerations(lines);
-    expect_decimal_points(lines);
+    const bool speaks_of_accelerations = any_line(
+        lines, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
+    const bool has_points = any_line(lines, [](std::string_view line) {
+        return !is_comment(line) && line.find('.') != line.npos;
+    });
     RecordComponent component;
     component.unit = *options.unit;
-    Header header;
+    component.header = kept_lines(lines, std::string_view::npos, is_comment);
     EvenTimes times;
     std::size_t columns = 0;
     while (lines.next()) {
         if (is_comment(lines.line())) {
-            if (options.time_step) { // the file has one column
-                expect_stated_step(lines, *options.time_step);
+            expect_unit(lines, *options.unit);
+            if (!speaks_of_accelerations) {
+                expect_acceleration(lines);
             }
-            header.add(lines);
+            if (options.time_step) { // the file has one column
+                expect_time_step(lines, *options.time_step);
+            }
             continue;
+        }
+        if (!has_points) {
+            expect_no_decimal_comma(lines);
         }
         const std::vector<std::string_view> row = columns_of(lines.line());
         if (row.empty()) {
@@ -349,7 +257,6 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
         lines.refuse("the file has one sample, but the time step can be determined only from two "
                      "or more. Give the complete file.");
     }
-    component.header = std::move(header).kept();
     if (columns == 1) {
         expect_no_count(lines, component.acceleration);
         component.time_step = *options.time_step;

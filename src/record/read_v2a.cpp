@@ -1,3 +1,4 @@
+#include "channels.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
 
@@ -12,19 +13,6 @@ constexpr std::size_t header_lines = 26;
 constexpr std::size_t most_components = 3;
 constexpr Columns columns{.width = 8, .per_line = 10};
 
-void expect_title(const Lines& lines)
-{
-    if (contains(lines.line(), "uncorrected")) {
-        lines.refuse(
-            "this is an uncorrected accelerogram (V1A). Give the V2A file of this record.");
-    }
-    if (!contains(lines.line(), "accelerogram")) {
-        lines.refuse("{} is not the first line of a component, such as Corrected accelerogram. "
-                     "Give the file as it was published.",
-                     quoted_bytes(lines.line()));
-    }
-}
-
 /// The second word of `Component N28W  Longitudinal Accelerometer Axis`.
 std::string component_name(const Lines& lines)
 {
@@ -33,8 +21,7 @@ std::string component_name(const Lines& lines)
         lines.refuse("{} does not name the component. Write it as in Component N28W.",
                      quoted_bytes(lines.line()));
     }
-    const std::string_view name = trimmed(lines.line().substr(place));
-    return std::string(name.substr(0, name.find_first_of(" \t")));
+    return std::string(first_word(lines.line().substr(place)));
 }
 
 void expect_unit(const Lines& lines)
@@ -48,9 +35,8 @@ void expect_unit(const Lines& lines)
 RecordComponent take_component(Lines& lines)
 {
     const Lines before = lines;
-    Header header;
-    header.take(lines, header_lines);
-    expect_title(ahead_by(before, 1));
+    lines = ahead_by(lines, header_lines);
+    expect_corrected_accelerogram(ahead_by(before, 1));
     expect_unit(ahead_by(before, 14));
     const Lines times = ahead_by(before, 23);
     RecordComponent component{.name = component_name(ahead_by(before, 13)),
@@ -58,7 +44,7 @@ RecordComponent take_component(Lines& lines)
                               .unit = AccelerationUnit::mm_per_s2,
                               .time_step =
                                   time_step_of(times, column_of(times.line(), columns.width, 5)),
-                              .header = std::move(header).kept()};
+                              .header = kept_lines(before, lines.number())};
     const Lines counts = ahead_by(before, 20);
     // The values of a quantity whose count is in this column.
     const auto take = [&](std::size_t column, std::string_view name, std::size_t least) {
@@ -74,7 +60,7 @@ RecordComponent take_component(Lines& lines)
 
 } // namespace
 
-RecordFile read_v2a(Lines lines)
+RecordFile read_v2a(Lines lines, const RecordOptions&)
 {
     RecordFile file{.format = "V2A", .components = {}};
     do {

@@ -1,35 +1,31 @@
-// Units of acceleration that the header of a file states in words.
+// Units of acceleration that files state, in their usual spellings.
 #pragma once
 
+#include "lines.hpp"
 #include "overturn/record/read_record.hpp"
 
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace overturn {
 
-/// A unit as it is spelled. Unknown spellings and multiples, such as G/10, have no value.
-struct StatedUnit {
-    std::string text;
-    std::optional<AccelerationUnit> unit;
-    bool is_time; ///< a unit of time other than the second
-};
+/// How many of a unit are one m/s2; 0 for g.
+double units_per_m_per_s2(AccelerationUnit unit);
 
-/// Where a unit is looked for in a line.
-enum class UnitPlaces {
-    after_units, ///< after "unit" or "units", as in UNITS OF G
-    title,       ///< also after "in", ":" or "=", in brackets, and CM/S/S and the like anywhere
-    comment,     ///< also a G anywhere, alone or in a name such as acc_g, and the whole line
-};
+/// A text in lower case and with few spellings: CM/SEC**2, cm s-2, cm_s2, CMPS2 and "cm per second
+/// squared" become cm/s2.
+std::string in_few_spellings(std::string_view text);
 
-/// The units that a line states. Words that are no units, such as places, are skipped; a "G" counts
-/// only where a unit is expected, but in a comment everywhere except in "0.3 g", "g = 9.81",
-/// "component G" and before a name, "G. Miller". Understood are g, gal, and m, cm or mm per square
-/// second, in any case and in the usual spellings: CM/S/S, cm/sec^2, CM/S**2, cm s-2, cm per sec
-/// per sec.
-std::vector<StatedUnit> stated_units(std::string_view line, UnitPlaces places);
+/// The unit of this name, in any case: g, gal, and m, cm or mm per square second in the spellings
+/// above. nullopt for everything else, such as G/10.
+std::optional<AccelerationUnit> unit_named(std::string_view name);
+
+/// The same for the samples of a format that states their unit. Refuses everything else.
+AccelerationUnit unit_of_samples(const Lines& lines, std::string_view name);
+
+/// The text after a word, up to a bracket or a comma: cm/sec2 of "70 secs, units=cm/sec2(04)".
+std::string_view text_after(std::string_view line, std::string_view word);
 
 /// How to state what a file does not, for messages. option: "units" or "time_step".
 std::string how_to_state(std::string_view option);

@@ -132,20 +132,23 @@ TEST(At2, IsRefusedWithFileLineAndReason)
             "a.txt:4: NPTS is \"-3\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},
         {"TwoTimeSteps", at2("NPTS= 3, DT= .01 SEC, DT= .02 SEC"),
-            "a.txt:4: \"NPTS= 3, DT= .01 SEC, DT= .02 SEC\" has other numbers beside the number of points and the "
-            "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
+            "a.txt:4: \"NPTS= 3, DT= .01 SEC, DT= .02 SEC\" is not understood. Write only the number of points and "
+            "the time step in seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"TwoTimeStepsInTheOldForm", at2("3 0.01 NPTS, DT 0.02"),
-            "a.txt:4: the unit \"0.02\" of the time step is not understood. Write it in seconds, as in DT= .01 SEC."},
+            "a.txt:4: \"3 0.01 NPTS, DT 0.02\" is not understood. Write only the number of points and the time step "
+            "in seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"AnotherUnitInTheOldForm", at2("3 5.0 NPTS, DT MSEC"),
-            "a.txt:4: the unit \"MSEC\" of the time step is not understood. Write it in seconds, as in DT= .01 SEC."},
+            "a.txt:4: \"3 5.0 NPTS, DT MSEC\" is not understood. Write only the number of points and the time step "
+            "in seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"AFactorInTheOldForm", at2("3 5.0 NPTS, DT*10"),
-            "a.txt:4: \"3 5.0 NPTS, DT*10\" is not understood. Write it as in NPTS= 4000, DT= .01 SEC."},
+            "a.txt:4: \"3 5.0 NPTS, DT*10\" is not understood. Write only the number of points and the time step in "
+            "seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"AFactor", at2("NPTS= 3, DT= .01 SEC, SCALE FACTOR 2"),
-            "a.txt:4: \"NPTS= 3, DT= .01 SEC, SCALE FACTOR 2\" has other numbers beside the number of points and the "
-            "time step. Write it as in NPTS= 4000, DT= .01 SEC."},
+            "a.txt:4: \"NPTS= 3, DT= .01 SEC, SCALE FACTOR 2\" is not understood. Write only the number of points "
+            "and the time step in seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"AnotherUnitInFront", at2("MS: NPTS= 3, DT= 5"),
-            "a.txt:4: \"MS: NPTS= 3, DT= 5\" lacks the number of points or the time step. Write it as in NPTS= 4000, "
-            "DT= .01 SEC."},
+            "a.txt:4: \"MS: NPTS= 3, DT= 5\" is not understood. Write only the number of points and the time step in "
+            "seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"AFractionOfPoints", at2("NPTS= 3.5, DT= .01 SEC"),
             "a.txt:4: NPTS is \"3.5\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},
@@ -156,11 +159,11 @@ TEST(At2, IsRefusedWithFileLineAndReason)
             "a.txt:4: NPTS is \"99999999999999999999999\", but must be an integer from 1 to 10000000. Correct it, "
             "or give another record."},
         {"NoTimeStep", at2("NPTS= 3"),
-            "a.txt:4: \"NPTS= 3\" lacks the number of points or the time step. Write it as in NPTS= 4000, DT= .01 "
-            "SEC."},
+            "a.txt:4: \"NPTS= 3\" is not understood. Write only the number of points and the time step in seconds, "
+            "as in NPTS= 4000, DT= .01 SEC."},
         {"AnEmptyTimeStep", at2("NPTS= 3, DT="),
-            "a.txt:4: \"NPTS= 3, DT=\" lacks the number of points or the time step. Write it as in NPTS= 4000, DT= "
-            ".01 SEC."},
+            "a.txt:4: \"NPTS= 3, DT=\" is not understood. Write only the number of points and the time step in "
+            "seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"ATimeStepOfZero", at2("NPTS= 3, DT= 0.00 SEC"),
             "a.txt:4: the time step is 0 s, but must be above 0. Correct it."},
         {"ANegativeTimeStep", at2("NPTS= 3, DT= -.01 SEC"),
@@ -170,8 +173,8 @@ TEST(At2, IsRefusedWithFileLineAndReason)
         {"AWordAsTimeStep", at2("NPTS= 3, DT= unknown"),
             "a.txt:4: \"unknown\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"Velocities", with(sound, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"),
-            "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" does not contain accelerations. Give the AT2 file of this "
-            "record."},
+            "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" does not announce accelerations. Give the file "
+            "of the acceleration."},
         {"NotANumber", with(sound, "0.5", "0.5 rest"),
             "a.txt:6: \"rest\" follows the last of the 3 samples that NPTS announces in line 4. Correct NPTS or "
             "remove the rest."},
@@ -182,7 +185,8 @@ TEST(At2, IsRefusedWithFileLineAndReason)
         {"ADecimalComma", with(sound, "0.5", "0,5"),
             "a.txt:6: \"0,5\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"ADecimalCommaInTheTimeStep", at2("NPTS= 3, DT= 1,5 SEC"),
-            "a.txt:4: the time step \"1,5\" has a decimal comma. Write it with a point, as in DT= .01 SEC."},
+            "a.txt:4: \"NPTS= 3, DT= 1,5 SEC\" is not understood. Write only the number of points and the time step "
+            "in seconds, as in NPTS= 4000, DT= .01 SEC."},
         {"TwoSigns", with(sound, "0.5", "+-0.5"),
             "a.txt:6: \"+\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"Hexadecimals", with(sound, "0.5", "0x1p3"),

@@ -191,19 +191,21 @@ TEST(Cosmos, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
         {"Velocities", with_value({.stage = "Corrected", .kind = "velocity", .units = "cm/sec(05)"}, false, 2, "2"),
-            "a.txt:1: \"Corrected velocity    (Format v01.20 wit...\" contains no acceleration. "
-            "Give the file of the acceleration."},
+            "a.txt:1: \"Corrected velocity    (Format v01.20 wit...\" does not announce "
+            "accelerations. Give the file of the acceleration."},
         {"ContradictoryKinds", with_value({}, false, 2, "2"),
             "a.txt:38: \"10  acceleration pts, approx    0 secs, ...\" contradicts integer 2 of the header, 2: 1 is "
             "acceleration. Correct one of them."},
         {"ContradictoryUnits", with_value({}, false, 3, "2"),
             "a.txt:38: the unit \"cm/sec2\" contradicts integer 3 of the header, 2. Correct one of them."},
         {"NoUnit", with(channel(), "units=cm/sec2(04),", ""),
-            "a.txt:38: the unit \"\" of the samples is not understood; cm/sec2 and counts are, for example. Give the "
-            "values as text with their unit."},
+            "a.txt:38: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
+            "unit."},
         {"AnotherUnit", channel({.units = "mg(11)"}),
-            "a.txt:38: the unit \"mg\" of the samples is not understood; cm/sec2 and counts are, for example. Give the "
-            "values as text with their unit."},
+            "a.txt:38: the unit \"mg\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
+            "unit."},
         {"ContradictoryTimeSteps", with_value({}, true, 62, "5.0"),
             "a.txt:17: the duration 0.2 s is not that of 10 samples at 0.005 s, 0.05 s. Correct it, or give the file "
             "as it was published."},

@@ -133,7 +133,7 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
     expect_refused({
         {"Velocities", with(sound, announces, "  10 points of veloc data equally spaced at  .010 sec, in cm/sec. (8f10.6)"),
             "a.txt:12: \"10 points of veloc data equally spaced a...\" does not announce "
-            "accelerations. Give the file of volume 2 that contains them."},
+            "accelerations. Give the file of the acceleration."},
         {"FewerSamples", with(sound, "  7.000000  8.000000\n", "  7.000000\n"),
             "a.txt:14: the line has 1 column of 10 characters, but must have 2: line 12 announces 10 values of "
             "acceleration, 8 per line. Give the file as it was published."},
@@ -147,11 +147,13 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
             "a.txt:11: the channel that begins in line 1 has no line such as 7500 points of accel data equally spaced "
             "at .010 sec, in cm/sec2. (8f10.6). Give the complete file of volume 2."},
         {"NoUnit", with(sound, "in cm/sec2. ", ""),
-            "a.txt:12: the unit \"\" of the samples is not understood; cm/sec2 is, for example. Give the "
-            "values as text with their unit."},
+            "a.txt:12: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
+            "unit."},
         {"AnotherUnit", with(sound, "in cm/sec2.", "in g/10."),
-            "a.txt:12: the unit \"g/10\" of the samples is not understood; cm/sec2 is, for example. Give the "
-            "values as text with their unit."},
+            "a.txt:12: the unit \"g/10.\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and "
+            "their usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with "
+            "their unit."},
         {"AnotherUnitOfTheTimeStep", with(sound, ".010 sec, in", "10. msec, in"),
             "a.txt:12: the time step \"10.\" is followed by \"msec,\", but must be in seconds, as in .010 sec. Correct "
             "it."},
@@ -160,7 +162,7 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
         {"ACutNumber", with(sound, "(8f10.6)", "(10f8.6)"),
             "a.txt:13: column 1 of 8 characters ends within a number: \"-.0012\". Give the file as it was published."},
         {"AnUncorrectedRecord", with(sound, "Corrected accelerogram", "Uncorrected accelerogram"),
-            "a.txt:1: this is an uncorrected accelerogram (volume 1). Give the file of volume 2."},
+            "a.txt:1: this is an uncorrected accelerogram (V1A or volume 1). Give the corrected one (V2A or volume 2)."},
         {"AnotherTextBehindAChannel", channel("Up") + "rest\n",
             "a.txt:20: \"rest\" is not the first line of a channel, such as Corrected accelerogram. Give the file as "
             "it was published."}});

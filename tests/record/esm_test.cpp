@@ -78,16 +78,18 @@ TEST(Esm, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
         {"Velocities", with(with(sound, "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY"), "cm/s^2", "cm/s"),
-            "a.txt:12: \"DATA_TYPE: VELOCITY\" is not ACCELERATION. Give the file of the acceleration (.ACC.)."},
+            "a.txt:12: \"DATA_TYPE: VELOCITY\" does not announce accelerations. Give the file of the acceleration."},
         {"Displacements", with(with(sound, "DATA_TYPE: ACCELERATION\n", ""), "cm/s^2", "cm"),
-            "a.txt:8: the unit \"cm\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their usual "
-            "spellings, such as cm/s^2. Give the file of the acceleration (.ACC.)."},
+            "a.txt:8: the unit \"cm\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
+            "unit."},
         {"Spectra", with(sound, "DATA_TYPE: ACCELERATION", "DATA_TYPE: ACCELERATION RESPONSE SPECTRUM"),
-            "a.txt:12: \"DATA_TYPE: ACCELERATION RESPONSE SPECTRU...\" is not ACCELERATION. Give the file of the "
-            "acceleration (.ACC.)."},
+            "a.txt:12: \"DATA_TYPE: ACCELERATION RESPONSE SPECTRU...\" does not announce accelerations. Give the "
+            "file of the acceleration."},
         {"NoUnit", with(sound, "UNITS: cm/s^2", "UNITS: "),
-            "a.txt:8: the unit \"\" is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their usual "
-            "spellings, such as cm/s^2. Give the file of the acceleration (.ACC.)."},
+            "a.txt:8: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
+            "unit."},
         {"NoLineOfTheUnit", with(sound, "UNITS: cm/s^2\n", ""),
             "a.txt:13: the header, which ends with this line, has no line that begins with \"UNITS:\". Give the file "
             "as it was published."},

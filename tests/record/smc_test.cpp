@@ -99,11 +99,11 @@ TEST(Smc, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
         {"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
-            "a.txt:1: \"3 VELOCITY\" is not an accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"3 VELOCITY\" does not announce accelerations. Give the file of the acceleration."},
         {"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
-            "a.txt:1: \"4 DISPLACEMENT\" is not an accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"4 DISPLACEMENT\" does not announce accelerations. Give the file of the acceleration."},
         {"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
-            "a.txt:1: \"5 RESPONSE SPECTRA\" is not an accelerogram. Give the file of the acceleration."},
+            "a.txt:1: \"5 RESPONSE SPECTRA\" does not announce accelerations. Give the file of the acceleration."},
         {"FewerSamples", with(sound, "-9.7655E-1", ""),
             "a.txt:31: the file ends after 9 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
@@ -114,7 +114,7 @@ TEST(Smc, IsRefusedWithFileLineAndReason)
             "a.txt:28: the file ends after 0 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
         {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
-            "a.txt:13: the file ends after 13 of the 27 lines of the header. Give the complete file."},
+            "a.txt:13: the file ends within the header. Give the complete file."},
         {"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},

@@ -143,7 +143,7 @@ TEST(V2a, IsRefusedWithFileLineAndReason)
             "a.txt:94: the file ends after 0 of the 12 values of displacement that line 84 announces. Give the "
             "complete file."},
         {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("   65536")),
-            "a.txt:19: the file ends after 19 of the 26 lines of the header. Give the complete file."},
+            "a.txt:19: the file ends within the header. Give the complete file."},
         {"AGap", with(sound, "    -2.0", "        "),
             "a.txt:27: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"Nan", with(sound, "    -2.0", "     nan"),
@@ -168,11 +168,11 @@ TEST(V2a, IsRefusedWithFileLineAndReason)
             "a.txt:13: \"Direction N28W  Some Accelerometer Axis\" does not name the component. Write it as in "
             "Component N28W."},
         {"UncorrectedData", with(sound, "Corrected", "Uncorrected"),
-            "a.txt:1: this is an uncorrected accelerogram (V1A). Give the V2A file of this record."},
+            "a.txt:1: this is an uncorrected accelerogram (V1A or volume 1). Give the corrected one (V2A or volume 2)."},
         {"AFourthComponent", sound + component("Down", 1),
             "a.txt:97: more text follows the last of the 3 components. Remove it."},
         {"AnotherTextBehindAComponent", component("Up", 1) + std::string("rest\n") + component("N", 1),
-            "a.txt:33: \"rest\" is not the first line of a component, such as Corrected accelerogram. Give the "
+            "a.txt:33: \"rest\" is not the first line of a channel, such as Corrected accelerogram. Give the "
             "file as it was published."}});
 }
 // clang-format on

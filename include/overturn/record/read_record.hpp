@@ -62,7 +62,7 @@ inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [b
 /// Reads the text of a file; `name` replaces the path in messages. The format is recognised from
 /// the text:
 ///
-///   AT2   line 4 contains NPTS, and is not a comment; the unit is g if the header states none
+///   AT2   line 4 contains NPTS, and is not a comment
 ///   V2A   line 10 begins with "Number of points"
 ///   SMC   line 1 is a digit and the kind of data, such as "2 CORRECTED ACCELEROGRAM"
 ///   K-NET, KiK-net  a line begins with "Origin Time", "Sampling Freq" or "Scale Factor"

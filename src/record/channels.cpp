@@ -1,0 +1,69 @@
+#include "channels.hpp"
+
+#include <regex>
+
+namespace overturn {
+
+namespace {
+
+/// The columns of the first format of Fortran in a line: (8F10.5), (10I8), (1E15.6), (1P5E15.6) and
+/// the like. nullopt if there is none.
+std::optional<Columns> columns_of_format(std::string_view line)
+{
+    static const std::regex format(
+        R"(\([ \t]{0,9}([0-9]{1,3}[pP],?)?([0-9]{0,3})([iIfFeEdDgG])[sSnN]?([0-9]{1,3})(?![0-9])(\.([0-9]{1,9}))?)");
+    std::cmatch found;
+    if (!std::regex_search(line.begin(), line.end(), found, format)) {
+        return std::nullopt;
+    }
+    const auto number = [&](std::size_t group, std::size_t otherwise) {
+        return found.length(group) == 0 ? otherwise : std::stoul(found.str(group));
+    };
+    Columns columns{.width = number(4, 0), .per_line = number(2, 1), .decimals = {}};
+    if (found.length(6) > 0 || lower(found.str(3)) == "i") {
+        columns.decimals = number(6, 0);
+    }
+    return columns.width > 0 && columns.per_line > 0 ? std::optional(columns) : std::nullopt;
+}
+
+} // namespace
+
+void expect_corrected_accelerogram(const Lines& lines)
+{
+    if (contains(lines.line(), "uncorrected")) {
+        lines.refuse("this is an uncorrected accelerogram (V1A or volume 1). Give the corrected "
+                     "one (V2A or volume 2).");
+    }
+    if (!contains(lines.line(), "accelerogram")) {
+        lines.refuse("{} is not the first line of a channel, such as Corrected accelerogram. Give "
+                     "the file as it was published.",
+                     quoted_bytes(trimmed(lines.line())));
+    }
+}
+
+std::string channel_name(Lines header, std::size_t end)
+{
+    while (header.number() + 1 < end && header.next()) {
+        const std::string_view line = trimmed(header.line());
+        if (lower(line).starts_with("chan") || lower(line).starts_with("sta cha")) {
+            const std::string_view text = line.substr(0, line.find('('));
+            const std::size_t colon = text.rfind(':');
+            return std::string(colon == text.npos ? "" : trimmed(text.substr(colon + 1)));
+        }
+    }
+    return "";
+}
+
+std::vector<double> take_announced(Lines& lines, std::string_view name,
+                                   const std::optional<Columns>& usual)
+{
+    const std::size_t count = count_of(lines, first_word(lines.line()), "the number of values");
+    const auto stated = columns_of_format(lines.line());
+    if (!stated && !usual) {
+        lines.refuse("the line states no format of the values, such as Format=(8F10.5). Give the "
+                     "file as it was published.");
+    }
+    return take_columns(lines, stated ? *stated : *usual, {count, name, lines.number()});
+}
+
+} // namespace overturn

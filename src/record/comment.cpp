@@ -1,0 +1,249 @@
+#include "comment.hpp"
+
+#include "stated_unit.hpp"
+
+#include <boost/algorithm/string.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <regex>
+
+namespace overturn {
+
+namespace {
+
+/// In few spellings, without the marks of a comment and the points of sentences.
+std::string text_of_comment(std::string_view line)
+{
+    static const std::regex point(R"(\.(?![0-9]))");
+    line = trimmed(line);
+    line.remove_prefix(std::min(line.find_first_not_of(line.substr(0, 1)), line.size()));
+    std::string text = std::regex_replace(in_few_spellings(line), point, " ");
+    boost::algorithm::replace_all(text, "%", " percent ");
+    return text;
+}
+
+struct Word {
+    std::string_view text;
+    std::string_view gap; ///< the text between the previous word and this one
+};
+
+std::vector<Word> words_with_gaps(std::string_view text)
+{
+    std::vector<Word> words;
+    const char* end = text.data();
+    for (const std::string_view word : words_of(text, " ,;:=()[]{}<>|\"_-#")) {
+        words.push_back({word, std::string_view(end, word.data())});
+        end = word.data() + word.size();
+    }
+    return words;
+}
+
+bool begins_with_number(std::string_view word)
+{
+    return word.find_first_of("0123456789.") == 0;
+}
+
+bool is_acceleration(std::string_view word)
+{
+    return is_one_of(word, {"a", "acc", "accel", "accn", "acceleration", "accelerations"});
+}
+
+/// Whether a word is a length, or something over one, where a unit is expected.
+bool is_length(std::string_view word)
+{
+    return is_one_of(word, {"mm", "cm", "dm", "m", "km", "ft", "feet", "foot", "inch", "inches",
+                            "cms", "mms", "mps", "cmps", "mmps"});
+}
+
+bool is_factor(std::string_view word)
+{
+    return word.find_first_of("*/") == 0 ||
+           is_one_of(word,
+                     {"percent", "milli", "micro", "tenth", "tenths", "hundredths", "thousandths",
+                      "divided", "factor", "multiplied", "multiply", "scale", "scaled", "times"});
+}
+
+/// Whether a word is a unit of acceleration or of velocity wherever it is: a known name, alone or
+/// before a factor, such as g/10, or a length over something.
+bool is_unit(std::string_view word)
+{
+    const std::size_t end = std::min(word.find_first_of("/*0123456789"), word.size());
+    const std::string_view name = word.substr(0, end);
+    return is_one_of(name, {"g",    "gs",     "gn",    "gravity", "gravities", "gal",  "gals",
+                            "mgal", "mg",     "ug",    "cmss",    "mss",       "si",   "mks",
+                            "cgs",  "metric", "count", "counts",  "volt",      "volts"}) ||
+           word.starts_with("n/kg") || word.starts_with("in/s") || word.find("/s2") != word.npos ||
+           (is_length(name) && is_factor(word.substr(end)));
+}
+
+/// The unit in a word: "g" of 0.35g, accg and acc/g, "m/s2" of a/m/s2; the word if it has none.
+std::string_view unit_of_word(std::string_view word)
+{
+    word.remove_prefix(std::min(word.find_first_not_of("0123456789."), word.size()));
+    if (!is_unit(word) || is_acceleration(word.substr(0, word.find('/')))) {
+        word.remove_prefix(std::min(word.find('/') + 1, word.size()));
+    }
+    return word.ends_with('g') && is_acceleration(word.substr(0, word.size() - 1)) ? "g" : word;
+}
+
+/// The words of a comment around one that may be a unit.
+class Place {
+public:
+    Place(const std::vector<Word>& words, std::size_t i) : words_(words), i_(i) {}
+
+    std::string_view text(int offset = 0) const { return word(offset).text; }
+
+    /// Whether a unit is expected here: as the whole comment, in brackets, after "in", and in the
+    /// name of a column, such as acc_x_cm.
+    bool is_labelled() const
+    {
+        const auto begin = words_.begin();
+        return words_.size() == 1 || word(0).gap.find_first_of("([{<") != std::string_view::npos ||
+               is_acceleration(text(-1)) ||
+               is_one_of(text(-1), {"in", "of", "unit", "units", "t", "time"}) ||
+               (word(0).gap == "_" && std::ranges::any_of(begin, begin + std::ptrdiff_t(i_),
+                                                          is_acceleration, &Word::text));
+    }
+
+    /// Whether the word is a unit that must be the given one, also one that is not known, as in
+    /// "units: furlongs".
+    bool states_unit() const
+    {
+        const int label = is_one_of(text(-1), {"are", "in", "is", "of"}) ? -2 : -1;
+        const bool follows_units =
+            text(label) == "units" ||
+            (text(label) == "unit" &&
+             (label == -2 || word(0).gap.find_first_of(":=") != std::string_view::npos));
+        return is_unit(unit_of_word(text())) || (text() == "scaled" && text(1) == "by") ||
+               (is_labelled() && is_length(text())) ||
+               (follows_units && !is_acceleration(text()) &&
+                !is_one_of(text(), {"are", "in", "is", "of", "s", "t", "time"}));
+    }
+
+    /// Whether the unit is that of a value, as in PGA 0.35 g, and not a multiple, as in "in 0.01
+    /// g".
+    bool is_value() const
+    {
+        const int number = begins_with_number(text()) ? 0 : -1;
+        const std::string_view before = text(number - 1);
+        const std::string_view gap = word(number).gap;
+        const bool is_label = is_one_of(before, {"by", "in", "of", "unit", "units"}) ||
+                              (is_acceleration(before) && gap.find_first_of(":=") == gap.npos);
+        return has_number() && !before.empty() && !begins_with_number(before) && !is_label &&
+               gap.find('_') == gap.npos && before.find('/') == gap.npos &&
+               (number == 0 || text(-1).find('/') == gap.npos);
+    }
+
+    /// Whether g is defined, as in g = 9.81.
+    bool is_defined() const
+    {
+        return text() == "g" && word(1).gap.find('=') != std::string_view::npos && !has_factor() &&
+               !is_acceleration(text(-1)) && !is_one_of(text(-1), {"in", "of", "unit", "units"});
+    }
+
+    /// Whether a factor changes the unit, as in 0.01 g, percent of g, and g times 2.
+    bool has_factor() const
+    {
+        const bool is_share = text(-1) == "of" && begins_with_number(text(-2));
+        return has_number() || is_share || is_factor(text(text(-1) == "of" ? -2 : -1)) ||
+               is_factor(text(1)) || (text(1) == "x" && begins_with_number(text(2)));
+    }
+
+private:
+    /// An empty word if there is none.
+    Word word(int offset) const
+    {
+        const std::size_t i = i_ + std::size_t(offset);
+        return i < words_.size() ? words_[i] : Word();
+    }
+
+    /// Whether a number precedes the unit, or touches it.
+    bool has_number() const
+    {
+        return begins_with_number(text()) ||
+               (begins_with_number(text(-1)) && trimmed(word(0).gap).empty());
+    }
+
+    const std::vector<Word>& words_;
+    std::size_t i_;
+};
+
+} // namespace
+
+bool is_comment(std::string_view line)
+{
+    const std::string_view text = trimmed(line);
+    return text.starts_with('#') || text.starts_with('%');
+}
+
+void expect_unit(const Lines& comment, AccelerationUnit unit)
+{
+    const std::string text = text_of_comment(comment.line());
+    const std::vector<Word> words = words_with_gaps(text);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const Place place(words, i);
+        if (place.is_labelled() &&
+            is_one_of(place.text(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
+            comment.refuse("the comment {} states times in {}. Give times in seconds.",
+                           quoted_bytes(trimmed(comment.line())), place.text());
+        }
+        if (!place.states_unit() || place.is_value() || place.is_defined()) {
+            continue;
+        }
+        const auto stated = unit_named(unit_of_word(place.text()));
+        if (!stated || place.has_factor() ||
+            units_per_m_per_s2(*stated) != units_per_m_per_s2(unit)) {
+            comment.refuse("the comment {} contains {}, but may only contain the given unit, {}, "
+                           "without a factor. Correct one of them, or remove the comment.",
+                           quoted_bytes(trimmed(comment.line())), quoted_bytes(place.text()),
+                           name_of(unit));
+        }
+    }
+}
+
+void expect_time_step(const Lines& comment, double time_step)
+{
+    const std::string text = text_of_comment(comment.line());
+    const std::vector<std::string_view> words = words_of(text, " =:,;()[]{}_#\"");
+    const auto has = [&](std::initializer_list<std::string_view> names) {
+        return std::ranges::any_of(words, [&](std::string_view word) {
+            const std::size_t end = std::min(word.find_first_not_of("0123456789.+-"), word.size());
+            return is_one_of(word.substr(end), names); // "hz" of 100hz
+        });
+    };
+    const auto begins = [&](std::string_view name) {
+        return std::ranges::any_of(words,
+                                   [&](std::string_view word) { return word.starts_with(name); });
+    };
+    const bool samples = begins("sampl");
+    const bool has_step =
+        has({"dt", "timestep", "delta", "deltat"}) ||
+        ((samples || begins("time")) && has({"step", "interval", "increment", "spacing"})) ||
+        (samples && has({"period"})) || (has({"interval"}) && has({"s", "ms"}));
+    const bool has_rate =
+        has({"sps", "fs", "samples/s"}) ||
+        (samples && (has({"hz", "rate", "frequency", "freq"}) || (has({"samples"}) && has({"s"}))));
+    const double unit = has({"ms"}) || begins("milli") ? 1000 : 1; // of the step [1/s]
+    const auto agrees = [&](double step) {
+        constexpr double rounding = 1e-3; // of a printed step, such as 0.0078
+        return std::abs(step - time_step) <= rounding * time_step;
+    };
+    bool is_stated = false;
+    for (const std::string_view word : words) {
+        double value = 0;
+        std::from_chars(word.data(), word.data() + word.size(), value);
+        if (value > 0 && ((has_step && agrees(value / unit)) || (has_rate && agrees(1 / value)))) {
+            return;
+        }
+        is_stated = is_stated || (value > 0 && (has_step || has_rate));
+    }
+    if (is_stated) {
+        comment.refuse("the comment {} does not state the time step that was given, time_step = {} "
+                       "s. Correct one of them, or remove the comment.",
+                       quoted_bytes(trimmed(comment.line())), time_step);
+    }
+}
+
+} // namespace overturn

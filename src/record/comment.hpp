@@ -1,0 +1,24 @@
+// What the comments of a text state: units, and the time step. Words that may contradict what the
+// user has given are refused; a comment can be corrected or removed.
+#pragma once
+
+#include "lines.hpp"
+#include "overturn/record/read_record.hpp"
+
+#include <string_view>
+
+namespace overturn {
+
+/// Whether a line of text is a comment.
+bool is_comment(std::string_view line);
+
+/// Refuses a comment that contains another unit than this one, in brackets, in the name of a column
+/// (acc_g) or anywhere else, a multiple (g/10, 0.01 g, % of g), or a unit of time other than the
+/// second. Values (PGA 0.35 g) and definitions (g = 9.81) are skipped.
+void expect_unit(const Lines& comment, AccelerationUnit unit);
+
+/// Refuses a comment that states a time step or a rate, as in DT= .01, "time step: 10 ms" or
+/// "sampling rate 100 Hz", but not this time step [s].
+void expect_time_step(const Lines& comment, double time_step);
+
+} // namespace overturn
