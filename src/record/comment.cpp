@@ -24,25 +24,14 @@ std::string text_of_comment(std::string_view line)
     return text;
 }
 
-struct Word {
-    std::string_view text;
-    std::string_view gap; ///< the text between the previous word and this one
-};
-
-std::vector<Word> words_with_gaps(std::string_view text)
-{
-    std::vector<Word> words;
-    const char* end = text.data();
-    for (const std::string_view word : words_of(text, " ,;:=()[]{}<>|\"_-#")) {
-        words.push_back({word, std::string_view(end, word.data())});
-        end = word.data() + word.size();
-    }
-    return words;
-}
-
 bool begins_with_number(std::string_view word)
 {
     return word.find_first_of("0123456789.") == 0;
+}
+
+bool introduces_unit(std::string_view word)
+{
+    return is_one_of(word, {"in", "of", "unit", "units"});
 }
 
 bool is_acceleration(std::string_view word)
@@ -91,82 +80,87 @@ std::string_view unit_of_word(std::string_view word)
 /// The words of a comment around one that may be a unit.
 class Place {
 public:
-    Place(const std::vector<Word>& words, std::size_t i) : words_(words), i_(i) {}
+    /// The words are parts of the text.
+    Place(std::string_view text, const std::vector<std::string_view>& words, std::size_t i)
+        : text_(text), words_(words), i_(i)
+    {}
 
-    std::string_view text(int offset = 0) const { return word(offset).text; }
+    /// A word before or after this one; empty if there is none.
+    std::string_view word(int offset = 0) const
+    {
+        const std::size_t i = i_ + std::size_t(offset);
+        return i < words_.size() ? words_[i] : "";
+    }
+
+    /// The text between such a word and the previous one.
+    std::string_view gap_before(int offset = 0) const
+    {
+        const std::string_view next = word(offset);
+        const std::string_view previous = word(offset - 1);
+        const char* const end = previous.data() + previous.size();
+        return next.empty() ? next
+                            : std::string_view(previous.empty() ? text_.data() : end, next.data());
+    }
 
     /// Whether a unit is expected here: as the whole comment, in brackets, after "in", and in the
     /// name of a column, such as acc_x_cm.
     bool is_labelled() const
     {
         const auto begin = words_.begin();
-        return words_.size() == 1 || word(0).gap.find_first_of("([{<") != std::string_view::npos ||
-               is_acceleration(text(-1)) ||
-               is_one_of(text(-1), {"in", "of", "unit", "units", "t", "time"}) ||
-               (word(0).gap == "_" && std::ranges::any_of(begin, begin + std::ptrdiff_t(i_),
-                                                          is_acceleration, &Word::text));
+        return words_.size() == 1 || gap_before().find_first_of("([{<") != std::string_view::npos ||
+               is_acceleration(word(-1)) || introduces_unit(word(-1)) ||
+               is_one_of(word(-1), {"t", "time"}) ||
+               (gap_before() == "_" &&
+                std::any_of(begin, begin + std::ptrdiff_t(i_), is_acceleration));
     }
 
     /// Whether the word is a unit that must be the given one, also one that is not known, as in
     /// "units: furlongs".
     bool states_unit() const
     {
-        const int label = is_one_of(text(-1), {"are", "in", "is", "of"}) ? -2 : -1;
-        const bool follows_units =
-            text(label) == "units" ||
-            (text(label) == "unit" &&
-             (label == -2 || word(0).gap.find_first_of(":=") != std::string_view::npos));
-        return is_unit(unit_of_word(text())) || (text() == "scaled" && text(1) == "by") ||
-               (is_labelled() && is_length(text())) ||
-               (follows_units && !is_acceleration(text()) &&
-                !is_one_of(text(), {"are", "in", "is", "of", "s", "t", "time"}));
+        const int label = is_one_of(word(-1), {"are", "in", "is", "of"}) ? -2 : -1;
+        const bool follows_units = is_one_of(word(label), {"unit", "units"});
+        return is_unit(unit_of_word(word())) || (word() == "scaled" && word(1) == "by") ||
+               (is_labelled() && is_length(word())) ||
+               (follows_units && !begins_with_number(word()) && !is_acceleration(word()) &&
+                !is_one_of(word(), {"are", "in", "is", "of", "s", "t", "time"}));
     }
 
-    /// Whether the unit is that of a value, as in PGA 0.35 g, and not a multiple, as in "in 0.01
-    /// g".
+    /// Whether the unit is that of a value, as in "PGA 0.35 g" and "v = 3 m/s", and not a multiple.
     bool is_value() const
     {
-        const int number = begins_with_number(text()) ? 0 : -1;
-        const std::string_view before = text(number - 1);
-        const std::string_view gap = word(number).gap;
-        const bool is_label = is_one_of(before, {"by", "in", "of", "unit", "units"}) ||
-                              (is_acceleration(before) && gap.find_first_of(":=") == gap.npos);
-        return has_number() && !before.empty() && !begins_with_number(before) && !is_label &&
-               gap.find('_') == gap.npos && before.find('/') == gap.npos &&
-               (number == 0 || text(-1).find('/') == gap.npos);
+        const int number = begins_with_number(word()) ? 0 : -1;
+        const std::string_view before = word(number - 1);
+        return has_number() && !introduces_unit(before) &&
+               (gap_before(number).find_first_of(":=") != std::string_view::npos ||
+                is_one_of(before, {"g", "max", "maximum", "peak", "pga", "vs30"}));
     }
 
     /// Whether g is defined, as in g = 9.81.
     bool is_defined() const
     {
-        return text() == "g" && word(1).gap.find('=') != std::string_view::npos && !has_factor() &&
-               !is_acceleration(text(-1)) && !is_one_of(text(-1), {"in", "of", "unit", "units"});
+        return word() == "g" && gap_before(1).find('=') != std::string_view::npos &&
+               !has_factor() && !is_acceleration(word(-1)) && !introduces_unit(word(-1));
     }
 
     /// Whether a factor changes the unit, as in 0.01 g, percent of g, and g times 2.
     bool has_factor() const
     {
-        const bool is_share = text(-1) == "of" && begins_with_number(text(-2));
-        return has_number() || is_share || is_factor(text(text(-1) == "of" ? -2 : -1)) ||
-               is_factor(text(1)) || (text(1) == "x" && begins_with_number(text(2)));
+        const bool is_share = word(-1) == "of" && begins_with_number(word(-2));
+        return has_number() || is_share || is_factor(word(word(-1) == "of" ? -2 : -1)) ||
+               is_factor(word(1)) || (word(1) == "x" && begins_with_number(word(2)));
     }
 
 private:
-    /// An empty word if there is none.
-    Word word(int offset) const
-    {
-        const std::size_t i = i_ + std::size_t(offset);
-        return i < words_.size() ? words_[i] : Word();
-    }
-
     /// Whether a number precedes the unit, or touches it.
     bool has_number() const
     {
-        return begins_with_number(text()) ||
-               (begins_with_number(text(-1)) && trimmed(word(0).gap).empty());
+        return begins_with_number(word()) ||
+               (begins_with_number(word(-1)) && trimmed(gap_before()).empty());
     }
 
-    const std::vector<Word>& words_;
+    std::string_view text_;
+    const std::vector<std::string_view>& words_;
     std::size_t i_;
 };
 
@@ -181,23 +175,23 @@ bool is_comment(std::string_view line)
 void expect_unit(const Lines& comment, AccelerationUnit unit)
 {
     const std::string text = text_of_comment(comment.line());
-    const std::vector<Word> words = words_with_gaps(text);
+    const std::vector<std::string_view> words = words_of(text, " ,;:=()[]{}<>|\"_-#");
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const Place place(words, i);
+        const Place place(text, words, i);
         if (place.is_labelled() &&
-            is_one_of(place.text(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
+            is_one_of(place.word(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
             comment.refuse("the comment {} states times in {}. Give times in seconds.",
-                           quoted_bytes(trimmed(comment.line())), place.text());
+                           quoted_bytes(trimmed(comment.line())), place.word());
         }
         if (!place.states_unit() || place.is_value() || place.is_defined()) {
             continue;
         }
-        const auto stated = unit_named(unit_of_word(place.text()));
+        const auto stated = unit_named(unit_of_word(place.word()));
         if (!stated || place.has_factor() ||
             units_per_m_per_s2(*stated) != units_per_m_per_s2(unit)) {
             comment.refuse("the comment {} contains {}, but may only contain the given unit, {}, "
                            "without a factor. Correct one of them, or remove the comment.",
-                           quoted_bytes(trimmed(comment.line())), quoted_bytes(place.text()),
+                           quoted_bytes(trimmed(comment.line())), quoted_bytes(place.word()),
                            name_of(unit));
         }
     }

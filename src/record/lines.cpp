@@ -31,22 +31,12 @@ Lines ahead_by(Lines lines, std::size_t count)
 
 bool next_text(Lines& lines)
 {
-    while (lines.next()) {
-        if (!trimmed(lines.line()).empty()) {
-            return true;
-        }
-    }
-    return false;
+    return next_line(lines, [](std::string_view line) { return !trimmed(line).empty(); });
 }
 
 bool next_with(Lines& lines, std::string_view words)
 {
-    while (lines.next()) {
-        if (contains(lines.line(), words)) {
-            return true;
-        }
-    }
-    return false;
+    return next_line(lines, [&](std::string_view line) { return contains(line, words); });
 }
 
 bool is_at_end(Lines lines)

@@ -58,10 +58,22 @@ private:
 /// A cursor that is `count` lines ahead. Refuses a file that ends earlier, within its header.
 Lines ahead_by(Lines lines, std::size_t count);
 
-/// Proceeds to the next line that is not blank; false if there is none.
+/// Proceeds to the next line that is wanted; false if there is none.
+template <class IsWanted>
+bool next_line(Lines& lines, const IsWanted& is_wanted)
+{
+    while (lines.next()) {
+        if (is_wanted(lines.line())) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The same for a line that is not blank.
 bool next_text(Lines& lines);
 
-/// Proceeds to the next line that contains the words, ignoring case; false if there is none.
+/// The same for a line that contains the words, ignoring case.
 bool next_with(Lines& lines, std::string_view words);
 
 /// Whether only blank lines follow.

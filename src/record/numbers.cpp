@@ -110,6 +110,17 @@ double time_step_of(const Lines& lines, std::string_view word)
     return step;
 }
 
+double sampling_rate_of(const Lines& lines, std::string_view word)
+{
+    const double rate = number_of(lines, word);
+    if (!(rate > 0 && std::isfinite(1 / rate) && rate < 1.7e38)) {
+        lines.refuse("the number of samples per second is {}, but must be above 0 and below "
+                     "1.7e38. Correct it.",
+                     quoted_bytes(word));
+    }
+    return rate;
+}
+
 void expect_duration(const Lines& lines, double stated, const Sampling& sampling, double rounding)
 {
     // The duration may be that between the first and the last sample, and may be rounded.

@@ -26,6 +26,10 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
 /// A time step above 0 [s]. Refuses other words.
 double time_step_of(const Lines& lines, std::string_view word);
 
+/// A number of samples per second whose inverse is finite. Refuses other words, and 1.7e38 and
+/// more, which stand for unknown numbers.
+double sampling_rate_of(const Lines& lines, std::string_view word);
+
 /// Samples at even times.
 struct Sampling {
     std::size_t count;

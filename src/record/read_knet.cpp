@@ -13,16 +13,9 @@ namespace {
 /// The number of `100Hz`.
 double samples_per_second(const KeyedHeader::Entry& entry)
 {
-    std::string_view word = entry.value;
-    if (lower(word).ends_with("hz")) {
-        word = trimmed(word.substr(0, word.size() - 2));
-    }
-    const double rate = number_of(entry.lines, word);
-    if (!(rate > 0 && std::isfinite(1 / rate))) {
-        entry.lines.refuse("the sampling frequency is {} Hz, but must be above 0. Correct it.",
-                           rate);
-    }
-    return rate;
+    const bool has_unit = lower(entry.value).ends_with("hz");
+    return sampling_rate_of(
+        entry.lines, trimmed(entry.value.substr(0, entry.value.size() - (has_unit ? 2 : 0))));
 }
 
 /// [1]

@@ -27,12 +27,8 @@ bool is_smc_title(std::string_view text)
 /// Proceeds to the first line that is neither blank nor a comment; false if there is none.
 bool next_content(Lines& lines)
 {
-    while (lines.next()) {
-        if (!trimmed(lines.line()).empty() && !is_comment(lines.line())) {
-            return true;
-        }
-    }
-    return false;
+    return next_line(
+        lines, [](std::string_view line) { return !trimmed(line).empty() && !is_comment(line); });
 }
 
 /// Words by which a line of a header shows its format.

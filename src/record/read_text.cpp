@@ -156,17 +156,6 @@ void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
     }
 }
 
-template <class IsWanted>
-bool any_line(Lines lines, const IsWanted& is_wanted)
-{
-    while (lines.next()) {
-        if (is_wanted(lines.line())) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// Refuses a comma between digits, as in 1,5, of a file without any decimal point.
 void expect_no_decimal_comma(const Lines& lines)
 {
@@ -214,9 +203,11 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
     }
-    const bool speaks_of_accelerations = any_line(
-        lines, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
-    const bool has_points = any_line(lines, [](std::string_view line) {
+    Lines ahead = lines;
+    const bool speaks_of_accelerations = next_line(
+        ahead, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
+    ahead = lines;
+    const bool has_points = next_line(ahead, [](std::string_view line) {
         return !is_comment(line) && line.find('.') != line.npos;
     });
     RecordComponent component;

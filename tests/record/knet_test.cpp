@@ -150,7 +150,7 @@ TEST(Knet, IsRefusedWithFileLineAndReason)
             "a.txt:14: with 1e+308 per 6000 counts, the accelerations exceed the range of double precision. Correct "
             "it."},
         {"ARateOfZero", with(sound, "4Hz", "0Hz"),
-            "a.txt:11: the sampling frequency is 0 Hz, but must be above 0. Correct it."},
+            "a.txt:11: the number of samples per second is \"0\", but must be above 0 and below 1.7e38. Correct it."},
         {"AnotherUnitOfTheRate", with(sound, "4Hz", "4kHz"),
             "a.txt:11: \"4k\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"ALongDuration", with(sound, "Duration Time(s)  3", "Duration Time(s)  3e6"),

@@ -122,14 +122,14 @@ TEST(Smc, IsRefusedWithFileLineAndReason)
             "a.txt:14: the number of samples, columns 1 to 10, is \"2000000000\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
         {"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
-            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.1700000E+39\", but must be above "
-            "0 and below 1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is \"0.1700000E+39\", but must be above 0 and below "
+            "1.7e38. Correct it."},
         {"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
-            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.0000000E+00\", but must be above "
-            "0 and below 1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is \"0.0000000E+00\", but must be above 0 and below "
+            "1.7e38. Correct it."},
         {"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
-            "a.txt:18: the number of samples per second, columns 16 to 30, is \"0.2000000E-320\", but must be above "
-            "0 and below 1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is \"0.2000000E-320\", but must be above 0 and below "
+            "1.7e38. Correct it."},
         {"AMissingRate", with(sound, "  0.2000000E+03", "               "),
             "a.txt:18: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"Overflow", with(sound, "-9.7655E-1", "**********"),

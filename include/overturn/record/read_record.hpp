@@ -59,23 +59,8 @@ struct RecordOptions {
 inline constexpr std::size_t most_samples = 10'000'000;
 inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [bytes]
 
-/// Reads the text of a file; `name` replaces the path in messages. The format is recognised from
-/// the text:
-///
-///   AT2   line 4 contains NPTS, and is not a comment
-///   V2A   line 10 begins with "Number of points"
-///   SMC   line 1 is a digit and the kind of data, such as "2 CORRECTED ACCELEROGRAM"
-///   K-NET, KiK-net  a line begins with "Origin Time", "Sampling Freq" or "Scale Factor"
-///   COSMOS  a line contains "(Format v"
-///   CSMIP  a line begins with "Uncorrected accelerogram", or contains "equally-spaced intervals
-///         of" or "data equally spaced at"
-///   ESM   a line begins with "EVENT_NAME:", "SAMPLING_INTERVAL_S:" or "NDATA:"
-///   text  the first line that is neither blank nor a comment (# or %) begins with a number: one
-///         column of accelerations, or two of times and accelerations. Times are evenly spaced if
-///         each differs from first + i * step by at most half a unit of its last printed digit; the
-///         step is the number with the fewest decimal digits for which they are.
-///
-/// Throws Error.
+/// Reads the text of a file; `name` replaces the path in messages. docs/records.md states how the
+/// formats are recognised. Throws Error.
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options = {});
 
