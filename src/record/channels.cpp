@@ -37,7 +37,7 @@ void expect_corrected_accelerogram(const Lines& lines)
     if (!contains(lines.line(), "accelerogram")) {
         lines.refuse("{} is not the first line of a channel, such as Corrected accelerogram. Give "
                      "the file as it was published.",
-                     quoted_bytes(trimmed(lines.line())));
+                     lines.quoted());
     }
 }
 

@@ -181,7 +181,7 @@ void expect_unit(const Lines& comment, AccelerationUnit unit)
         if (place.is_labelled() &&
             is_one_of(place.word(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
             comment.refuse("the comment {} states times in {}. Give times in seconds.",
-                           quoted_bytes(trimmed(comment.line())), place.word());
+                           comment.quoted(), place.word());
         }
         if (!place.states_unit() || place.is_value() || place.is_defined()) {
             continue;
@@ -191,8 +191,7 @@ void expect_unit(const Lines& comment, AccelerationUnit unit)
             units_per_m_per_s2(*stated) != units_per_m_per_s2(unit)) {
             comment.refuse("the comment {} contains {}, but may only contain the given unit, {}, "
                            "without a factor. Correct one of them, or remove the comment.",
-                           quoted_bytes(trimmed(comment.line())), quoted_bytes(place.word()),
-                           name_of(unit));
+                           comment.quoted(), quoted_bytes(place.word()), name_of(unit));
         }
     }
 }
@@ -236,7 +235,7 @@ void expect_time_step(const Lines& comment, double time_step)
     if (is_stated) {
         comment.refuse("the comment {} does not state the time step that was given, time_step = {} "
                        "s. Correct one of them, or remove the comment.",
-                       quoted_bytes(trimmed(comment.line())), time_step);
+                       comment.quoted(), time_step);
     }
 }
 

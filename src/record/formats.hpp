@@ -41,7 +41,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options);
 [[noreturn]] inline void refuse_motion(const Lines& lines)
 {
     lines.refuse("{} does not announce accelerations. Give the file of the acceleration.",
-                 quoted_bytes(trimmed(lines.line())));
+                 lines.quoted());
 }
 
 } // namespace overturn

@@ -26,6 +26,9 @@ public:
     /// The current line without its end, which is LF after any number of CR.
     std::string_view line() const { return line_; }
 
+    /// The same in quotes and without blanks around it, for messages.
+    std::string quoted() const { return quoted_bytes(trimmed(line_)); }
+
     /// Counted from 1; 0 before the first line.
     std::size_t number() const { return number_; }
 

@@ -27,7 +27,7 @@ Sampling read_sampling(const Lines& lines)
     const auto refuse = [&] {
         lines.refuse("{} is not understood. Write only the number of points and the time step in "
                      "seconds, as in NPTS= 4000, DT= .01 SEC.",
-                     quoted_bytes(trimmed(lines.line())));
+                     lines.quoted());
     };
     std::vector<std::string_view> words = words_of(lines.line(), " \t,;=");
     std::erase_if(words, is_seconds);
@@ -108,8 +108,7 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         title.refuse(
             "{} does not state a unit that is understood, such as UNITS OF G or CM/SEC/SEC, "
             "as the only one of the header and without a factor. Give one of {}: {}.",
-            quoted_bytes(trimmed(title.line())), fmt::join(acceleration_unit_names, ", "),
-            how_to_state("units"));
+            title.quoted(), fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
     }
     const std::string_view station = ahead_by(before, 2).line(); // event, date, station, component
     const std::size_t comma = station.rfind(',');

@@ -130,7 +130,7 @@ std::optional<RecordComponent> take_channel(Lines& lines)
     if (integers[2] && is_acceleration != (*integers[2] == 1)) {
         announcing.refuse("{} contradicts integer 2 of the header, {}: 1 is acceleration. Correct "
                           "one of them.",
-                          quoted_bytes(trimmed(announcing.line())), *integers[2]);
+                          announcing.quoted(), *integers[2]);
     }
     if (!is_acceleration) {
         return std::nullopt;
@@ -157,7 +157,7 @@ void expect_end(Lines& lines)
         if (!contains(lines.line(), "end-of-data") && !contains(lines.line(), "end of data")) {
             lines.refuse("{} follows the last of the samples that were announced. Correct their "
                          "number, or give the file as it was published.",
-                         quoted_bytes(trimmed(lines.line())));
+                         lines.quoted());
         }
     }
 }

@@ -81,7 +81,7 @@ const Mark* first_mark(Lines lines)
     lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
                  "SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text of one or two "
                  "columns, in which # or % precedes comments. Convert the file to one of these.",
-                 quoted_bytes(trimmed(lines.line())));
+                 lines.quoted());
 }
 
 /// Reads the samples in the format that the first lines have.

@@ -178,7 +178,7 @@ void expect_acceleration(const Lines& comment)
         comment.refuse(
             "{} does not contain accelerations. Give the file with the accelerations, or "
             "remove the comment.",
-            quoted_bytes(trimmed(comment.line())));
+            comment.quoted());
     }
 }
 

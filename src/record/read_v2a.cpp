@@ -19,7 +19,7 @@ std::string component_name(const Lines& lines)
     const std::size_t place = place_after(lines.line(), "Component");
     if (place == std::string_view::npos) {
         lines.refuse("{} does not name the component. Write it as in Component N28W.",
-                     quoted_bytes(lines.line()));
+                     lines.quoted());
     }
     return std::string(first_word(lines.line().substr(place)));
 }
@@ -28,7 +28,7 @@ void expect_unit(const Lines& lines)
 {
     if (!contains(lines.line(), "mm/s/s")) {
         lines.refuse("{} does not state the unit mm/s/s. Give the values as text with their unit.",
-                     quoted_bytes(lines.line()));
+                     lines.quoted());
     }
 }
 
