@@ -3,8 +3,6 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <utility>
-
 namespace overturn {
 
 namespace {

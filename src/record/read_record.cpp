@@ -8,7 +8,6 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

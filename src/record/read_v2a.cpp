@@ -3,7 +3,6 @@
 #include "numbers.hpp"
 
 #include <string>
-#include <utility>
 
 namespace overturn {
 
