@@ -148,7 +148,7 @@ void expect_slenderness(const Coordinates& coordinates, const Grid& corners)
                                 : fmt::format(" makes the block {} m wide and {} m high: its "
                                               "slenderness {} is outside {}. Choose a ratio closer "
                                               "to 1.",
-                                              2 * b, 2 * h, alpha, rule.interval);
+                                              2 * b, 2 * h, alpha, rule.interval.text);
                  });
 }
 
@@ -185,7 +185,7 @@ void expect_restitution(const Coordinates& coordinates, const Grid& corners)
                    ? ""
                    : fmt::format(" = {} gives r = {}, which is outside {}, at the slenderness {} "
                                  "rad. {}",
-                                 share, r, rule.interval, alpha, rule.reason);
+                                 share, r, rule.interval.text, alpha, rule.reason);
     });
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -14,167 +13,100 @@ namespace overturn {
 
 namespace {
 
-bool is_positive(double value)
-{
-    return value > 0 && std::isfinite(value);
-}
+using std::numbers::pi;
 
-bool is_not_negative(double value)
-{
-    return value >= 0 && std::isfinite(value);
-}
-
-bool is_finite(double value)
-{
-    return std::isfinite(value);
-}
-
-bool is_direction(double value)
-{
-    return value >= 0 && value < 360;
-}
-
-bool is_incline(double value)
-{
-    return std::abs(value) < std::numbers::pi / 2;
-}
-
-bool is_energy_ratio(double value)
-{
-    return value > 0 && value <= 1;
-}
-
+constexpr Interval finite{"(-inf, inf)", [](double x) { return std::isfinite(x); }};
+constexpr Interval positive{"(0, inf)", [](double x) { return x > 0 && std::isfinite(x); }};
+constexpr Interval not_negative{"[0, inf)", [](double x) { return x >= 0 && std::isfinite(x); }};
+constexpr Interval directions{"[0, 360)", [](double x) { return x >= 0 && x < 360; }};
+constexpr Interval inclines{"(-pi/2, pi/2)", [](double x) { return std::abs(x) < pi / 2; }};
+constexpr Interval energy_ratios{"(0, 1]", [](double x) { return x > 0 && x <= 1; }};
+constexpr Interval shares{"[0, 1]", [](double x) { return x >= 0 && x <= 1; }};
+constexpr Interval phases{"[-2 pi, 2 pi]", [](double x) { return std::abs(x) <= 2 * pi; }};
 // Below 1e-100, squares of velocity over alpha exceed the range of a double.
-bool is_slenderness(double value)
-{
-    return value >= 1e-100 && value < std::numbers::pi / 2;
-}
-
+constexpr Interval angles{"[1e-100, pi/2)", [](double x) { return x >= 1e-100 && x < pi / 2; }};
 // The slenderness arctan(b/h) is in its own range.
-bool is_aspect_ratio(double value)
-{
-    return value >= 1e-3 && value <= 1e100;
-}
-
+constexpr Interval ratios{"[1e-3, 1e100]", [](double x) { return x >= 1e-3 && x <= 1e100; }};
 // At 8 periods the wavelets are below 1e-178 of their peak.
-bool is_window(double value)
-{
-    return value > 0 && value <= 8;
-}
-
-bool is_count_of_cycles(double value)
-{
-    static_assert(most_cycles == 10);
-    return value >= 0.5 && value <= most_cycles && 2 * value == std::floor(2 * value);
-}
-
-bool is_gamma(double value)
-{
-    static_assert(largest_gamma == 10);
-    return value > 1 && value <= largest_gamma;
-}
-
-bool is_share(double value)
-{
-    return value >= 0 && value <= 1;
-}
-
-bool is_phase(double value)
-{
-    return std::abs(value) <= 2 * std::numbers::pi;
-}
-
+constexpr Interval windows{"(0, 8]", [](double x) { return x > 0 && x <= 8; }};
+static_assert(most_cycles == 10 && largest_gamma == 10);
+constexpr Interval gammas{"(1, 10]", [](double x) { return x > 1 && x <= largest_gamma; }};
+constexpr Interval half_periods{"{0.5, 1, 1.5, ..., 10}", [](double x) {
+                                    return x >= 0.5 && x <= most_cycles && std::fmod(x, 0.5) == 0;
+                                }};
 // Below this range the round-off of a step is as large as the tolerance; above it verdicts are not
 // reliable.
-bool is_tolerance(double value)
-{
-    return value >= 1e-14 && value <= 1e-2;
-}
+constexpr Interval tolerances{"[1e-14, 0.01]", [](double x) { return x >= 1e-14 && x <= 1e-2; }};
 
-constexpr std::string_view positive = "(0, inf)";
-constexpr std::string_view not_negative = "[0, inf)";
 constexpr std::string_view of_length = "It is a length in metres.";
 constexpr std::string_view of_angle = "It is the angle between gravity and the line from the "
                                       "corner to the centre of mass, in radians.";
 
 // Axes have this order, slowest first; under records, the size is the fastest. Filling requires
 // that the strength and the rate are the last two.
-constexpr std::array quantities{
-    Quantity{"motion", "1", Role::motion, "number of the ground motion in the job", positive,
-             is_positive, "It is the number of a record."},
-    Quantity{"direction", "degree", Role::direction, "direction of the motion", "[0, 360)",
-             is_direction,
-             "It is an angle in degrees: 0 is the motion as it stands, 180 its mirror image."},
-    Quantity{"width", "m", Role::block, "width of the block", positive, is_positive, of_length},
-    Quantity{"half_width", "m", Role::block, "half width of the block, b", positive, is_positive,
-             of_length},
-    Quantity{"height", "m", Role::block, "height of the block", positive, is_positive, of_length},
-    Quantity{"half_height", "m", Role::block, "half height of the block, h", positive, is_positive,
-             of_length},
-    Quantity{"center_offset", "m", Role::block, "offset of the centre of mass", "(-inf, inf)",
-             is_finite,
-             "It is the distance of the centre of mass from the middle of the base in "
-             "metres, positive towards the side plus."},
-    Quantity{"center_height", "m", Role::block, "height of the centre of mass", positive,
-             is_positive, of_length},
-    Quantity{"slenderness_plus", "rad", Role::block, "slenderness of the side plus",
-             "[1e-100, pi/2)", is_slenderness, of_angle},
-    Quantity{"slenderness_minus", "rad", Role::block, "slenderness of the side minus",
-             "[1e-100, pi/2)", is_slenderness, of_angle},
-    Quantity{"size_plus", "m", Role::block, "centre of mass to corner plus, R+", positive,
-             is_positive, of_length},
-    Quantity{"size_minus", "m", Role::block, "centre of mass to corner minus, R-", positive,
-             is_positive, of_length},
-    Quantity{"radius_of_gyration", "m", Role::block, "radius of gyration", positive, is_positive,
-             "It is that about the centre of mass in metres."},
-    Quantity{"incline", "rad", Role::block, "incline of the base", "(-pi/2, pi/2)", is_incline,
-             "It is the angle of the base in radians, positive if the side plus is downhill."},
-    Quantity{"slenderness", "rad", Role::block, "slenderness of the block, arctan(b/h)",
-             "[1e-100, pi/2)", is_slenderness,
-             "It is arctan(width / height) in radians; a degree is 0.01745."},
-    Quantity{"aspect_ratio", "1", Role::block, "aspect ratio of the block, h/b", "[1e-3, 1e100]",
-             is_aspect_ratio, "It is height / width."},
-    Quantity{"size", "m", Role::block, "half diagonal of the block, R", positive, is_positive,
-             "It is the half diagonal of the block in metres."},
-    Quantity{"frequency_parameter", "s-1", Role::block, "frequency parameter, p = sqrt(3g / 4R)",
-             positive, is_positive, "It is p = sqrt(3g / 4R) in 1/s."},
-    Quantity{"restitution", "1", Role::loss, "energy ratio at an impact, r", "(0, 1]",
-             is_energy_ratio, "A block cannot gain energy at an impact, nor lose all of it."},
-    Quantity{"restitution_of_maximum", "1", Role::loss, "energy ratio at an impact, r / r_max",
-             positive, is_positive, "It is a share of the largest restitution (Eq. 17)."},
-    Quantity{"amplitude", "1", Role::strength, "peak acceleration, over that of uplift",
-             not_negative, is_not_negative, "It is the magnitude of the peak ground acceleration."},
-    Quantity{"scale", "1", Role::strength, "factor on the record", not_negative, is_not_negative,
-             "It is the factor on the record."},
-    Quantity{"pga", "1", Role::strength, "peak ground acceleration, over g", not_negative,
-             is_not_negative, "It is the peak ground acceleration over g."},
-    Quantity{"frequency", "1", Role::rate, "frequency of the pulse, omega_p / p", positive,
-             is_positive, "The frequency of a pulse must be positive."},
-    Quantity{"pulse_period", "s", Role::rate, "period of the pulse", positive, is_positive,
-             "It is the period of the pulse in seconds."},
-    Quantity{"pulse_frequency", "s-1", Role::rate, "frequency of the pulse", positive, is_positive,
-             "It is the frequency of the pulse in Hz."},
-    Quantity{"frequency_parameter_minus", "s-1", Role::derived,
-             "frequency parameter of the side minus", positive, is_positive, ""},
-    Quantity{"largest_restitution", "1", Role::derived, "largest energy ratio, r_max", "[0, 1]",
-             is_share, ""},
-    Quantity{"window", "1", Role::setting, "half width of the window", "(0, 8]", is_window,
-             "It is the half width in pulse periods."},
-    Quantity{"cycles", "1", Role::setting, "duration of the pulse", "{0.5, 1, 1.5, ..., 10}",
-             is_count_of_cycles, "It is the duration in pulse periods, a multiple of 0.5."},
-    Quantity{"gamma", "1", Role::setting, "duration of the pulse", "(1, 10]", is_gamma,
-             "It is the duration in pulse periods."},
-    Quantity{"nu", "rad", Role::setting, "phase in the middle of the pulse", "[-2 pi, 2 pi]",
-             is_phase,
-             "It is the phase of the oscillation in the middle of the pulse, in radians."},
-    Quantity{"gravity", "m s-2", Role::setting, "gravity, g", positive, is_positive,
-             "It is g in m/s2."},
-    Quantity{"time_step", "s", Role::setting, "time between two samples", positive, is_positive,
-             "It is the time between two samples in seconds."},
-    Quantity{"audit", "1", Role::setting, "share of the filled points", "[0, 1]", is_share,
-             "It is the share of the filled points that are integrated as well."},
-    Quantity{"tolerance", "1", Role::setting, "local error per step", "[1e-14, 0.01]", is_tolerance,
-             "It is the local error per step, relative to the size of the motion."},
+constexpr Quantity quantities[] = {
+    {"motion", "1", Role::motion, "number of the ground motion in the job", positive,
+     "It is the number of a record."},
+    {"direction", "degree", Role::direction, "direction of the motion", directions,
+     "It is an angle in degrees: 0 is the motion as it stands, 180 its mirror image."},
+    {"width", "m", Role::block, "width of the block", positive, of_length},
+    {"half_width", "m", Role::block, "half width of the block, b", positive, of_length},
+    {"height", "m", Role::block, "height of the block", positive, of_length},
+    {"half_height", "m", Role::block, "half height of the block, h", positive, of_length},
+    {"center_offset", "m", Role::block, "offset of the centre of mass", finite,
+     "It is the distance of the centre of mass from the middle of the base in "
+     "metres, positive towards the side plus."},
+    {"center_height", "m", Role::block, "height of the centre of mass", positive, of_length},
+    {"slenderness_plus", "rad", Role::block, "slenderness of the side plus", angles, of_angle},
+    {"slenderness_minus", "rad", Role::block, "slenderness of the side minus", angles, of_angle},
+    {"size_plus", "m", Role::block, "centre of mass to corner plus, R+", positive, of_length},
+    {"size_minus", "m", Role::block, "centre of mass to corner minus, R-", positive, of_length},
+    {"radius_of_gyration", "m", Role::block, "radius of gyration", positive,
+     "It is that about the centre of mass in metres."},
+    {"incline", "rad", Role::block, "incline of the base", inclines,
+     "It is the angle of the base in radians, positive if the side plus is downhill."},
+    {"slenderness", "rad", Role::block, "slenderness of the block, arctan(b/h)", angles,
+     "It is arctan(width / height) in radians; a degree is 0.01745."},
+    {"aspect_ratio", "1", Role::block, "aspect ratio of the block, h/b", ratios,
+     "It is height / width."},
+    {"size", "m", Role::block, "half diagonal of the block, R", positive,
+     "It is the half diagonal of the block in metres."},
+    {"frequency_parameter", "s-1", Role::block, "frequency parameter, p = sqrt(3g / 4R)", positive,
+     "It is p = sqrt(3g / 4R) in 1/s."},
+    {"restitution", "1", Role::loss, "energy ratio at an impact, r", energy_ratios,
+     "A block cannot gain energy at an impact, nor lose all of it."},
+    {"restitution_of_maximum", "1", Role::loss, "energy ratio at an impact, r / r_max", positive,
+     "It is a share of the largest restitution (Eq. 17)."},
+    {"amplitude", "1", Role::strength, "peak acceleration, over that of uplift", not_negative,
+     "It is the magnitude of the peak ground acceleration."},
+    {"scale", "1", Role::strength, "factor on the record", not_negative,
+     "It is the factor on the record."},
+    {"pga", "1", Role::strength, "peak ground acceleration, over g", not_negative,
+     "It is the peak ground acceleration over g."},
+    {"frequency", "1", Role::rate, "frequency of the pulse, omega_p / p", positive,
+     "The frequency of a pulse must be positive."},
+    {"pulse_period", "s", Role::rate, "period of the pulse", positive,
+     "It is the period of the pulse in seconds."},
+    {"pulse_frequency", "s-1", Role::rate, "frequency of the pulse", positive,
+     "It is the frequency of the pulse in Hz."},
+    {"frequency_parameter_minus", "s-1", Role::derived, "frequency parameter of the side minus",
+     positive, ""},
+    {"largest_restitution", "1", Role::derived, "largest energy ratio, r_max", shares, ""},
+    {"window", "1", Role::setting, "half width of the window", windows,
+     "It is the half width in pulse periods."},
+    {"cycles", "1", Role::setting, "duration of the pulse", half_periods,
+     "It is the duration in pulse periods, a multiple of 0.5."},
+    {"gamma", "1", Role::setting, "duration of the pulse", gammas,
+     "It is the duration in pulse periods."},
+    {"nu", "rad", Role::setting, "phase in the middle of the pulse", phases,
+     "It is the phase of the oscillation in the middle of the pulse, in radians."},
+    {"gravity", "m s-2", Role::setting, "gravity, g", positive, "It is g in m/s2."},
+    {"time_step", "s", Role::setting, "time between two samples", positive,
+     "It is the time between two samples in seconds."},
+    {"audit", "1", Role::setting, "share of the filled points", shares,
+     "It is the share of the filled points that are integrated as well."},
+    {"tolerance", "1", Role::setting, "local error per step", tolerances,
+     "It is the local error per step, relative to the size of the motion."},
 };
 
 using Names = std::initializer_list<std::string_view>;
@@ -214,9 +146,8 @@ std::span<const Quantity> all_quantities()
 
 const Quantity* find_quantity(std::string_view name)
 {
-    const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                    [&](const Quantity& each) { return each.name == name; });
-    return found == quantities.end() ? nullptr : &*found;
+    const auto found = std::ranges::find(quantities, name, &Quantity::name);
+    return found == std::end(quantities) ? nullptr : found;
 }
 
 const Quantity& quantity(std::string_view name)
@@ -250,8 +181,8 @@ bool exclude_each_other(std::string_view one, std::string_view other)
 
 std::string Quantity::refusal_of(double value) const
 {
-    std::string text = fmt::format(" = {} is outside {}. {}", value, interval, reason);
-    const double in_radians = value * std::numbers::pi / 180;
+    std::string text = fmt::format(" = {} is outside {}. {}", value, interval.text, reason);
+    const double in_radians = value * pi / 180;
     if (units == "rad" && allows(in_radians)) {
         text += fmt::format(" {} degrees are {:.4g} rad.", value, in_radians);
     }

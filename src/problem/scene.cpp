@@ -43,7 +43,7 @@ std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double
     if (!value) {
         const bool has_default = number == &PulseShape::window;
         return has_default ? ""
-                           : fmt::format(" is missing. Give a number in {}. {}", rule.interval,
+                           : fmt::format(" is missing. Give a number in {}. {}", rule.interval.text,
                                          rule.reason);
     }
     return rule.allows(*value) ? "" : rule.refusal_of(*value);

@@ -35,7 +35,7 @@ TEST(Quantity, HasTheRangeThatTheDocumentationOfJobsStates)
             const std::string keys = line.substr(0, line.find(" | "));
             if (line.starts_with("| `") && keys.find(key) != keys.npos) {
                 documented.insert(each.name);
-                EXPECT_THAT(line, testing::HasSubstr(fmt::format(" | {} | ", each.interval)));
+                EXPECT_THAT(line, testing::HasSubstr(fmt::format(" | {} | ", each.interval.text)));
                 if (each.is_coordinate()) {
                     coordinates.push_back(&each);
                 }

@@ -2,7 +2,6 @@
 // allowed values.
 #pragma once
 
-#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,17 +20,22 @@ enum class Role {
     setting    ///< of the pulse or of the computation; the same at all points
 };
 
+/// A set of numbers, without NaN.
+struct Interval {
+    std::string_view text; ///< such as "(0, 1]"
+    bool (*contains)(double);
+};
+
 /// A quantity as it is named in job files, tables and result files.
 struct Quantity {
     std::string_view name;
     std::string_view units; ///< as in result files; "1" if dimensionless
     Role role;
     std::string_view long_name; ///< at most 40 characters: plots take it as the label of an axis
-    std::string_view interval;  ///< of the allowed values
-    bool (*is_inside)(double);  ///< for all values except NaN
+    Interval interval;          ///< of the allowed values
     std::string_view reason;    ///< for the interval
 
-    bool allows(double value) const { return !std::isnan(value) && is_inside(value); }
+    bool allows(double value) const { return interval.contains(value); }
     bool is_coordinate() const { return role != Role::derived && role != Role::setting; }
 
     /// Why a value that is not allowed is refused, as a text that follows the name.
