@@ -1,7 +1,5 @@
 #include "overturn/problem/coordinates.hpp"
 
-#include "derivations.hpp"
-
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
 
@@ -10,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 namespace overturn {
 
@@ -77,6 +77,185 @@ double lifting_pga(const Scene& scene, const Point& point)
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
+
+using Values = std::array<double, 5>; // of the coordinates from which another one follows
+
+const Accelerogram& record_of(const Scene& scene, double motion)
+{
+    return *scene.records[Scene::record_index(motion)];
+}
+
+constexpr auto zero = [](const Scene&, const Values&) { return 0.0; };
+constexpr auto same = [](const Scene&, const Values& of) { return of[0]; };
+constexpr auto half = [](const Scene&, const Values& of) { return of[0] / 2; };
+constexpr auto inverse = [](const Scene&, const Values& of) { return 1 / of[0]; };
+constexpr auto product = [](const Scene&, const Values& of) { return of[0] * of[1]; };
+constexpr auto ratio = [](const Scene&, const Values& of) { return of[0] / of[1]; };
+constexpr auto sum = [](const Scene&, const Values& of) { return of[0] + of[1]; };
+constexpr auto difference = [](const Scene&, const Values& of) { return of[0] - of[1]; };
+constexpr auto distance = [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); };
+constexpr auto arctan = [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); };
+constexpr auto period = [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); };
+
+/// p of a side: R and the radius of gyration k.
+double frequency_parameter_of_side(const Scene& scene, const Values& of)
+{
+    const double size = of[0];
+    const double gyration = of[1];
+    return std::sqrt(scene.gravity * size / (gyration * gyration + size * size));
+}
+
+/// A coordinate that follows from at most five others; the constant default of a quantity follows
+/// from none.
+struct Derivation {
+    std::string_view name;
+    std::array<std::string_view, 5> from;
+    double (*value)(const Scene& scene, const Values& of);
+    Under motion = Under::any_motion;
+};
+
+constexpr Derivation of_any_block[]{
+    {"half_width", {"width"}, half},
+    {"half_height", {"height"}, half},
+    {"slenderness",
+     {"aspect_ratio"},
+     [](const Scene&, const Values& of) { return std::atan(1 / of[0]); }},
+    {"amplitude", {"pga", "uplift_pga"}, ratio, Under::pulse},
+    {"pga", {"amplitude", "uplift_pga"}, product, Under::pulse},
+    {"scale", {"pga", "record_pga"}, ratio, Under::record},
+    {"pga", {"scale", "record_pga"}, product, Under::record},
+    {"record_pga",
+     {"motion", "direction"},
+     [](const Scene& scene, const Values& of) {
+         return record_of(scene, of[0]).in_direction(of[1]).peak();
+     },
+     Under::two_components},
+    {"record_pga",
+     {"motion"},
+     [](const Scene& scene, const Values& of) { return record_of(scene, of[0]).peak(); },
+     Under::record},
+    {"vertical_pga",
+     {"scale", "motion"},
+     [](const Scene& scene, const Values& of) {
+         return of[0] * record_of(scene, of[1]).upwards_peak();
+     },
+     Under::record},
+};
+
+/// b and h; alpha, R and p.
+constexpr Derivation of_symmetric_block[]{
+    {"slenderness", {"half_width", "half_height"}, arctan},
+    {"size", {"half_width", "half_height"}, distance},
+    {"size",
+     {"frequency_parameter"},
+     [](const Scene& scene, const Values& of) { return 3 * scene.gravity / (4 * of[0] * of[0]); }},
+    {"frequency_parameter",
+     {"size"},
+     [](const Scene& scene, const Values& of) {
+         return frequency_parameter(of[0], scene.gravity);
+     }},
+    {"restitution",
+     {"restitution_of_maximum", "slenderness"},
+     [](const Scene&, const Values& of) { return of[0] * largest_restitution(of[1]); }},
+    {"uplift_pga",
+     {"slenderness"},
+     [](const Scene& scene, const Values& of) { return uplift_threshold(scene.theory, of[0]); }},
+    {"samples_per_unit",
+     {"motion", "frequency_parameter"},
+     [](const Scene& scene, const Values& of) {
+         return 1 / (of[1] * record_of(scene, of[0]).time_step());
+     },
+     Under::record},
+    {"frequency", {"pulse_period", "frequency_parameter"}, period, Under::pulse},
+    {"frequency",
+     {"pulse_frequency", "frequency_parameter"},
+     [](const Scene&, const Values& of) { return two_pi * of[0] / of[1]; },
+     Under::pulse},
+    {"pulse_period", {"frequency", "frequency_parameter"}, period, Under::pulse},
+};
+
+/// k, the height of the centre of mass, and the distances of its foot on the base from the corners;
+/// alpha, R, p and r_max.
+constexpr Derivation of_block_with_two_sides[]{
+    {"center_offset", {}, zero},
+    {"center_height", {"half_height"}, same},
+    {"radius_of_gyration",
+     {"half_width", "half_height"},
+     [](const Scene&, const Values& of) {
+         return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
+     }},
+    {"incline", {}, zero},
+    {"base_plus", {"half_width", "center_offset"}, difference},
+    {"base_minus", {"half_width", "center_offset"}, sum},
+    {"slenderness_plus",
+     {"base_plus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) - of[2]; }},
+    {"slenderness_minus",
+     {"base_minus", "center_height", "incline"},
+     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) + of[2]; }},
+    {"size_plus", {"base_plus", "center_height"}, distance},
+    {"size_minus", {"base_minus", "center_height"}, distance},
+    {"frequency_parameter", {"size_plus", "radius_of_gyration"}, frequency_parameter_of_side},
+    {"frequency_parameter_minus",
+     {"size_minus", "radius_of_gyration"},
+     frequency_parameter_of_side},
+    {"moment_kept", // J / m: the angular momentum that an impact keeps, over m omega
+     {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
+         return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
+     }},
+    {"gyration_over_size", {"radius_of_gyration", "size_plus"}, ratio},
+    {"largest_restitution",
+     {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [kept, k, plus, minus, _] = of;
+         return kept * kept / ((k * k + plus * plus) * (k * k + minus * minus));
+     }},
+    {"restitution", {"restitution_of_maximum", "largest_restitution"}, product},
+    {"uplift_pga",
+     {"slenderness_plus", "slenderness_minus"},
+     [](const Scene& scene, const Values& of) {
+         return uplift_threshold(scene.theory, std::min(of[0], of[1]));
+     }},
+    {"pulse_period", {"pulse_frequency"}, inverse, Under::pulse},
+    {"angular_frequency",
+     {"pulse_period"},
+     [](const Scene&, const Values& of) { return two_pi / of[0]; },
+     Under::pulse},
+    {"samples_per_second",
+     {"motion"},
+     [](const Scene& scene, const Values& of) { return 1 / record_of(scene, of[0]).time_step(); },
+     Under::record},
+};
+
+/// The coordinates on the way from a coordinate to those that it may follow from.
+using Path = std::vector<std::string_view>;
+
+/// The first derivation of a coordinate from those that are known, or nullptr. path: to this
+/// coordinate, without it.
+const Derivation* derivation_of(std::string_view name, const Scene& scene, const Grid& grid,
+                                Path path = {})
+{
+    path.push_back(name);
+    const auto is_known = [&](std::string_view other) {
+        return other.empty() || grid.find(other) != nullptr ||
+               (std::ranges::count(path, other) == 0 &&
+                derivation_of(other, scene, grid, path) != nullptr);
+    };
+    using Table = std::span<const Derivation>;
+    for (const Table table :
+         {Table(of_any_block),
+          grid.has_two_sides() ? Table(of_block_with_two_sides) : Table(of_symmetric_block)}) {
+        for (const Derivation& each : table) {
+            if (each.name == name && scene.is_under(each.motion) &&
+                std::ranges::all_of(each.from, is_known)) {
+                return &each;
+            }
+        }
+    }
+    return nullptr;
+}
 
 /// Calls visit(offset) for every point of a box, row by row. offset: into values that vary along
 /// the given dimensions.
@@ -155,17 +334,16 @@ const CoordinateValues& Coordinates::of(std::string_view name) const
         result.values = column->values.values(begin, begin + count);
     } else {
         const Derivation& derivation = *derivation_of(name, scene_, grid_);
-        std::array<std::vector<double>, std::tuple_size_v<Derivation::Values>> from;
-        for (std::size_t k = 0; k < from.size() && !derivation.from[k].empty(); ++k) {
-            from[k] = along(result.dimensions, derivation.from[k]);
-        }
-        result.values.resize(std::max<std::size_t>(1, from[0].size()));
-        for (std::size_t i = 0; i < result.values.size(); ++i) {
-            Derivation::Values of{};
-            for (std::size_t k = 0; k < from.size() && !from[k].empty(); ++k) {
-                of[k] = from[k][i];
+        std::vector<Values> points(1);
+        for (std::size_t k = 0; k < derivation.from.size() && !derivation.from[k].empty(); ++k) {
+            const std::vector<double> values = along(result.dimensions, derivation.from[k]);
+            points.resize(values.size());
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                points[i][k] = values[i];
             }
-            result.values[i] = derivation.value(scene_, of);
+        }
+        for (const Values& of : points) {
+            result.values.push_back(derivation.value(scene_, of));
         }
     }
     return known_.emplace(name, std::move(result)).first->second;
@@ -193,71 +371,30 @@ std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimension
 
 namespace {
 
-/// The points of a box, coordinate by coordinate.
-class Points {
-public:
-    Points(const Coordinates& coordinates, const Shape& count)
-        : coordinates_(coordinates), count_(count)
-    {}
-
-    /// Calls assign(point, value) for every point with its value of a coordinate.
-    template <class Assign>
-    void fill(std::string_view name, const Assign& assign)
-    {
-        const CoordinateValues& coordinate = coordinates_.of(name);
-        if (coordinate.dimensions.empty()) {
-            for (Point& point : points_) {
-                assign(point, coordinate.first());
-            }
-            return;
-        }
-        expand();
-        Point* point = points_.data();
-        for_each_offset(count_, coordinate.dimensions,
-                        [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
-    }
-
-    void fill_symmetric_blocks()
-    {
+/// Fills in the sides of blocks. fill(name, assign): calls assign(point, value) for every point
+/// with its value of a coordinate.
+template <class Fill>
+void fill_blocks(const Fill& fill, bool has_two_sides)
+{
+    if (!has_two_sides) {
         fill("slenderness", [](Point& point, double value) {
             point.block.slenderness = value;
             point.block.other.slenderness = value;
         });
+        return;
     }
-
-    void fill_blocks_with_two_sides()
-    {
-        using B = Block<double>;
-        using Side = BlockSide<double>;
-        const auto fill_both = [&](double B::*of_plus, std::string_view plus,
-                                   double Side::*of_minus, std::string_view minus) {
-            fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
-            fill(minus, [&](Point& point, double value) { point.block.other.*of_minus = value; });
-        };
-        fill_both(&B::slenderness, "slenderness_plus", &Side::slenderness, "slenderness_minus");
-        fill_both(&B::size, "size_plus", &Side::size, "size_minus");
-        fill_both(&B::pace, "frequency_parameter", &Side::pace, "frequency_parameter_minus");
-    }
-
-    std::vector<Point> all()
-    {
-        expand();
-        return std::move(points_);
-    }
-
-private:
-    void expand()
-    {
-        const auto size = std::size_t(count_points(count_));
-        if (points_.size() < size) {
-            points_.resize(size, Point(points_.front()));
-        }
-    }
-
-    const Coordinates& coordinates_;
-    const Shape& count_;
-    std::vector<Point> points_{1}; // as long as all coordinates are equal
-};
+    using B = Block<double>;
+    using Side = BlockSide<double>;
+    const auto fill_both = [&](double B::*of_plus, std::string_view plus, double Side::*of_minus,
+                               std::string_view minus) {
+        fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
+        fill(minus, [&](Point& point, double value) { point.block.other.*of_minus = value; });
+    };
+    fill_both(&B::slenderness, "slenderness_plus", &Side::slenderness, "slenderness_minus");
+    fill_both(&B::size, "size_plus", &Side::size, "size_minus");
+    fill_both(&B::pace, "frequency_parameter", &Side::pace, "frequency_parameter_minus");
+    fill("gyration_over_size", [](Point& point, double value) { point.gyration = value; });
+}
 
 /// Converts blocks with equal sides to symmetric ones.
 void make_symmetric(std::vector<Point>& points)
@@ -275,19 +412,29 @@ void make_symmetric(std::vector<Point>& points)
 
 std::vector<Point> Coordinates::points() const
 {
-    Points points(*this, count_);
+    const auto size = std::size_t(count_points(count_));
+    std::vector<Point> points(1); // as long as all coordinates are equal
+    const auto fill = [&](std::string_view name, const auto& assign) {
+        const CoordinateValues& coordinate = of(name);
+        if (coordinate.dimensions.empty()) {
+            for (Point& point : points) {
+                assign(point, coordinate.first());
+            }
+            return;
+        }
+        points.resize(size, Point(points.front()));
+        Point* point = points.data();
+        for_each_offset(count_, coordinate.dimensions,
+                        [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
+    };
     const bool is_recorded = scene_.is_recorded();
     const bool has_two_sides = grid_.has_two_sides();
-    if (has_two_sides) {
-        points.fill_blocks_with_two_sides();
-    } else {
-        points.fill_symmetric_blocks();
-    }
-    points.fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
-    points.fill(is_recorded ? "scale" : "amplitude",
-                [](Point& point, double value) { point.amplitude = value; });
+    fill_blocks(fill, has_two_sides);
+    fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
+    fill(is_recorded ? "scale" : "amplitude",
+         [](Point& point, double value) { point.amplitude = value; });
     if (grid_.find("direction") != nullptr) {
-        points.fill("direction", [&](Point& point, double value) {
+        fill("direction", [&](Point& point, double value) {
             if (scene_.has_two_components()) {
                 point.direction = value;
             } else if (value == 180) {
@@ -296,27 +443,19 @@ std::vector<Point> Coordinates::points() const
         });
     }
     if (is_recorded) {
-        points.fill("motion", [](Point& point, double motion) {
-            point.record = int(Scene::record_index(motion));
-        });
+        fill("motion",
+             [](Point& point, double motion) { point.record = int(Scene::record_index(motion)); });
     }
-    if (!has_two_sides) {
-        points.fill(is_recorded ? "samples_per_unit" : "frequency",
-                    [](Point& point, double value) { point.frequency = value; });
-        return points.all();
+    fill(has_two_sides && is_recorded ? "samples_per_second"
+         : has_two_sides              ? "angular_frequency"
+         : is_recorded                ? "samples_per_unit"
+                                      : "frequency",
+         [](Point& point, double value) { point.frequency = value; });
+    points.resize(size, Point(points.front()));
+    if (has_two_sides) {
+        make_symmetric(points);
     }
-    if (is_recorded) {
-        points.fill("motion", [&](Point& point, double motion) {
-            point.frequency = 1 / scene_.records[Scene::record_index(motion)]->time_step();
-        });
-    } else {
-        points.fill("pulse_period",
-                    [](Point& point, double period) { point.frequency = two_pi / period; });
-    }
-    points.fill("gyration_over_size", [](Point& point, double value) { point.gyration = value; });
-    std::vector<Point> all = points.all();
-    make_symmetric(all);
-    return all;
+    return points;
 }
 
 std::string Extent::text(std::string_view unit) const

@@ -20,6 +20,18 @@ std::vector<FieldFlag> regions(bool with_no_flip)
     return flags;
 }
 
+const std::vector<FieldFlag> impact_flags{{impact_count::largest, "this_many_or_more"},
+                                          {impact_count::not_computed, "not_computed"},
+                                          {impact_count::bounce_series, "bounce_series"}};
+const std::vector<FieldFlag> step_flags{{step_count::not_computed, "not_computed"}};
+const std::vector<FieldFlag> status_flags{
+    {status::came_to_rest, "came_to_rest"}, {status::cap_was_hit, "cap_was_hit"},
+    {status::not_finite, "not_finite"},     {status::unresolved, "unresolved"},
+    {status::free_fall, "free_fall"},       {status::lifts_off, "lifts_off"}};
+const std::vector<FieldFlag> origin_flags{{point_origin::filled, "filled"},
+                                          {point_origin::integrated, "integrated"},
+                                          {point_origin::not_computed, "not_computed"}};
+
 /// In the order of the enumerators.
 const std::array<FieldTraits, count_of_fields> fields{{
     {"region", FieldType::uint8, "region at the end of the ground motion", "",
@@ -45,32 +57,10 @@ const std::array<FieldTraits, count_of_fields> fields{{
      "where the block would leave the base"},
     {"normal", FieldType::float64, "smallest normal force over that at rest", "1",
      "over the same times as the friction"},
-    {"impacts",
-     FieldType::uint16,
-     "impacts during the ground motion",
-     "1",
-     "",
-     {{impact_count::largest, "this_many_or_more"},
-      {impact_count::not_computed, "not_computed"},
-      {impact_count::bounce_series, "bounce_series"}}},
-    {"steps",
-     FieldType::uint32,
-     "integration steps tried",
-     "1",
-     "",
-     {{step_count::not_computed, "not_computed"}}},
-    {"status",
-     FieldType::uint8,
-     "flags set during the integration",
-     "",
-     "0: no flag is set; 255: not computed yet",
-     {{status::came_to_rest, "came_to_rest"},
-      {status::cap_was_hit, "cap_was_hit"},
-      {status::not_finite, "not_finite"},
-      {status::unresolved, "unresolved"},
-      {status::free_fall, "free_fall"},
-      {status::lifts_off, "lifts_off"}},
-     true},
+    {"impacts", FieldType::uint16, "impacts during the ground motion", "1", "", impact_flags},
+    {"steps", FieldType::uint32, "integration steps tried", "1", "", step_flags},
+    {"status", FieldType::uint8, "flags set during the integration", "",
+     "0: no flag is set; 255: not computed yet", status_flags, true},
     {"flip_amplitude", FieldType::float64, "strength at which the verdict flips", "1",
      "the amplitude of a pulse or the scale of a record, in ascending order; NaN beyond the last "
      "flip. Each flip lies between two amplitudes with settled verdicts, at most `width` apart "
@@ -96,15 +86,10 @@ const std::array<FieldTraits, count_of_fields> fields{{
      "hardly depends on the step. Flips beyond the last stored flip are included"},
     {"undecided_share", FieldType::float64, "share of amplitudes without verdict", "1",
      "share of the scanned interval in which the verdict could not be settled"},
-    {"evaluated",
-     FieldType::uint8,
-     "whether the point was integrated",
-     "",
+    {"evaluated", FieldType::uint8, "whether the point was integrated", "",
      "filled: all nodes of a cell around the point have its region, and none of the functions "
      "that change it is near zero; by numerical evidence, not by proof",
-     {{point_origin::filled, "filled"},
-      {point_origin::integrated, "integrated"},
-      {point_origin::not_computed, "not_computed"}}},
+     origin_flags},
 }};
 
 } // namespace

@@ -1,12 +1,12 @@
 #include "overturn/problem/given.hpp"
 
-#include "grid_checks.hpp"
-
 #include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace overturn {
@@ -47,29 +47,251 @@ int order_of(std::string_view dimension, bool is_recorded)
                                         : place(dimension);
 }
 
+[[noreturn]] void refuse(std::string_view quantity, const std::string& message)
+{
+    throw GivenError(GivenError::no_row, quantity, message);
+}
+
+void expect(const Coordinates& coordinates, std::string_view coordinate, std::string_view name,
+            std::string_view advice)
+{
+    if (!coordinates.has(coordinate)) {
+        refuse(name, fmt::format(" is missing. {}", advice));
+    }
+}
+
+void expect_block(const Coordinates& coordinates, const Grid& grid)
+{
+    constexpr std::string_view sides[]{"slenderness_plus", "slenderness_minus", "size_plus",
+                                       "size_minus"};
+    if (std::ranges::any_of(sides, [&](auto name) { return grid.find(name) != nullptr; })) {
+        for (const std::string_view name : sides) {
+            expect(coordinates, name, name,
+                   "A block that is not a box has slenderness_plus and slenderness_minus [rad], "
+                   "size_plus and size_minus [m].");
+        }
+        expect(coordinates, "radius_of_gyration", "radius_of_gyration",
+               "Give that about the centre of mass, in metres.");
+    } else if (grid.has_two_sides() || coordinates.has("half_width") ||
+               coordinates.has("half_height")) {
+        constexpr std::string_view advice = "Give width and height, or their halves, in metres.";
+        expect(coordinates, "half_width", "width", advice);
+        expect(coordinates, "half_height", "height", advice);
+    } else {
+        expect(coordinates, "slenderness", "slenderness",
+               "Give the slenderness [rad]; or width and height [m], or their halves.");
+    }
+    expect(coordinates, "restitution", "restitution",
+           "Give restitution, the energy ratio r, or restitution_of_maximum, its share of r_max.");
+}
+
+void expect_motion(const Scene& scene, const Coordinates& coordinates, const Grid& grid)
+{
+    const auto refuse_given = [&](std::string_view name, const std::string& reason) {
+        if (grid.find(name) != nullptr) {
+            refuse(name, reason);
+        }
+    };
+    if (grid.has_two_sides()) {
+        constexpr std::string_view reason =
+            " has no meaning for a block with two different sides, which have two slendernesses "
+            "and two frequency parameters. Give {} instead.";
+        refuse_given("amplitude", fmt::format(reason, "pga [g]"));
+        refuse_given("frequency", fmt::format(reason, "pulse_period [s] or pulse_frequency [Hz]"));
+    }
+    if (scene.is_recorded()) {
+        expect(coordinates, "scale", "scale", "Give scale, a factor on the record, or pga [g].");
+        expect(coordinates, "frequency_parameter", "size",
+               "Give size [m] or frequency_parameter [1/s], or width and height [m].");
+    } else if (grid.has_two_sides()) {
+        expect(coordinates, "pga", "pga", "Give the peak ground acceleration over g.");
+        expect(coordinates, "pulse_period", "pulse_period",
+               "Give it in s, or pulse_frequency in Hz.");
+    } else {
+        expect(coordinates, "amplitude", "amplitude", "Give amplitude, or pga [g].");
+        for (const std::string_view rate : {"pulse_period", "pulse_frequency"}) {
+            if (!coordinates.has("frequency_parameter")) {
+                refuse_given(rate, " needs the dimensions of the block. Give width and height, or "
+                                   "the half diagonal size, in metres.");
+            }
+        }
+        expect(coordinates, "frequency", "frequency",
+               "Give frequency, or pulse_period [s] or pulse_frequency [Hz] and the dimensions of "
+               "the block.");
+    }
+}
+
+/// A limit on a coordinate that follows from given quantities.
+struct Limit {
+    std::string_view coordinate;
+    Interval interval;
+    std::vector<std::string_view> causes; ///< of which the first that is given is refused
+    std::string_view advice;
+    bool applies = true;
+};
+
+/// Refuses the first corner beyond a limit.
+void expect_within(const Limit& limit, const Coordinates& coordinates, const Grid& corners)
+{
+    const auto cause = std::ranges::find_if(
+        limit.causes, [&](std::string_view name) { return corners.find(name) != nullptr; });
+    if (!limit.applies || cause == limit.causes.end() || !coordinates.has(limit.coordinate)) {
+        return;
+    }
+    std::vector<std::size_t> dimensions;
+    std::ranges::set_union(coordinates.dimensions_of(limit.coordinate),
+                           coordinates.dimensions_of(*cause), std::back_inserter(dimensions));
+    const std::vector<double> values = coordinates.along(dimensions, limit.coordinate);
+    const auto beyond = std::ranges::find_if_not(values, limit.interval.contains);
+    if (beyond == values.end()) {
+        return;
+    }
+    const auto place = beyond - values.begin();
+    std::int64_t row = GivenError::no_row;
+    if (corners.has_table_column(*cause)) {
+        const std::size_t table = *corners.dimension_of(*cause);
+        row = place;
+        for (auto faster = dimensions.rbegin(); *faster != table; ++faster) {
+            row /= corners.dimensions[*faster].size();
+        }
+        row %= corners.dimensions[table].size();
+    }
+    throw GivenError(row, *cause,
+                     fmt::format(" = {}: {} = {} is outside {}. {}",
+                                 coordinates.along(dimensions, *cause)[std::size_t(place)],
+                                 limit.coordinate, *beyond, limit.interval.text, limit.advice));
+}
+
+/// Refuses blocks and factors on records that do not exist.
+void expect_limits(const Coordinates& coordinates, const Grid& corners)
+{
+    const Interval& angle = quantity("slenderness").interval;
+    const std::vector<std::string_view> sides{"incline", "center_offset", "size_plus", "width",
+                                              "half_width"};
+    constexpr std::string_view stands = "The block does not stand, or leans by a right angle: its "
+                                        "centre of mass must be above the base, between both "
+                                        "corners. Lower the incline or the offset.";
+    constexpr std::string_view overflow =
+        "The factor on a record, or its vertical motion, exceeds the range of double precision. "
+        "Correct the unit of the record, or give a lower value.";
+    const Limit limits[] = {
+        {"slenderness",
+         angle,
+         {"width", "half_width"},
+         "Choose a ratio of width and height closer to 1."},
+        {"slenderness_plus", angle, sides, stands},
+        {"slenderness_minus", angle, sides, stands},
+        {"moment_kept", quantity("size").interval, sides,
+         "J / m [m2] must be positive for the block to rock on after an impact: it must be more "
+         "slender, or have a larger radius of gyration."},
+        // A share above 1 is allowed: r_max is the maximum for a block on a flat base, not a
+        // physical limit.
+        {"slenderness",
+         {"(0, 0.9553)", [](double alpha) { return alpha < limit_of_r_max; }},
+         {"restitution_of_maximum"},
+         "r_max is defined only for a slenderness below arcsin sqrt(2/3) rad (Eq. 17). Choose a "
+         "more slender block, or give restitution, r itself."},
+        {"restitution_of_maximum",
+         {"(0, 1]", [](double share) { return share <= 1; }},
+         {"restitution_of_maximum"},
+         "The restitution of a block with two different sides is at most r_max. Give at most 1, or "
+         "restitution, r itself.",
+         corners.has_two_sides()},
+        {"restitution",
+         quantity("restitution").interval,
+         {"restitution_of_maximum"},
+         quantity("restitution").reason},
+        {"scale", quantity("scale").interval, {"pga"}, overflow},
+        {"vertical_pga", quantity("pga").interval, {"pga", "scale"}, overflow}};
+    for (const Limit& limit : limits) {
+        expect_within(limit, coordinates, corners);
+    }
+}
+
+/// With one component of motion, only the motion itself and its mirror image have a direction.
+void expect_directions(const Scene& scene, const Grid& grid)
+{
+    const Column* const directions = grid.find("direction");
+    const auto is_zero = [](double value) { return value == 0; };
+    if (!scene.has_two_components()) {
+        for (const double value :
+             directions == nullptr ? AxisList() : directions->values.values()) {
+            if (value != 0 && value != 180) {
+                refuse("direction",
+                       fmt::format(" = {} needs two horizontal components. With one, give 0, the "
+                                   "motion as it stands, or 180, its mirror image.",
+                                   value));
+            }
+        }
+        return;
+    }
+    if (grid.find("pga") != nullptr) {
+        refuse("pga", " is not unique: the peak of two horizontal components depends on the "
+                      "direction. Give scale, a factor on the record.");
+    }
+    if (directions == nullptr) {
+        refuse("direction", " is missing. Two horizontal components need a direction in degrees, "
+                            "from the first component towards the second one.");
+    }
+    for (const auto& record : scene.records) {
+        if (record->peak() == 0 || std::ranges::all_of(record->second(), is_zero)) {
+            refuse("direction", " needs two horizontal components, but one of them is zero at all "
+                                "times. Correct it, or give the other one alone.");
+        }
+    }
+}
+
+/// Refuses strengths at all of which the vertical motion of every record cancels gravity.
+void expect_gravity(const Scene& scene, const Grid& grid)
+{
+    const std::vector<ScaleRange> scales = scales_of(scene, grid);
+    const Accelerogram* weakest = nullptr; // of those with points
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+        const Accelerogram& record = *scene.records[i];
+        if (scales[i].smallest < record.free_fall_scale()) {
+            return;
+        }
+        if (std::isfinite(scales[i].smallest) && weakest == nullptr) {
+            weakest = &record;
+        }
+    }
+    const std::string_view name = grid.find("pga") != nullptr ? "pga" : "scale";
+    refuse(name,
+           fmt::format(" = {:.6g}: from here on, the vertical motion cancels gravity under "
+                       "every record. Choose a value below the scale {:.6g}, at which the "
+                       "horizontal peak is {:.6g} g.",
+                       extent_of(Coordinates(scene, grid).of(name)).first,
+                       weakest->free_fall_scale(), weakest->free_fall_scale() * weakest->peak()));
+}
+
+/// Throws GivenError unless the quantities describe the block, its loss at impacts and the motion
+/// completely, and what follows from them is allowed.
+void expect_valid(const Scene& scene, const Grid& grid)
+{
+    const Grid corners = corners_of(grid);
+    const Coordinates coordinates(scene, corners);
+    expect_block(coordinates, grid);
+    expect_motion(scene, coordinates, grid);
+    expect_directions(scene, grid);
+    expect_limits(coordinates, corners);
+    if (scene.is_recorded()) {
+        expect_gravity(scene, corners);
+    }
+}
+
 } // namespace
 
 bool applies_to(const Quantity& quantity, bool is_recorded)
 {
-    switch (quantity.role) {
-    case Role::motion: return is_recorded;
-    case Role::direction:
-    case Role::block:
-    case Role::loss: return true;
-    case Role::strength: return quantity.name == "pga" || (quantity.name == "scale") == is_recorded;
-    case Role::rate: return !is_recorded;
-    case Role::derived:
-    case Role::setting: break;
-    }
-    return false;
+    const bool is_of_record = quantity.role == Role::motion || quantity.name == "scale";
+    const bool is_of_pulse = quantity.role == Role::rate || quantity.name == "amplitude";
+    return quantity.is_coordinate() && !(is_recorded ? is_of_pulse : is_of_record);
 }
 
 Grid grid_of(const Scene& scene, std::vector<Given> given)
 {
     // In the order of all_quantities(), into which these are pointers.
-    std::stable_sort(given.begin(), given.end(), [](const Given& one, const Given& other) {
-        return one.quantity < other.quantity;
-    });
+    std::ranges::stable_sort(given, {}, &Given::quantity);
     expect_no_alternatives(given);
     Grid grid;
     Dimension table{std::string(table_dimension), {}};
@@ -88,11 +310,9 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     }
     // The rows of a table have the place of the width, the first quantity of a block. Under
     // records, the size of the block comes last.
-    const bool is_recorded = scene.is_recorded();
-    std::stable_sort(grid.dimensions.begin(), grid.dimensions.end(),
-                     [&](const Dimension& one, const Dimension& other) {
-                         return order_of(one.name, is_recorded) < order_of(other.name, is_recorded);
-                     });
+    std::ranges::stable_sort(grid.dimensions, {}, [&](const Dimension& dimension) {
+        return order_of(dimension.name, scene.is_recorded());
+    });
     expect_valid(scene, grid);
     return grid;
 }

@@ -57,15 +57,13 @@ const Column* Grid::find(std::string_view name) const
 
 const Column* Grid::axis_or_number(Role role) const
 {
-    for (const Column& column : numbers) {
-        if (column.quantity->role == role) {
-            return &column;
+    for (const Quantity& quantity : all_quantities()) {
+        const Column* const column = quantity.role == role ? find(quantity.name) : nullptr;
+        if (column != nullptr && !has_table_column(quantity.name)) {
+            return column;
         }
     }
-    const auto dimension = dimension_of(role);
-    return !dimension || dimensions[*dimension].name == table_dimension
-               ? nullptr
-               : &dimensions[*dimension].columns.front();
+    return nullptr;
 }
 
 bool Grid::has_two_sides() const

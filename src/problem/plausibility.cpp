@@ -1,6 +1,5 @@
 #include "overturn/problem/plausibility.hpp"
 
-#include "overturn/mechanics/block.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
 
@@ -87,42 +86,34 @@ std::string finding_about_spikes(const std::vector<double>& samples, double step
                : "";
 }
 
-/// Whether r is above r_max (Eq. 17), if it exists, for a block of this slenderness [rad].
-std::string finding_about_restitution(double restitution, double alpha)
+/// Whether r is above r_max. Every row of a table is judged; of a plane, the largest r at the
+/// largest r_max.
+std::string finding_about_restitution(const Coordinates& coordinates, bool has_table)
 {
-    const auto largest = r_max_of(alpha);
-    const double rounding = 1e-9; // of numbers that users copy from a printed r_max
-    return !largest || !(restitution > *largest * (1 + rounding))
-               ? ""
-               : fmt::format("r = {:.4g} is above r_max = {:.4g} for alpha = {:.4g} degrees "
-                             "(Eq. 17)",
-                             restitution, *largest, alpha * 180 / std::numbers::pi);
-}
-
-/// Every row of a table is judged; of a plane, the largest r at the smallest slenderness.
-std::string finding_about_restitutions(const Coordinates& coordinates, bool has_table)
-{
-    if (!coordinates.has("slenderness")) { // r_max of two different sides
-        const double largest = extent_of(coordinates.of("largest_restitution")).last;
-        const double r = extent_of(coordinates.of("restitution")).last;
-        return r > largest * (1 + 1e-9)
-                   ? fmt::format("r = {:.4g} is above r_max = {:.4g}", r, largest)
+    const bool has_two_sides = !coordinates.has("slenderness");
+    const std::string_view shape = has_two_sides ? "largest_restitution" : "slenderness";
+    const auto finding = [&](double r, double value) -> std::string {
+        constexpr double rounding = 1e-9; // of numbers that users copy from a printed r_max
+        const auto largest = has_two_sides ? std::optional(value) : r_max_of(value); // (Eq. 17)
+        return largest && r > *largest * (1 + rounding)
+                   ? fmt::format("r = {:.4g} is above r_max = {:.4g}", r, *largest)
                    : "";
-    }
-    const CoordinateValues& restitution = coordinates.of("restitution");
-    const CoordinateValues& alphas = coordinates.of("slenderness");
+    };
     if (!has_table) {
-        return finding_about_restitution(extent_of(restitution).last, extent_of(alphas).first);
+        const Extent extent = extent_of(coordinates.of(shape));
+        return finding(extent_of(coordinates.of("restitution")).last,
+                       has_two_sides ? extent.last : extent.first);
     }
     std::vector<std::size_t> both;
-    std::ranges::set_union(restitution.dimensions, alphas.dimensions, std::back_inserter(both));
+    std::ranges::set_union(coordinates.dimensions_of("restitution"),
+                           coordinates.dimensions_of(shape), std::back_inserter(both));
     const std::vector<double> r = coordinates.along(both, "restitution");
-    const std::vector<double> alpha = coordinates.along(both, "slenderness");
-    std::string finding;
-    for (std::size_t i = 0; i < r.size() && finding.empty(); ++i) {
-        finding = finding_about_restitution(r[i], alpha[i]);
+    const std::vector<double> values = coordinates.along(both, shape);
+    std::string found;
+    for (std::size_t i = 0; i < r.size() && found.empty(); ++i) {
+        found = finding(r[i], values[i]);
     }
-    return finding;
+    return found;
 }
 
 bool have_different_sides(const Coordinates& coordinates)
@@ -233,7 +224,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     if (scene.is_recorded()) {
         judge_records(scene, findings);
     }
-    findings.add(finding_about_restitutions(coordinates, grid.table() != nullptr));
+    findings.add(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);
     return findings.text();
 }

@@ -71,17 +71,17 @@ Shape tile_of(const Grid& grid, std::int64_t side)
 /// regions of fine spectra.
 Shape filled_tile_of(const Grid& grid)
 {
-    Shape tile(grid.dimensions.size(), 1);
-    std::int64_t longest = 0;
+    std::vector<std::size_t> sides;
     for (const Role role : {Role::strength, Role::rate}) {
-        if (const auto i = grid.dimension_of(role)) {
-            longest = std::max(longest, grid.dimensions[*i].size());
+        if (const auto side = grid.dimension_of(role)) {
+            sides.push_back(*side);
         }
     }
-    for (const Role role : {Role::strength, Role::rate}) {
-        if (const auto i = grid.dimension_of(role)) {
-            tile[*i] = longest < 1024 ? 128 : 256;
-        }
+    const bool is_fine = std::ranges::any_of(
+        sides, [&](std::size_t side) { return grid.dimensions[side].size() >= 1024; });
+    Shape tile(grid.dimensions.size(), 1);
+    for (const std::size_t side : sides) {
+        tile[side] = is_fine ? 256 : 128;
     }
     return tile;
 }

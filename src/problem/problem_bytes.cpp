@@ -9,22 +9,20 @@ namespace overturn {
 namespace {
 
 /// Appends values to bytes, or takes values from bytes; the members of each type are named once.
-class Archive {
-public:
-    Archive() = default;
-    explicit Archive(std::string_view bytes) : bytes_(bytes), is_input_(true) {}
-
-    const std::string& bytes() const { return bytes_; }
+struct Archive {
+    std::string bytes;
+    bool is_input;
+    std::size_t next = 0; ///< of an input
 
     template <class Value>
         requires std::is_trivially_copyable_v<Value>
     void transfer(Value& value)
     {
-        if (is_input_) {
-            std::memcpy(&value, bytes_.data() + next_, sizeof value);
-            next_ += sizeof value;
+        if (is_input) {
+            std::memcpy(&value, bytes.data() + next, sizeof value);
+            next += sizeof value;
         } else {
-            bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
         }
     }
 
@@ -42,11 +40,9 @@ public:
 
     void transfer(Axis& axis)
     {
-        const auto* given_range = std::get_if<AxisRange>(&axis.definition());
-        const auto* given_list = std::get_if<AxisList>(&axis.definition());
-        bool is_range = given_range != nullptr;
-        AxisRange range = is_range ? *given_range : AxisRange();
-        AxisList list = is_range ? AxisList() : *given_list;
+        bool is_range = axis.is_range();
+        AxisRange range = is_range ? std::get<AxisRange>(axis.definition()) : AxisRange();
+        AxisList list = is_range ? AxisList() : std::get<AxisList>(axis.definition());
         transfer_all(is_range, range, list);
         axis = is_range ? Axis(range) : Axis(std::move(list));
     }
@@ -62,15 +58,17 @@ public:
 
     void transfer(std::shared_ptr<const Accelerogram>& record)
     {
-        std::vector<double> horizontal = record ? record->horizontal() : std::vector<double>();
-        std::vector<double> upwards = record ? record->upwards() : std::vector<double>();
-        std::vector<double> second = record ? record->second() : std::vector<double>();
-        double time_step = record ? record->time_step() : 0;
-        transfer_all(horizontal, upwards, second, time_step);
-        if (is_input_) {
-            record = std::make_shared<const Accelerogram>(std::move(horizontal), std::move(upwards),
-                                                          time_step, std::move(second));
+        std::vector<double> horizontal, upwards, second;
+        double time_step = 0;
+        if (!is_input) {
+            horizontal = record->horizontal();
+            upwards = record->upwards();
+            second = record->second();
+            time_step = record->time_step();
         }
+        transfer_all(horizontal, upwards, second, time_step);
+        record = std::make_shared<const Accelerogram>(std::move(horizontal), std::move(upwards),
+                                                      time_step, std::move(second));
     }
 
     void transfer(Problem& problem)
@@ -83,31 +81,26 @@ public:
                      fields);
     }
 
-private:
     template <class... Values>
     void transfer_all(Values&... values)
     {
         (transfer(values), ...);
     }
-
-    std::string bytes_;
-    bool is_input_ = false;
-    std::size_t next_ = 0; // of an input
 };
 
 } // namespace
 
 std::string bytes_of(const Problem& problem)
 {
-    Archive archive;
+    Archive archive{{}, false};
     Problem copy = problem;
     archive.transfer(copy);
-    return archive.bytes();
+    return archive.bytes;
 }
 
 Problem problem_of(std::string_view bytes)
 {
-    Archive archive(bytes);
+    Archive archive{std::string(bytes), true};
     Problem problem;
     archive.transfer(problem);
     return problem;

@@ -293,7 +293,7 @@ class VerticalMotion(ScratchWithRecords):
         self.assert_exit(self.overturn("check", "job.toml", *up, "--set", "plane.scale.last=8"), 0,
                          "one.AT2: from the scale 5", "cancels gravity")
         self.assert_exit(self.overturn("run", "job.toml", *up, "--set", "plane.scale=9"), 65,
-                         "plane.scale = 9: the vertical motion cancels gravity", "below the scale 5.3")
+                         "plane.scale = 9: from here on, the vertical motion cancels gravity", "below the scale 5.3")
 
     def test_that_cancels_gravity_in_every_row_of_a_table_is_refused(self):
         (self.folder / "table.csv").write_text("slenderness,size,restitution,motion,scale\n"
@@ -303,7 +303,7 @@ class VerticalMotion(ScratchWithRecords):
             '[scene]\nrecord = ["one.AT2", "two.AT2"]\nvertical = "up.AT2"\n')
         shutil.copy(self.folder / "one.AT2", self.folder / "two.AT2")
         self.assert_exit(self.overturn("check", "table.toml"), 65,
-                         "table.csv:1:5: scale = 8 and more: the vertical motion cancels gravity under "
+                         "table.csv:1:5: scale = 8: from here on, the vertical motion cancels gravity under "
                          "every record", "below the scale 5.3")
 
 

@@ -167,7 +167,7 @@ class TwoSides(Scratch):
     def test_are_refused_with_what_to_do(self):
         self.write(LEANING, "pulse_period = 0.5\npga = 0.5")
         for override, words in (("plane.incline=4", "4 degrees are 0.06981 rad"),
-                                ("plane.incline=0.3", "the block does not stand"),
+                                ("plane.incline=0.3", "The block does not stand"),
                                 ("plane.amplitude=2", "Give pga [g] instead"),
                                 ("plane.direction=90", "needs two horizontal components"),
                                 ("plane.slenderness=0.2", "describes the block in another way")):

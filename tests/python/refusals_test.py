@@ -50,9 +50,9 @@ class ARefusal(Refused):
 
     def test_of_a_factor_on_a_record_that_overflows(self):
         for peak in (1e-309, 5e-324, 1e-320, -1e-310):
-            self.assert_refused(ValueError, "pga = 1 exceeds the range of double precision as a factor", RECORD,
+            self.assert_refused(ValueError, "pga = 1: scale = inf is outside [0, inf). The factor on a record", RECORD,
                                 record=[0, peak, 0], scale=None, pga=1)
-        self.assert_refused(ValueError, "scale = 1e+200 exceeds", RECORD, record=[0, 1e200, 0],
+        self.assert_refused(ValueError, "scale = 1e+200: vertical_pga = inf is outside", RECORD, record=[0, 1e200, 0],
                             vertical=[0, 2e200, 0], scale=1e200)
 
     def test_of_masked_values(self):

@@ -1,6 +1,5 @@
-// The coordinates of points, given or derived. src/problem/derivations.cpp is the only place where
-// p follows from R, r from r_max, alpha from b and h, and the amplitude from the peak ground
-// acceleration.
+// The coordinates of points, given or derived. The source is the only place where p follows from R,
+// r from r_max, alpha from b and h, and the amplitude from the peak ground acceleration.
 #pragma once
 
 #include "overturn/problem/grid.hpp"
@@ -82,7 +81,11 @@ public:
     /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
     ///   record_pga        the peak of the record over g, not scaled, in the direction of the point
     ///                     [1]; result files store that of the first component
+    ///   uplift_pga        the ground acceleration over g that lifts the block at rest [1]
+    ///   vertical_pga      the peak of the scaled vertical motion over g [1]
     ///   samples_per_unit  samples of the record per time unit 1/p [1]
+    ///   angular_frequency, samples_per_second  of the motion of a block with two different sides
+    ///                     [1/s]
     ///   moment_kept, gyration_over_size  J / m [m2] and k / R+ of a block with two different sides
     const CoordinateValues& of(std::string_view name) const;
 
