@@ -1,12 +1,9 @@
 #include "read_steps.hpp"
 
 #include "overturn/record/text_file.hpp"
-#include "overturn/text/error.hpp"
-#include "overturn/text/table.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -14,7 +11,9 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <set>
 
 namespace overturn {
 
@@ -36,20 +35,6 @@ constexpr std::array<std::string_view, 5> reserved_under_records{
 constexpr std::string_view length_suffix = "_length";
 constexpr std::size_t longest_name = 255 - length_suffix.size(); // [bytes]
 
-bool is_one_of(std::string_view name, Names names)
-{
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// The text column whose texts have a length of this name, or nullptr.
-const TableColumn* with_length(const Table& table, std::string_view name)
-{
-    const TableColumn* column = name.ends_with(length_suffix)
-                                    ? table.find(name.substr(0, name.size() - length_suffix.size()))
-                                    : nullptr;
-    return column == nullptr || column->texts.empty() ? nullptr : column;
-}
-
 /// The XXH64 of the columns, in hexadecimal digits.
 std::string checksum_of(const Table& table)
 {
@@ -65,45 +50,43 @@ std::string checksum_of(const Table& table)
     return fmt::format("{:016x}", hash);
 }
 
+/// Refuses a name that the result file has for something else, or that it cannot have.
 void expect_free_name(const BlockTable& blocks, const std::string& name, bool is_recorded)
 {
     const auto refuse_name = [&](const std::string& reason) {
         refuse(blocks, {GivenError::no_row, name, reason});
     };
-    const Quantity* const quantity_of_name = find_quantity(name);
-    const bool is_derived = quantity_of_name != nullptr && quantity_of_name->role == Role::derived;
-    if (is_derived || is_one_of(name, reserved_names) || is_one_of(name, field_names()) ||
-        (is_recorded && is_one_of(name, reserved_under_records))) {
+    const auto is_one_of = [&](const auto& names) { return std::ranges::count(names, name) > 0; };
+    const Quantity* const same = find_quantity(name);
+    if ((same != nullptr && same->role == Role::derived) || is_one_of(reserved_names) ||
+        is_one_of(field_names()) || (is_recorded && is_one_of(reserved_under_records))) {
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
-    if (const TableColumn* texts = with_length(blocks.table, name)) {
-        refuse_name(fmt::format(
-            " is the name of the dimension of the texts of {} in the result. Rename the column.",
-            texts->name));
-    }
-    const auto lower = [](unsigned char letter) { return std::tolower(letter); };
-    for (const Quantity& quantity : all_quantities()) {
-        if (name != quantity.name && applies_to(quantity, is_recorded) &&
-            std::ranges::equal(name, quantity.name, {}, lower)) {
-            refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct "
-                                    "the name, or choose another one.",
-                                    quantity.name));
+    for (const TableColumn& other : blocks.table.columns) {
+        if (!other.texts.empty() && name == fmt::format("{}{}", other.name, length_suffix)) {
+            refuse_name(fmt::format(" is the name of the dimension of the texts of {} in the "
+                                    "result. Rename the column.",
+                                    other.name));
         }
     }
+    std::string lower_case = name;
+    std::ranges::transform(name, lower_case.begin(),
+                           [](unsigned char letter) { return char(std::tolower(letter)); });
+    const Quantity* const meant = find_quantity(lower_case);
+    if (meant != nullptr && meant != same && applies_to(*meant, is_recorded)) {
+        refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct the "
+                                "name, or choose another one.",
+                                meant->name));
+    }
     const auto is_control = [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; };
-    const char* reason = name.size() > longest_name              ? "it is too long"
-                         : name[0] == '.'                        ? "it begins with a dot"
-                         : name.find('/') != name.npos           ? "it contains a slash"
-                         : std::ranges::any_of(name, is_control) ? "it contains a control character"
-                         : has_white_space(name)                 ? "it contains a blank"
-                                                                 : nullptr;
-    if (reason != nullptr) {
+    if (name.size() > longest_name || name[0] == '.' || name.find('/') != name.npos ||
+        std::ranges::any_of(name, is_control) || has_white_space(name)) {
         throw Error(exit_code::job,
-                    "{}:1:{}: the column {} cannot be a variable of a result file, because {}. "
-                    "Allowed are up to {} bytes without blanks, slashes and control characters, "
-                    "and without a dot at the beginning. Rename the column.",
+                    "{}:1:{}: the column {} cannot be a variable of a result file. Allowed are up "
+                    "to {} bytes without blanks, slashes and control characters, and without a dot "
+                    "at the beginning. Rename the column.",
                     blocks.file, blocks.table.find(name) - blocks.table.columns.data() + 1,
-                    in_quotes(shortened(name, 40)), reason, longest_name);
+                    in_quotes(shortened(name, 40)), longest_name);
     }
 }
 
@@ -128,70 +111,65 @@ void expect_values(const BlockTable& blocks, const TableColumn& column, const Qu
     }
 }
 
-/// The indices of the motions that have this name, in order: as in Motion::name, or with the file
-/// without its folder or also without its ending, or that of the file alone.
-std::vector<std::size_t> motions_named(const std::string& name, const std::vector<Motion>& motions)
+/// The indices of motions by name.
+using MotionsByName = std::map<std::string, std::vector<std::size_t>, std::less<>>;
+
+/// The names are those in Motion::name, or with the file without its folder or also without its
+/// ending, or that of the file alone; Motion::name comes first.
+MotionsByName by_name(const std::vector<Motion>& motions)
 {
-    std::vector<std::size_t> found;
+    MotionsByName all;
     for (std::size_t i = 0; i < motions.size(); ++i) {
-        const Motion& motion = motions[i];
-        if (name == motion.name) {
-            return {i};
+        const std::filesystem::path path(motions[i].file);
+        const std::string suffix = motions[i].name.substr(motions[i].file.size());
+        std::set<std::string> names;
+        for (const auto& file : {path, path.filename(), path.stem()}) {
+            names.insert({file.string(), file.string() + suffix});
         }
-        const std::filesystem::path path(motion.file);
-        const std::string suffix = motion.name.substr(motion.file.size());
-        for (const std::string& file :
-             {path.string(), path.filename().string(), path.stem().string()}) {
-            if (name == file || name == file + suffix) {
-                found.push_back(i);
-                break;
-            }
+        for (const std::string& name : names) {
+            all[name].push_back(i);
         }
     }
-    return found;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        all[motions[i].name] = {i};
+    }
+    return all;
 }
 
 /// The numbers of the motions that a column names, from 1.
 std::vector<double> motion_numbers(const BlockTable& blocks, const TableColumn& column,
-                                   const std::vector<Motion>& motions)
+                                   const std::vector<Motion>& motions, const MotionsByName& known)
 {
-    std::map<std::string, std::size_t> known;
     std::vector<double> numbers;
     for (const std::string& name : column.texts) {
-        if (!known.contains(name)) {
-            const auto quoted = [&](std::size_t i) { return in_quotes(motions[i].name); };
-            const auto refuse_name = [&](const std::string& reason) {
-                refuse(blocks,
-                       {std::int64_t(numbers.size()), column.name,
-                        fmt::format(" = {} is {}", in_quotes(shortened(name, 40)), reason)});
-            };
-            const std::vector<std::size_t> found = motions_named(name, motions);
-            if (found.empty()) {
-                refuse_name(fmt::format(
-                    "not a record of the job. Give the name of a file in scene.record, such as {}.",
-                    quoted(0)));
-            }
-            if (found.size() > 1) {
-                refuse_name(fmt::format(
-                    "the name of several records: {} and {}{}. Give one of these names.",
-                    quoted(found[0]), quoted(found[1]), found.size() > 2 ? " and others" : ""));
-            }
-            known[name] = found[0];
+        const auto quoted = [&](std::size_t i) { return in_quotes(motions[i].name); };
+        const auto refuse_name = [&](const std::string& reason) {
+            refuse(blocks, {std::int64_t(numbers.size()), column.name,
+                            fmt::format(" = {} is {}", in_quotes(shortened(name, 40)), reason)});
+        };
+        const auto found = known.find(name);
+        if (found == known.end()) {
+            refuse_name(fmt::format(
+                "not a record of the job. Give the name of a file in scene.record, such as {}.",
+                quoted(0)));
         }
-        numbers.push_back(double(known[name] + 1));
+        const std::vector<std::size_t>& places = found->second;
+        if (places.size() > 1) {
+            refuse_name(fmt::format(
+                "the name of several records: {} and {}{}. Give one of these names.",
+                quoted(places[0]), quoted(places[1]), places.size() > 2 ? " and others" : ""));
+        }
+        numbers.push_back(double(places[0] + 1));
     }
     return numbers;
 }
 
 /// Refuses a column of texts that name records of a suite: it would not assign them to the blocks.
 void expect_no_records(const BlockTable& blocks, const TableColumn& column,
-                       const std::vector<Motion>& motions)
+                       const MotionsByName& known)
 {
-    const auto names_motion = [&](const std::string& text) {
-        return !motions_named(text, motions).empty();
-    };
-    if (motions.size() > 1 && !column.texts.empty() &&
-        std::ranges::all_of(column.texts, names_motion)) {
+    const auto names_motion = [&](const std::string& text) { return known.contains(text); };
+    if (!column.texts.empty() && std::ranges::all_of(column.texts, names_motion)) {
         refuse(blocks,
                {GivenError::no_row, column.name,
                 fmt::format(" names records of the job, but each block is computed under all of "
@@ -211,15 +189,18 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
     BlockTable blocks{
         file, read_table(text_of_file(path, table_file), file, is_recorded ? motion_column : ""),
         ""};
+    const MotionsByName known = by_name(motions);
     for (TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
         // Under a pulse, the motion is a column like any other.
         if (is_recorded && column.name == motion_column) {
-            column = {column.name, motion_numbers(blocks, column, motions), {}};
+            column = {column.name, motion_numbers(blocks, column, motions, known), {}};
         } else if (quantity == nullptr || !quantity->is_coordinate() ||
                    quantity->role == Role::motion) {
             expect_free_name(blocks, column.name, is_recorded);
-            expect_no_records(blocks, column, motions);
+            if (motions.size() > 1) {
+                expect_no_records(blocks, column, known);
+            }
         } else {
             expect_values(blocks, column, *quantity);
         }

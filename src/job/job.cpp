@@ -1,15 +1,15 @@
 #include "overturn/job/job.hpp"
 
 #include "overturn/record/text_file.hpp"
-#include "overturn/text/error.hpp"
 
-#include "deep_key.hpp"
 #include "read_steps.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 
 namespace overturn {
 
@@ -19,63 +19,149 @@ namespace {
 constexpr TextFileKind job_file{"a job file", std::size_t(64) << 20, "Give the path of a job file.",
                                 "Give long axes as first, last and count."};
 
-toml::table parse(const std::string& text, const std::string& path)
+PulseShape read_shape(const Entry& scene, PulseKind pulse)
 {
-    if (text.starts_with("\x89HDF\r\n")) {
-        throw Error(exit_code::job,
-                    "{0}: this is a result file, not a job file. Give the job file; to resume its "
-                    "run, also -o {0}.",
-                    path);
+    PulseShape shape;
+    for (const auto& [name, number] : shape_numbers) {
+        const auto entry = find(scene, name);
+        const auto value = entry ? std::optional(number_of(*entry)) : std::nullopt;
+        if (const std::string refusal = refusal_of(pulse, number, value); !refusal.empty()) {
+            refuse(entry.value_or(Entry{scene.node, fmt::format("{}.{}", scene.key, name)}), "{}",
+                   refusal);
+        }
+        shape.*number = value.value_or(shape.*number);
     }
-    if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
-        const auto line = std::count(text.begin(), text.begin() + std::ptrdiff_t(deep), '\n') + 1;
-        throw Error(exit_code::job,
-                    "{}:{}: a key has more than {} parts, but keys of a job have at most three, "
-                    "such as plane.frequency.count. Shorten the key.",
-                    path, line, most_key_parts);
-    }
-    try {
-        return toml::parse(text, path);
-    } catch (const toml::parse_error& error) {
-        throw Error(
-            exit_code::job,
-            "{}: this is not TOML: {}. Fix it here or just before; strings need \"quotes\".",
-            place_of(error.source()), on_one_line(std::string(error.description())));
-    }
+    return shape;
 }
 
-std::string read_title(const Entry& job)
+/// Reads [scene], without its records.
+Scene read_scene(const Entry& job)
 {
-    const auto entry = find(job, "title");
+    require(job, "scene", "Add [scene] with a pulse or a record.");
+    const Entry entry = table_of(job, "scene");
+    Scene scene;
+    scene.theory = choice_of(entry, "theory", theory_names, scene.theory);
+    scene.gravity = quantity_of(entry, "gravity", scene.gravity);
+    const bool is_recorded = find(entry, "record").has_value();
+    for (const std::string_view key :
+         keys_of("scene", is_recorded ? Under::pulse : Under::record)) {
+        if (const auto other = find(entry, key)) {
+            refuse(*other, "{} Remove {}.",
+                   is_recorded ? " cannot be combined with scene.record."
+                               : " has no meaning without scene.record.",
+                   is_recorded ? "one of them" : "it");
+        }
+    }
+    if (!is_recorded) {
+        const Entry pulse =
+            require(entry, "pulse",
+                    fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
+                                fmt::join(pulse_names, ", ")));
+        scene.pulse = choice_of<PulseKind>(pulse, pulse_names);
+        scene.shape = read_shape(entry, scene.pulse);
+    }
+    return scene;
+}
+
+/// Reads [numerics].
+Numerics read_numerics(const Entry& job, bool is_recorded)
+{
+    const Entry entry = table_of(job, "numerics");
+    Numerics numerics;
+    numerics.method =
+        choice_of(entry, "method", method_names, is_recorded ? Method::taylor : numerics.method);
+    if (is_recorded && numerics.method != Method::taylor) {
+        refuse(*find(entry, "method"),
+               " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",
+               name_of(numerics.method));
+    }
+    numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);
+    numerics.tolerance = quantity_of(
+        entry, "tolerance", numerics.resolve ? tolerance_to_resolve_from : numerics.tolerance);
+    numerics.fill = boolean_of(entry, "fill", numerics.fill);
+    numerics.audit = quantity_of(entry, "audit", numerics.audit);
+    if (const auto audit = find(entry, "audit"); audit && !numerics.fill) {
+        refuse(*audit, " needs fill = true: without filling, every point is integrated.");
+    }
+    return numerics;
+}
+
+/// Reads [output].
+std::vector<Field> read_fields(const Entry& job)
+{
+    const auto entry = find(table_of(job, "output"), "fields");
     if (!entry) {
-        return "";
+        return {Field::region};
     }
-    std::string title = string_of(*entry);
-    if (title.find('\0') != title.npos) {
-        refuse(*entry, " has a NUL character, which ends strings in other programs. Remove it.");
+    const std::vector<std::string_view> names = spectrum_field_names();
+    const std::size_t size =
+        array_size(*entry, "an array of strings, such as [\"region\"]",
+                   fmt::format("Give at least one of {}.", fmt::join(names, ", ")));
+    std::vector<Field> fields;
+    for (std::size_t i = 0; i < size; ++i) {
+        const auto field = choice_of<Field>(element(*entry, i), names);
+        if (std::ranges::count(fields, field) > 0) {
+            refuse(element(*entry, i), " = \"{}\" is listed twice. List each field once.",
+                   name_of(field));
+        }
+        fields.push_back(field);
     }
-    return title;
+    return fields;
+}
+
+/// Refuses numerics and fields that are not possible for the scene and the points: error bounds at
+/// a loose tolerance, forces of the contact in the linear theory, filling.
+void expect_computable(const Entry& job, const Problem& problem)
+{
+    const Numerics& numerics = problem.numerics;
+    const auto key = [&](std::string_view table, std::string_view name) {
+        return *find(*find(job, table), name);
+    };
+    const auto stores = [&](Field field) { return std::ranges::count(problem.fields, field) > 0; };
+    if ((numerics.resolve || stores(Field::error)) && !knows_errors(numerics)) {
+        refuse(key("numerics", "tolerance"),
+               " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
+               "reliable error bounds. Lower it, or use method = \"taylor\".",
+               numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
+               largest_rk45_tolerance_with_error);
+    }
+    for (const Field field : {Field::friction, Field::normal}) {
+        if (problem.scene.theory == Theory::linear && stores(field)) {
+            refuse(key("output", "fields"),
+                   " contains \"{}\", but the linear theory has no forces of the contact. Remove "
+                   "it, or use theory = \"nonlinear\".",
+                   name_of(field));
+        }
+    }
+    const std::string reason = numerics.fill ? reason_not_to_fill(problem) : "";
+    if (!reason.empty()) {
+        refuse(key("numerics", "fill"),
+               " = true is not possible: {}. Remove it to integrate every point.", reason);
+    }
 }
 
 /// Largest total size of the fields [bytes], with a margin to what can be addressed.
 constexpr long double most_bytes = 0x1p62L;
 
-/// The size of a job, in floating point, which cannot overflow here.
-struct JobSize {
-    long double points;
-    long double bytes;
-};
-
-JobSize size_of(const Problem& problem)
+/// Why the result of a problem is too large, as a text that follows its name; empty if it is not.
+/// Computed in floating point, which cannot overflow here.
+std::string excess_of(const Problem& problem)
 {
-    JobSize size{.points = 1, .bytes = 0};
+    const bool is_boundary = problem.product == Product::boundary;
+    long double values = 1;
     for (const std::int64_t count : stored_shape(problem)) {
-        size.points *= static_cast<long double>(count);
+        values *= static_cast<long double>(count);
     }
+    long double bytes = 0;
     for (const Field field : problem.fields) {
-        size.bytes += size.points * static_cast<long double>(bytes_per_point(field));
+        bytes += values * static_cast<long double>(bytes_per_point(field));
     }
-    return size;
+    return bytes <= most_bytes
+               ? ""
+               : fmt::format(" has {:.4g} {} and would take {:.4g} bytes, but at most {:.4g} are "
+                             "allowed. Lower the counts.",
+                             is_boundary ? values / double(most_flips(problem.scene)) : values,
+                             is_boundary ? "lines" : "points", bytes, most_bytes);
 }
 
 } // namespace
@@ -88,41 +174,46 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides)
 Job read_job_text(std::string text, const std::string& name,
                   const std::vector<std::string>& overrides)
 {
+    if (text.starts_with("\x89HDF\r\n")) {
+        throw Error(exit_code::job,
+                    "{0}: this is a result file, not a job file. Give the job file; to resume its "
+                    "run, also -o {0}.",
+                    name);
+    }
     Job job;
     job.given = std::move(text);
     job.overrides = overrides;
-    toml::table table = parse(job.given, name);
+    toml::table table =
+        parse_toml(job.given, name, "Fix it here or just before; strings need \"quotes\".");
     for (const std::string& argument : overrides) {
         apply_override(table, argument);
     }
     const Entry entry{&table, ""};
     expect_table(entry, keys_of(""));
-    job.title = read_title(entry);
+    if (const auto title = find(entry, "title")) {
+        job.title = string_of(*title);
+        if (job.title.find('\0') != std::string::npos) {
+            refuse(*title,
+                   " has a NUL character, which ends strings in other programs. Remove it.");
+        }
+    }
+    const std::string folder = std::filesystem::path(name).parent_path().string();
     Problem& problem = job.problem;
     problem.scene = read_scene(entry);
-    const std::string folder = std::filesystem::path(name).parent_path().string();
-    bool is_suite = false;
     if (const Entry scene = *find(entry, "scene"); find(scene, "record")) {
-        RecordedMotions recorded = read_motions(scene, folder, problem.scene.gravity);
-        job.motions = std::move(recorded.motions);
-        problem.scene.records = std::move(recorded.records);
-        is_suite = recorded.is_suite;
+        job.motions = read_motions(scene, folder, problem.scene.gravity);
+        std::ranges::transform(job.motions, std::back_inserter(problem.scene.records),
+                               &Motion::record);
     }
     problem.numerics = read_numerics(entry, problem.scene.is_recorded());
     problem.fields = read_fields(entry);
-    expect_known_errors(entry, problem);
-    expect_contact(entry, problem);
-    read_points(entry, folder, is_suite, job);
-    expect_fillable(entry, problem); // before `evaluated` is added, which it would refuse
+    read_points(entry, folder, job);
+    expect_computable(entry, problem);
     if (problem.numerics.fill) {
         problem.fields.push_back(Field::evaluated);
     }
-    if (const JobSize size = size_of(problem); size.bytes > most_bytes) {
-        const auto plane = find(entry, "plane");
-        refuse(plane ? *plane : entry,
-               " has {:.4g} points and would take {:.4g} bytes, but at most {:.4g} are allowed. "
-               "Lower the counts.",
-               size.points, size.bytes, most_bytes);
+    if (const std::string excess = excess_of(problem); !excess.empty()) {
+        refuse(find(entry, "plane").value_or(entry), "{}", excess);
     }
     job.resolved = resolved_text(job);
     return job;
@@ -153,12 +244,8 @@ Job boundary_of(Job job)
     problem.fields = boundary_fields(problem.scene, problem.grid);
     job.resolved = resolved_text(job);
     // With fewer strengths than flips, the boundary is larger than the spectrum.
-    if (const JobSize size = size_of(problem); size.bytes > most_bytes) {
-        throw Error(
-            exit_code::job,
-            "plane has {:.4g} lines of one frequency, restitution and slenderness, whose "
-            "boundaries would take {:.4g} bytes, but at most {:.4g} are allowed. Lower the counts.",
-            size.points / double(most_flips(problem.scene)), size.bytes, most_bytes);
+    if (const std::string excess = excess_of(problem); !excess.empty()) {
+        throw Error(exit_code::job, "plane{}", excess);
     }
     return job;
 }

@@ -1,14 +1,9 @@
 #include "read_steps.hpp"
 
-#include "deep_key.hpp"
-
-#include "overturn/text/error.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -18,103 +13,55 @@ namespace {
 
 using Path = std::vector<std::string>;
 
-// An argument may be a list of thousands of values; messages quote its beginning.
-constexpr std::size_t longest_place = 100;
-
-/// The beginning of the argument, on one line, as the place in messages.
-std::string place_of_argument(const std::string& argument)
-{
-    return on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
-}
-
-template <class... Arguments>
-[[noreturn]] void refuse_argument(const std::string& argument,
-                                  fmt::format_string<Arguments...> text, Arguments&&... arguments)
-{
-    throw Error(exit_code::job, "{}: {}", place_of_argument(argument),
-                fmt::format(text, std::forward<Arguments>(arguments)...));
-}
-
 /// Whether a text can only be a string without quotes: it begins with a letter and has no quotes,
-/// brackets, comments or newlines.
+/// brackets, comments or control characters.
 bool is_unquoted_string(std::string_view text)
 {
-    const auto is_special = [](unsigned char letter) {
-        return letter < 0x20 ||
-               std::string_view("\"'[]{}#=\\").find(char(letter)) != std::string::npos;
-    };
     return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
-           std::none_of(text.begin(), text.end(), is_special);
+           text.find_first_of("\"'[]{}#=\\") == text.npos && on_one_line(std::string(text)) == text;
 }
 
-Path path_of(const std::string& argument, std::string_view dotted_key)
+/// A job with the value of the argument only, whose source is the argument. A value that is not
+/// TOML may be a string without quotes.
+toml::table job_of(const std::string& argument)
 {
-    const auto is_allowed = [](unsigned char letter) {
-        return std::isalnum(letter) != 0 || letter == '_' || letter == '-';
-    };
+    // An argument may be a list of thousands of values; messages quote its beginning.
+    constexpr std::size_t longest_place = 100;
+    const std::string place =
+        on_one_line(std::string(override_prefix) + shortened(argument, longest_place));
+    constexpr std::string_view advice =
+        "Give key.path=value, such as plane.frequency.count=100; strings need \"quotes\".";
+    try {
+        return parse_toml(argument, place, advice);
+    } catch (const Error&) {
+        const std::size_t value = argument.find('=') + 1; // 0: there is none
+        const std::string_view word = trimmed(std::string_view(argument).substr(value));
+        if (value == 0 || !is_unquoted_string(word)) {
+            throw;
+        }
+        return parse_toml(argument.substr(0, value) + in_quotes(word), place, advice);
+    }
+}
+
+/// The keys that lead to the only value of a job.
+Path path_of(const toml::table& given)
+{
     Path path;
-    while (true) {
-        const std::size_t dot = dotted_key.find('.');
-        const std::string_view key = trimmed(dotted_key.substr(0, dot));
-        if (key.empty() || !std::ranges::all_of(key, is_allowed)) {
-            refuse_argument(argument,
-                            "the key {} is {}. Keys consist of letters, digits, '_' and '-', "
-                            "joined by dots, such as plane.frequency.count.",
-                            in_quotes(key), key.empty() ? "empty" : "invalid");
-        }
-        path.emplace_back(key);
-        if (dot == dotted_key.npos) {
-            return path;
-        }
-        dotted_key.remove_prefix(dot + 1);
-    }
-}
-
-/// A job with this entry only, whose source is the argument. A value that is not TOML may be a
-/// string without quotes.
-toml::table job_of(const std::string& argument, const Path& path, std::string_view value)
-{
-    std::string problem;
-    const auto parsed = [&](std::string_view value_text) -> std::optional<toml::table> {
-        const std::string text = fmt::format("{} = {}", fmt::join(path, "."), value_text);
-        if (find_deep_key(text) != text.npos) {
-            problem = fmt::format("a key has more than {} parts", most_key_parts);
-            return std::nullopt;
-        }
-        try {
-            return toml::parse(text, place_of_argument(argument));
-        } catch (const toml::parse_error& error) {
-            problem = on_one_line(std::string(error.description()));
-            return std::nullopt;
-        }
-    };
-    std::optional<toml::table> job = parsed(value);
-    if (!job && is_unquoted_string(value)) {
-        job = parsed(in_quotes(value));
-    }
-    if (!job) {
-        refuse_argument(argument,
-                        "this is not valid TOML: {}. Give a number, a \"string\", or a [list].",
-                        problem);
-    }
-    return *std::move(job);
-}
-
-/// Refuses the argument if it gives more than the value at the end of the path.
-void expect_one_value(const toml::table& given, const Path& path, const std::string& argument)
-{
     const toml::table* table = &given;
-    for (std::size_t depth = 0; depth < path.size(); ++depth) {
+    while (table != nullptr && !table->is_inline()) { // { ... } is a value
         if (table->size() != 1) {
-            refuse_argument(argument, "there is more than one value. Use one --set for each.");
+            refuse({&given, ""}, "there is not exactly one value. Use one --set for each.");
         }
-        table = table->begin()->second.as_table();
+        const auto entry = table->begin();
+        path.emplace_back(entry->first.str());
+        table = entry->second.as_table();
     }
+    return path;
 }
 
 /// Moves the value at the end of the path to the same path in the job. A moved node keeps its
 /// source position; a copied one would lose it.
-void move_value(toml::table& job, toml::table& given, const Path& path, const std::string& argument)
+void move_value(toml::table& job, toml::table& given, const Path& path)
 {
     toml::table* onto = &job;
     toml::table* from = &given;
@@ -127,8 +74,8 @@ void move_value(toml::table& job, toml::table& given, const Path& path, const st
         }
         if (!present->is_table()) {
             const auto end = path.begin() + std::ptrdiff_t(depth + 1);
-            refuse_argument(argument, "{} is not a table in the job, so it has no keys to set.",
-                            fmt::join(path.begin(), end, "."));
+            refuse({&given, fmt::format("{}", fmt::join(path.begin(), end, "."))},
+                   " is not a table in the job, so it has no keys to set.");
         }
         onto = present->as_table();
         from = entry->second.as_table();
@@ -148,52 +95,58 @@ bool is_coordinate(const Path& path)
            find_quantity(path[1]) != nullptr;
 }
 
-/// Removes the coordinates of points that a new value at this path contradicts.
-void drop_coordinates(toml::table& job, const Path& path)
+/// Removes the coordinates of points that contradict a new value at this path, other than the one
+/// at the path. Returns whether there are any, including that one.
+template <class Contradicts>
+bool drop_coordinates(toml::table& job, const Path& path, const Contradicts& contradict)
 {
-    const bool is_record = path == Path{"scene", "record"};
-    const bool is_other_motion =
-        is_record || (path == Path{"scene", "pulse"} && job["scene"]["record"]);
-    const auto is_contradicted = [&](const Quantity& other) {
-        return path[0] == "blocks"   ? other.role == Role::block || other.role == Role::loss
-               : is_coordinate(path) ? exclude_each_other(other.name, path[1])
-                                     : is_other_motion && !applies_to(other, is_record);
-    };
-    bool is_alternative = false;
+    bool found = false;
     for (const std::string_view table : coordinate_tables) {
         for (const std::string_view name : keys_of(table)) {
-            if (job[table][name] && is_contradicted(quantity(name))) {
-                is_alternative = true;
+            if (job[table][name] && contradict(quantity(name))) {
+                found = true;
                 if (path[0] != table || path[1] != name) {
                     erase(job, table, name);
                 }
             }
         }
     }
-    // A new shape replaces the table that describes the blocks; a size alone is none.
-    if (is_coordinate(path) && !is_alternative && quantity(path[1]).role == Role::block &&
-        !are_equivalent(path[1], "size")) {
-        job.erase("blocks");
-    }
+    return found;
 }
 
-/// Removes the keys of [scene] that a new value at this path contradicts.
-void drop_scene(toml::table& job, const Path& path, const toml::table& given)
+/// Removes the keys that contradict a new value at this path.
+void drop_keys(toml::table& job, const Path& path, const toml::table& given)
 {
     const bool is_record = path == Path{"scene", "record"};
     const bool is_pulse = path == Path{"scene", "pulse"};
     if (is_record || (is_pulse && job["scene"]["record"])) {
-        for (const std::string_view key : scene_keys_of(is_record ? Under::pulse : Under::record)) {
+        for (const std::string_view key :
+             keys_of("scene", is_record ? Under::pulse : Under::record)) {
             erase(job, "scene", key);
         }
+        drop_coordinates(job, path,
+                         [&](const Quantity& other) { return !applies_to(other, is_record); });
     }
     const auto pulse =
         std::ranges::find(pulse_names, given["scene"]["pulse"].value_or<std::string_view>(""));
     for (const auto& [number, member] : shape_numbers) {
-        if (is_pulse && pulse != pulse_names.end() &&
+        if (pulse != pulse_names.end() &&
             !has_number(PulseKind(pulse - pulse_names.begin()), member)) {
             erase(job, "scene", number);
         }
+    }
+    if (path[0] == "blocks") {
+        drop_coordinates(job, path, [](const Quantity& other) {
+            return other.role == Role::block || other.role == Role::loss;
+        });
+    }
+    // A new shape replaces the table that describes the blocks; a size alone is none.
+    if (is_coordinate(path) &&
+        !drop_coordinates(
+            job, path,
+            [&](const Quantity& other) { return exclude_each_other(other.name, path[1]); }) &&
+        quantity(path[1]).role == Role::block && !are_equivalent(path[1], "size")) {
+        job.erase("blocks");
     }
 }
 
@@ -211,7 +164,7 @@ void drop_parts(toml::table& job, toml::table& given, const Path& path)
         }
         erase(job, path[0], path[1]);
     } else if (toml::table* const table = axis.as_table(); table != nullptr && !keeps_values) {
-        for (const std::string_view part : axis_keys()) {
+        for (const std::string_view part : axis_keys) {
             if ((part == "values") != (path[2] == "values")) {
                 table->erase(part);
             }
@@ -223,25 +176,13 @@ void drop_parts(toml::table& job, toml::table& given, const Path& path)
 
 void apply_override(toml::table& job, const std::string& argument)
 {
-    const std::size_t equals = argument.find('=');
-    if (equals == argument.npos) {
-        refuse_argument(argument,
-                        "there is no '='. Give key.path=value, such as plane.frequency.count=100.");
-    }
-    const Path path = path_of(argument, std::string_view(argument).substr(0, equals));
-    const std::string_view value = trimmed(std::string_view(argument).substr(equals + 1));
-    if (value.empty()) {
-        refuse_argument(argument,
-                        "the value is missing. Give it after the '='; an empty string is \"\".");
-    }
-    toml::table given = job_of(argument, path, value);
-    expect_one_value(given, path, argument);
-    drop_coordinates(job, path);
-    drop_scene(job, path, given);
+    toml::table given = job_of(argument);
+    const Path path = path_of(given);
+    drop_keys(job, path, given);
     if (path.size() == 3 && is_coordinate(path)) {
         drop_parts(job, given, path);
     }
-    move_value(job, given, path, argument);
+    move_value(job, given, path);
 }
 
 } // namespace overturn

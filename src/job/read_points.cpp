@@ -3,46 +3,125 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <ranges>
 
 namespace overturn {
 
 namespace {
 
-Given given_by(const Entry& entry, const Quantity& named, bool is_recorded)
+// Each process stores the values of all axes; `check`, which scans a line of amplitudes, takes 400
+// bytes for each value.
+constexpr std::int64_t most_values = 10'000'000;
+
+AxisList read_list(const Entry& entry, const Quantity& rule)
 {
-    if (!applies_to(named, is_recorded)) {
-        refuse(entry, is_recorded ? " has no meaning under a record. Remove it."
-                                  : " has no meaning under a pulse. Remove it.");
+    const std::size_t size =
+        array_size(entry, "an array of numbers, such as [0.5, 1.0]", "Give at least one value.");
+    AxisList values;
+    values.reserve(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        values.push_back(quantity_of(element(entry, i), rule));
     }
-    // { ..., of = "maximum" } is another spelling of restitution_of_maximum.
-    const Quantity* given = &named;
-    std::vector<std::string_view> keys(axis_keys().begin(), axis_keys().end());
-    if (named.name == "restitution" && entry.node->is_table()) {
-        keys.push_back("of");
-        constexpr std::array<std::string_view, 2> of_names{"absolute", "maximum"};
-        const auto of = find(entry, "of");
-        if (of && index_of_name(*of, of_names) == 1) {
-            given = &quantity("restitution_of_maximum");
-        }
-    }
-    return {given, entry.key, read_axis(entry, *given, keys),
-            entry.node->is_number() ? GivenAs::number : GivenAs::axis};
+    return values;
 }
 
-/// The coordinates of points in the tables of the job.
+AxisRange read_range(const Entry& entry, const Quantity& rule)
+{
+    constexpr std::string_view advice = "Give first, last and count, or values.";
+    const Entry first = require(entry, "first", advice);
+    const Entry last = require(entry, "last", advice);
+    const Entry count = require(entry, "count", advice);
+    const AxisRange range{quantity_of(first, rule), quantity_of(last, rule), integer_of(count),
+                          choice_of(entry, "spacing", spacing_names, Spacing::linear)};
+    if (range.count < 1 || range.count > most_values) {
+        refuse(count, " = {} is outside [1, {}], the numbers of values that an axis may have.",
+               range.count, most_values);
+    }
+    if (range.first > range.last) {
+        refuse(first, " = {} is above last = {}. Axes must ascend. Swap first and last.",
+               range.first, range.last);
+    }
+    if (range.count == 1 && range.first != range.last) {
+        refuse(count,
+               " = 1 needs first = last, but first = {} and last = {}. Raise count, or make them "
+               "equal.",
+               range.first, range.last);
+    }
+    if (range.spacing == Spacing::log && !(range.first > 0)) {
+        refuse(first,
+               " = {} cannot start a logarithmic range. Raise it above 0, or use spacing = "
+               "\"linear\".",
+               range.first);
+    }
+    return range;
+}
+
+/// Reads a number, which gives an axis of one value, or an axis: a table with these keys only,
+/// { values = [...] } or { first, last, count, spacing }.
+Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
+{
+    if (entry.node->is_number()) {
+        return Axis(AxisList{quantity_of(entry, rule)});
+    }
+    expect_table(entry, keys, "a number, or ");
+    const auto values = find(entry, "values");
+    for (const std::string_view key : {"first", "last", "count", "spacing"}) {
+        if (const auto other = find(entry, key); values && other) {
+            refuse(*other, " cannot be combined with {}.values. Remove one of them.", entry.key);
+        }
+    }
+    const Axis axis = values ? Axis(read_list(*values, rule)) : Axis(read_range(entry, rule));
+    double previous = axis.first();
+    for (std::int64_t i = 1; i < axis.size(); ++i) {
+        const double value = axis[i];
+        if (!(value > previous)) { // also if a value of a range overflows
+            refuse(values ? element(*values, std::size_t(i)) : *find(entry, "count"),
+                   ": {} is followed by {}, but values must ascend in double precision. Sort a "
+                   "list, and give each value once; lower count or change the ends of a range.",
+                   previous, value);
+        }
+        previous = value;
+    }
+    return axis;
+}
+
+/// The coordinates of points in the tables of a job.
 std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
 {
     std::vector<Given> given;
     for (const std::string_view table : coordinate_tables) {
-        const Entry entry = table_of(job, table);
-        for (const std::string_view name : keys_of(table)) {
-            if (const auto coordinate = find(entry, name)) {
-                given.push_back(given_by(*coordinate, quantity(name), is_recorded));
+        const Entry entries = table_of(job, table);
+        for (std::string_view name : keys_of(table)) {
+            const auto entry = find(entries, name);
+            if (!entry) {
+                continue;
             }
+            if (!applies_to(quantity(name), is_recorded)) {
+                refuse(*entry, " has no meaning under a {}. Remove it.",
+                       is_recorded ? "record" : "pulse");
+            }
+            std::vector<std::string_view> keys(axis_keys.begin(), axis_keys.end());
+            if (name == "restitution") {
+                keys.push_back("of");
+                const auto of = entry->node->is_table() ? find(*entry, "of") : std::nullopt;
+                if (of && index_of_name(*of, shares_of) == 1) {
+                    name = "restitution_of_maximum"; // of which this is another spelling
+                }
+            }
+            given.push_back({&quantity(name), entry->key, read_axis(*entry, quantity(name), keys),
+                             entry->node->is_number() ? GivenAs::number : GivenAs::axis});
         }
     }
     return given;
+}
+
+/// The records as a coordinate: a dimension if they are a list or a pattern.
+Given given_motions(const Entry& record, const std::vector<Motion>& motions)
+{
+    const bool is_suite = record.node->is_array() || motions.front().file != string_of(record);
+    const auto last = std::int64_t(motions.size());
+    return {&quantity("motion"), record.key, Axis(AxisRange{1, double(last), last}),
+            is_suite ? GivenAs::axis : GivenAs::number};
 }
 
 /// Refuses a quantity at its key, or at the second of two keys; a missing one at the table to which
@@ -51,29 +130,26 @@ std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
                                const GivenError& error)
 {
     const std::string& name = error.quantity();
-    const auto found = std::find_if(given.rbegin(), given.rend(), [&](const Given& each) {
-        return each.quantity->name == name && each.as != GivenAs::column;
-    });
-    if (found != given.rend()) {
-        const std::size_t dot = found->label.find('.');
-        const Entry table = *find(job, found->label.substr(0, dot));
-        refuse(*find(table, found->label.substr(dot + 1)), error.what());
+    for (const Given& each : std::views::reverse(given)) {
+        if (each.quantity->name == name && each.as != GivenAs::column) {
+            refuse({toml::at_path(*job.node, each.label).node(), each.label}, "{}", error.what());
+        }
     }
     const bool is_block = find(job, "block") && (name == "width" || name == "height");
     const std::string_view table = is_block ? "block" : "plane";
-    refuse({find(job, table).value_or(job).node, fmt::format("{}.{}", table, name)}, error.what());
+    refuse({find(job, table).value_or(job).node, fmt::format("{}.{}", table, name)}, "{}",
+           error.what());
 }
 
 } // namespace
 
-void read_points(const Entry& entry, const std::string& folder, bool is_suite, Job& job)
+void read_points(const Entry& entry, const std::string& folder, Job& job)
 {
     const bool is_recorded = job.problem.scene.is_recorded();
     if (!find(entry, "block") && !find(entry, "blocks")) {
         require(entry, "plane",
-                is_recorded
-                    ? "Add [plane] with scale, size, restitution and slenderness."
-                    : "Add [plane] with frequency, amplitude, restitution and slenderness.");
+                fmt::format("Add [plane] with {}, restitution and slenderness.",
+                            is_recorded ? "scale, size" : "frequency, amplitude"));
     }
     std::vector<Given> given = given_coordinates(entry, is_recorded);
     if (find(entry, "blocks")) {
@@ -86,10 +162,7 @@ void read_points(const Entry& entry, const std::string& folder, bool is_suite, J
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
     if (is_recorded && !csv_has("motion")) {
-        const auto last = std::int64_t(job.motions.size());
-        given.push_back({&quantity("motion"), "scene.record",
-                         Axis(AxisRange{1, double(last), last}),
-                         is_suite ? GivenAs::axis : GivenAs::number});
+        given.push_back(given_motions(*find(*find(entry, "scene"), "record"), job.motions));
     }
     try {
         job.problem.grid = grid_of(job.problem.scene, given);

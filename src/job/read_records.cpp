@@ -1,7 +1,6 @@
 #include "read_steps.hpp"
 
 #include "overturn/record/read_record.hpp"
-#include "overturn/text/error.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>
@@ -32,30 +31,33 @@ std::string component_text(const Entry& entry)
     return entry.node->is_string() ? string_of(entry) : fmt::format("{}", integer_of(entry));
 }
 
-/// The chosen component, or null if the file has none of this name or number.
-const RecordComponent* chosen(const RecordFile& file, const Entry& choice)
+/// A record as the job gives it.
+struct GivenRecord {
+    Entry entry;
+    std::string file;
+};
+
+/// The chosen component of a record. If its file has none of this name, null if the choice may be
+/// another file.
+const RecordComponent* chosen(const GivenRecord& given, const RecordFile& content,
+                              const Entry& choice, bool may_be_file)
 {
     const std::string text = component_text(choice);
-    for (std::size_t i = 0; i < file.components.size(); ++i) {
-        const RecordComponent& component = file.components[i];
-        if (text == (choice.node->is_integer() ? fmt::format("{}", i + 1) : component.name)) {
+    std::vector<std::string> all;
+    for (const RecordComponent& component : content.components) {
+        const std::string number = fmt::format("{}", all.size() + 1);
+        if (text == (choice.node->is_integer() ? number : component.name)) {
             return &component;
         }
+        all.push_back(component.name.empty()
+                          ? number
+                          : fmt::format("{} ({})", number, in_quotes(component.name)));
+    }
+    if (choice.node->is_integer() || !may_be_file) {
+        refuse(choice, " = {} is not a component of {}. It has the components {}.", text,
+               in_quotes(given.file), fmt::join(all, ", "));
     }
     return nullptr;
-}
-
-[[noreturn]] void refuse_component(const Entry& choice, const RecordFile& content,
-                                   const std::string& file)
-{
-    std::string names;
-    for (std::size_t i = 0; i < content.components.size(); ++i) {
-        const std::string& name = content.components[i].name;
-        names += fmt::format("{}{}{}", i == 0 ? "" : ", ", i + 1,
-                             name.empty() ? "" : fmt::format(" ({})", in_quotes(name)));
-    }
-    refuse(choice, " = {} is not a component of {}. It has the components {}.",
-           component_text(choice), in_quotes(file), names);
 }
 
 /// The name of a component, or its number if it has none, or none of its own, or one that looks
@@ -115,45 +117,34 @@ std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
     return files;
 }
 
-/// The choice of a component for each of `count` records, with this key of [scene]: one for all, or
-/// a list with one for each; nullopt if there is none.
-std::vector<std::optional<Entry>> choices_of(const Entry& scene, std::string_view key,
-                                             std::size_t count)
+/// What the records of a job have in common.
+struct Reading {
+    const Entry& scene;
+    fs::path folder; ///< of the job file
+    RecordOptions options;
+    double gravity;    ///< [m/s2]
+    std::size_t count; ///< of records
+};
+
+/// The choice of a component for a record, with this key of [scene]: one for all records, or a list
+/// with one for each; nullopt if there is none.
+std::optional<Entry> choice_of_record(std::size_t record, std::string_view key,
+                                      const Reading& reading)
 {
-    const auto entry = find(scene, key);
-    std::vector<std::optional<Entry>> choices(count, entry);
+    const auto entry = find(reading.scene, key);
     if (!entry || !entry->node->is_array()) {
-        return choices;
+        return entry;
     }
     const std::size_t size =
         array_size(*entry, "a component, or an array with one for each record", "Remove the key.");
-    if (size != count) {
+    if (size != reading.count) {
         refuse(*entry,
                " has length {}; the number of records is {}. Give one for each record, or a single "
                "value for all.",
-               size, count);
+               size, reading.count);
     }
-    for (std::size_t i = 0; i < size; ++i) {
-        choices[i] = element(*entry, i);
-    }
-    return choices;
+    return element(*entry, record);
 }
-
-/// What the records of a job have in common.
-struct Reading {
-    fs::path folder; ///< of the job file
-    RecordOptions options;
-    double gravity; ///< [m/s2]
-};
-
-/// A record as the job gives it.
-struct GivenRecord {
-    Entry entry;
-    std::string file;
-    std::optional<Entry> component;
-    std::optional<Entry> vertical;
-    std::optional<Entry> second;
-};
 
 RecordFile content_of(const Entry& entry, const std::string& file, const Reading& reading)
 {
@@ -164,104 +155,85 @@ RecordFile content_of(const Entry& entry, const std::string& file, const Reading
     }
 }
 
-/// The first component of a motion.
-struct FirstComponent {
-    const std::string& file;
-    const RecordFile& content;
-    const RecordComponent& horizontal;
-};
-
-/// Another component of a motion.
-struct OtherComponent {
-    std::vector<double> acceleration; ///< over g; empty if there is none
-    bool is_uncorrected = false;
-};
-
-/// Another component of the motion, if there is a choice: it is of the same file, or another file.
-/// name: of this component, in messages.
-OtherComponent other_component(const std::optional<Entry>& choice_of_it, std::string_view name,
-                               const FirstComponent& first, const Reading& reading)
+/// Refuses a component that does not belong to the horizontal one.
+void expect_other(const Entry& choice, const RecordComponent& other,
+                  const RecordComponent& horizontal)
 {
-    if (!choice_of_it) {
-        return {};
-    }
-    const Entry& choice = *choice_of_it;
-    const auto& [file, content, horizontal] = first;
-    const RecordComponent* component = chosen(content, choice);
-    RecordFile other;
-    if (component == nullptr) {
-        if (choice.node->is_integer()) {
-            refuse_component(choice, content, file);
-        }
-        other = content_of(choice, string_of(choice), reading);
-        component = &other.components.front();
-    }
-    if (std::ranges::all_of(component->acceleration, [](double value) { return value == 0; })) {
+    if (std::ranges::all_of(other.acceleration, [](double value) { return value == 0; })) {
         refuse(choice, " is zero at all times. Remove it.");
     }
-    if (component->time_step != horizontal.time_step ||
-        component->acceleration.size() != horizontal.acceleration.size()) {
+    if (other.time_step != horizontal.time_step ||
+        other.acceleration.size() != horizontal.acceleration.size()) {
         refuse(choice,
                " has {} samples at {} s, but the horizontal component has {} at {} s. Both must be "
                "equal.",
-               component->acceleration.size(), component->time_step, horizontal.acceleration.size(),
+               other.acceleration.size(), other.time_step, horizontal.acceleration.size(),
                horizontal.time_step);
     }
-    if (std::abs(component->start - horizontal.start) > horizontal.time_step / 2) {
+    if (std::abs(other.start - horizontal.start) > horizontal.time_step / 2) {
         refuse(
             choice,
             " begins at {} s, but the horizontal component begins at {} s. Give both at the same "
             "times.",
-            component->start, horizontal.start);
+            other.start, horizontal.start);
     }
-    if (component->acceleration == horizontal.acceleration) {
-        refuse(choice, " = {} has the accelerations of the horizontal component. Give the {} one.",
-               component_text(choice), name);
+    if (other.acceleration == horizontal.acceleration) {
+        refuse(choice, " = {} has the accelerations of the horizontal component. Give another one.",
+               component_text(choice));
     }
-    return {over_gravity(*component, reading.gravity), component->is_uncorrected};
 }
 
-/// The motion, without a name.
-std::pair<Motion, std::shared_ptr<const Accelerogram>> read_motion(const GivenRecord& given,
-                                                                   const Reading& reading)
+/// The motion, whose name is that of the file and the component.
+Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
 {
     const RecordFile content = content_of(given.entry, given.file, reading);
-    const RecordComponent* const horizontal =
-        given.component ? chosen(content, *given.component) : &content.components.front();
-    if (horizontal == nullptr) {
-        refuse_component(*given.component, content, given.file);
-    }
-    if (horizontal->acceleration.size() < 2) {
+    const auto choice = choice_of_record(number, "component", reading);
+    const RecordComponent& horizontal =
+        choice ? *chosen(given, content, *choice, false) : content.components.front();
+    if (horizontal.acceleration.size() < 2) {
         refuse(given.entry, " = {} has one sample. A record needs two or more.",
                in_quotes(given.file));
     }
-    const FirstComponent first{given.file, content, *horizontal};
-    OtherComponent vertical = other_component(given.vertical, "vertical", first, reading);
-    OtherComponent second = other_component(given.second, "second", first, reading);
+    const auto read_other = [&](const std::optional<Entry>& choice_of_it) -> RecordComponent {
+        if (!choice_of_it) {
+            return {};
+        }
+        const RecordComponent* const same_file = chosen(given, content, *choice_of_it, true);
+        RecordComponent other =
+            same_file != nullptr
+                ? *same_file
+                : content_of(*choice_of_it, string_of(*choice_of_it), reading).components.front();
+        expect_other(*choice_of_it, other, horizontal);
+        return other;
+    };
+    const auto choice_of_vertical = choice_of_record(number, "vertical", reading);
+    const auto choice_of_second = choice_of_record(number, "second_component", reading);
+    const RecordComponent vertical = read_other(choice_of_vertical);
+    const RecordComponent second = read_other(choice_of_second);
     auto record = std::make_shared<const Accelerogram>(
-        over_gravity(*horizontal, reading.gravity), std::move(vertical.acceleration),
-        horizontal->time_step, std::move(second.acceleration));
-    if (given.second && record->second() == record->upwards()) {
-        refuse(*given.second, " = {} is also the vertical component. Correct one of them.",
-               component_text(*given.second));
+        over_gravity(horizontal, reading.gravity), over_gravity(vertical, reading.gravity),
+        horizontal.time_step, over_gravity(second, reading.gravity));
+    if (choice_of_second && record->second() == record->upwards()) {
+        refuse(*choice_of_second, " = {} is also the vertical component. Correct one of them.",
+               component_text(*choice_of_second));
     }
     Motion motion{
         .file = given.file,
-        .name = {},
-        .component = horizontal->name,
-        .label = label_of(content, *horizontal),
-        .vertical = given.vertical ? component_text(*given.vertical) : "",
-        .second = given.second ? component_text(*given.second) : "",
+        .name = fmt::format("{}:{}", given.file, label_of(content, horizontal)),
+        .component = horizontal.name,
+        .vertical = choice_of_vertical ? component_text(*choice_of_vertical) : "",
+        .second = choice_of_second ? component_text(*choice_of_second) : "",
         .is_uncorrected =
-            horizontal->is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
+            horizontal.is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
         .header = {},
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
-        .checksum = checksum_of(*record)};
-    std::ranges::transform(horizontal->header, std::back_inserter(motion.header), as_utf8);
+        .checksum = checksum_of(*record),
+        .record = record};
+    std::ranges::transform(horizontal.header, std::back_inserter(motion.header), as_utf8);
     if (!(motion.measures.pga > 0)) {
         refuse(given.entry, " = {} is zero at all times. Remove it.", in_quotes(given.file));
     }
-    return {std::move(motion), std::move(record)};
+    return motion;
 }
 
 RecordOptions read_options(const Entry& scene)
@@ -276,7 +248,7 @@ RecordOptions read_options(const Entry& scene)
     return options;
 }
 
-/// The records that [scene] gives, with a component of each.
+/// The records that [scene] gives.
 std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folder)
 {
     const Entry entry = *find(scene, "record");
@@ -287,31 +259,22 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
     for (std::size_t i = 0; i < size; ++i) {
         const Entry one = entry.node->is_array() ? element(entry, i) : entry;
         for (std::string& file : files_of(one, folder)) {
-            records.push_back({one, std::move(file), {}, {}, {}});
+            records.push_back({one, std::move(file)});
         }
     }
     if (records.size() > most_records) {
         refuse(entry, " names {} files, but at most {} are allowed. Split the suite.",
                records.size(), most_records);
     }
-    const auto components = choices_of(scene, "component", records.size());
-    const auto verticals = choices_of(scene, "vertical", records.size());
-    const auto seconds = choices_of(scene, "second_component", records.size());
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        records[i].component = components[i];
-        records[i].vertical = verticals[i];
-        records[i].second = seconds[i];
-    }
     return records;
 }
 
-/// Sets the name of every motion: its file; if several motions are of one file, the file and the
-/// component, as in "WTMC.V2A:N28W"; if these have several other components, also those.
-void name_motions(std::vector<Motion>& motions)
+/// Shortens the names, in which files are followed by components, as in "WTMC.V2A:N28W": to the
+/// file if it has one motion only. Those that are equal are followed by the other components.
+void shorten_names(std::vector<Motion>& motions)
 {
     std::map<std::string, int> of_file, of_component;
-    for (Motion& motion : motions) {
-        motion.name = motion.file + ":" + motion.label;
+    for (const Motion& motion : motions) {
         ++of_file[motion.file];
         ++of_component[motion.name];
     }
@@ -328,29 +291,25 @@ void name_motions(std::vector<Motion>& motions)
 
 } // namespace
 
-RecordedMotions read_motions(const Entry& scene, const std::string& folder, double gravity)
+std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity)
 {
     const std::vector<GivenRecord> records = given_records(scene, folder);
-    const Reading reading{folder, read_options(scene), gravity};
-    RecordedMotions recorded;
-    const Entry& first = records.front().entry;
-    recorded.is_suite =
-        find(scene, "record")->node->is_array() || records.front().file != string_of(first);
+    const Reading reading{scene, folder, read_options(scene), gravity, records.size()};
+    std::vector<Motion> motions;
     std::set<std::string> known; // file, component and accelerations
     for (const GivenRecord& given : records) {
-        auto [motion, record] = read_motion(given, reading);
+        const Motion& motion = motions.emplace_back(read_motion(motions.size(), given, reading));
         const std::string path = fs::weakly_canonical(reading.folder / given.file).string();
-        if (!known.insert(fmt::format("{}:{}:{}", path, motion.label, motion.checksum)).second) {
+        const std::string component = motion.name.substr(motion.file.size());
+        if (!known.insert(path + component + ":" + motion.checksum).second) {
             refuse(given.entry,
                    " = {} is listed more than once with the same component, and would count as "
                    "several motions. List each motion once.",
                    in_quotes(given.file));
         }
-        recorded.motions.push_back(std::move(motion));
-        recorded.records.push_back(std::move(record));
     }
-    name_motions(recorded.motions);
-    return recorded;
+    shorten_names(motions);
+    return motions;
 }
 
 } // namespace overturn

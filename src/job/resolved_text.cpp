@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+#include <ranges>
 
 namespace overturn {
 
@@ -21,19 +21,19 @@ std::string list_text(const Values& values, const TextOf& text_of)
     return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-std::string definition_text(const Axis& axis)
+std::string axis_text(const Axis& axis)
 {
     if (const auto* list = std::get_if<AxisList>(&axis.definition())) {
-        return "values = " + list_text(*list, float_text);
+        return fmt::format("{{ values = {} }}", list_text(*list, float_text));
     }
     const auto& range = std::get<AxisRange>(axis.definition());
-    return fmt::format("first = {}, last = {}, count = {}, spacing = \"{}\"",
+    return fmt::format("{{ first = {}, last = {}, count = {}, spacing = \"{}\" }}",
                        float_text(range.first), float_text(range.last), range.count,
                        name_of(range.spacing));
 }
 
 /// One line, so that two jobs with different records differ in the line that names the record.
-std::string motion_text(const Motion& motion, const Accelerogram& record)
+std::string motion_text(const Motion& motion)
 {
     const IntensityMeasures& measures = motion.measures;
     return fmt::format(
@@ -42,9 +42,10 @@ std::string motion_text(const Motion& motion, const Accelerogram& record)
         in_quotes(motion.file), in_quotes(motion.component),
         motion.second.empty() ? ""
                               : fmt::format("second_component = {}, ", in_quotes(motion.second)),
-        in_quotes(motion.vertical), record.samples(), float_text(record.time_step()),
-        float_text(measures.pga), float_text(measures.pgv), float_text(measures.arias_intensity),
-        float_text(measures.significant_duration), in_quotes(motion.checksum));
+        in_quotes(motion.vertical), motion.record->samples(),
+        float_text(motion.record->time_step()), float_text(measures.pga), float_text(measures.pgv),
+        float_text(measures.arias_intensity), float_text(measures.significant_duration),
+        in_quotes(motion.checksum));
 }
 
 std::string scene_text(const Job& job)
@@ -52,14 +53,11 @@ std::string scene_text(const Job& job)
     const Scene& scene = job.problem.scene;
     std::string text = "[scene]\n";
     if (scene.is_recorded()) {
+        std::vector<std::string> motions;
+        std::ranges::transform(job.motions, std::back_inserter(motions), motion_text);
         const bool is_suite = job.problem.grid.dimension_of(Role::motion).has_value();
-        text += is_suite ? "record = [\n" : "record = ";
-        for (std::size_t i = 0; i < job.motions.size(); ++i) {
-            text +=
-                fmt::format("{}{}{}\n", is_suite ? "    " : "",
-                            motion_text(job.motions[i], *scene.records[i]), is_suite ? "," : "");
-        }
-        text += is_suite ? "]\n" : "";
+        text += is_suite ? fmt::format("record = [\n    {},\n]\n", fmt::join(motions, ",\n    "))
+                         : fmt::format("record = {}\n", motions.front());
     } else {
         text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
     }
@@ -89,19 +87,14 @@ std::string blocks_text(const BlockTable& blocks)
 std::string plane_text(const Grid& grid)
 {
     std::string text;
-    const auto add = [&](std::string_view name, const std::string& value) {
-        text = fmt::format("{} = {}\n{}", name, value, text);
-    };
-    for (const Quantity& quantity : all_quantities()) {
-        const Column* column = grid.find(quantity.name);
-        const auto dimension = grid.dimension_of(quantity.name);
-        if (column == nullptr || quantity.role == Role::motion) {
-            continue;
-        }
-        if (!dimension) {
-            add(quantity.name, float_text(column->values.first()));
-        } else if (grid.dimensions[*dimension].name != table_dimension) {
-            add(quantity.name, fmt::format("{{ {} }}", definition_text(column->values)));
+    for (const Quantity& quantity : std::views::reverse(all_quantities())) {
+        const Column* const column = grid.find(quantity.name);
+        if (column != nullptr && quantity.role != Role::motion &&
+            !grid.has_table_column(quantity.name)) {
+            text +=
+                fmt::format("{} = {}\n", quantity.name,
+                            grid.dimension_of(quantity.name) ? axis_text(column->values)
+                                                             : float_text(column->values.first()));
         }
     }
     return text.empty() ? "" : "\n[plane]\n" + text;

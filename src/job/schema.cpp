@@ -5,50 +5,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace overturn {
 
 namespace {
 
-constexpr std::array keys{
-    Key{"", "title"},
-    Key{"", "scene"},
-    Key{"", "plane"},
-    Key{"", "block"},
-    Key{"", "blocks"},
-    Key{"", "numerics"},
-    Key{"", "output"},
-    Key{"scene", "pulse", Under::pulse},
-    Key{"scene", "record", Under::record},
-    Key{"scene", "theory"},
-    Key{"scene", "window", Under::pulse},
-    Key{"scene", "cycles", Under::pulse},
-    Key{"scene", "gamma", Under::pulse},
-    Key{"scene", "nu", Under::pulse},
-    Key{"scene", "units", Under::record},
-    Key{"scene", "component", Under::record},
-    Key{"scene", "second_component", Under::record},
-    Key{"scene", "vertical", Under::record},
-    Key{"scene", "time_step", Under::record},
-    Key{"scene", "gravity"},
-    Key{"blocks", "table"},
-    Key{"numerics", "method"},
-    Key{"numerics", "tolerance"},
-    Key{"numerics", "resolve"},
-    Key{"numerics", "fill"},
-    Key{"numerics", "audit"},
-    Key{"output", "fields"},
+/// Keys of a table of a job. The coordinates of points are keys, too; they follow from the table of
+/// quantities.
+struct Keys {
+    std::string_view table; ///< empty: at the top
+    Under motion;
+    std::vector<std::string_view> names;
 };
+
+const Keys all_keys[] = {
+    {"", Under::any_motion, {"title", "scene", "plane", "block", "blocks", "numerics", "output"}},
+    {"scene", Under::pulse, {"pulse", "window", "cycles", "gamma", "nu"}},
+    {"scene",
+     Under::record,
+     {"record", "units", "component", "second_component", "vertical", "time_step"}},
+    {"scene", Under::any_motion, {"theory", "gravity"}},
+    {"blocks", Under::any_motion, {"table"}},
+    {"numerics", Under::any_motion, {"method", "tolerance", "resolve", "fill", "audit"}},
+    {"output", Under::any_motion, {"fields"}}};
 
 } // namespace
 
-std::vector<std::string_view> keys_of(std::string_view table)
+std::vector<std::string_view> keys_of(std::string_view table, std::optional<Under> motion)
 {
     std::vector<std::string_view> names;
-    for (const Key& key : keys) {
-        if (key.table == table) {
-            names.push_back(key.name);
+    for (const Keys& keys : all_keys) {
+        if (keys.table == table && (!motion || keys.motion == *motion)) {
+            names.insert(names.end(), keys.names.begin(), keys.names.end());
         }
     }
     for (const Quantity& quantity : all_quantities()) {
@@ -57,24 +45,6 @@ std::vector<std::string_view> keys_of(std::string_view table)
             names.push_back(quantity.name);
         }
     }
-    return names;
-}
-
-std::vector<std::string_view> scene_keys_of(Under motion)
-{
-    std::vector<std::string_view> names;
-    for (const Key& key : keys) {
-        if (key.table == "scene" && key.motion == motion) {
-            names.push_back(key.name);
-        }
-    }
-    return names;
-}
-
-std::span<const std::string_view> axis_keys()
-{
-    static constexpr std::array<std::string_view, 5> names{"values", "first", "last", "count",
-                                                           "spacing"};
     return names;
 }
 
@@ -90,9 +60,8 @@ std::vector<std::string> override_keys()
         for (const std::string_view name : keys_of(table)) {
             const std::string key = fmt::format("{}.{}", table, name);
             all.push_back(key);
-            if (find_quantity(name) != nullptr &&
-                std::ranges::count(coordinate_tables, table) > 0) {
-                for (const std::string_view part : axis_keys()) {
+            if (std::ranges::count(coordinate_tables, table) > 0) {
+                for (const std::string_view part : axis_keys) {
                     all.push_back(fmt::format("{}.{}", key, part));
                 }
                 if (name == "restitution") {

@@ -1,10 +1,10 @@
 #include "toml_reading.hpp"
 
-#include "overturn/job/schema.hpp"
+#include "deep_key.hpp"
 
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
-#include "overturn/text/error.hpp"
+#include "overturn/job/schema.hpp"
 
 #include <fmt/format.h>
 
@@ -70,6 +70,27 @@ const Value& value_of(const Entry& entry, std::string_view wanted)
 
 } // namespace
 
+toml::table parse_toml(const std::string& text, const std::string& path, std::string_view advice)
+{
+    if (const std::size_t deep = find_deep_key(text); deep != text.npos) {
+        const std::string_view before = std::string_view(text).substr(0, deep);
+        const toml::source_position position{
+            toml::source_index(std::ranges::count(before, '\n') + 1),
+            toml::source_index(deep - (before.rfind('\n') + 1) + 1)};
+        throw Error(exit_code::job,
+                    "{}: a key has more than {} parts, but keys of a job have at most three, such "
+                    "as plane.frequency.count. Shorten the key.",
+                    place_of({position, position, std::make_shared<const std::string>(path)}),
+                    most_key_parts);
+    }
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        throw Error(exit_code::job, "{}: this is not TOML: {}. {}", place_of(error.source()),
+                    on_one_line(std::string(error.description())), advice);
+    }
+}
+
 std::string place_of(const toml::source_region& source)
 {
     const std::string& path = *source.path;
@@ -77,11 +98,6 @@ std::string place_of(const toml::source_region& source)
         return path;
     }
     return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
-}
-
-void refuse(const Entry& entry, std::string_view text)
-{
-    throw Error(exit_code::job, "{}: {}{}", place_of(entry.node->source()), entry.key, text);
 }
 
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/problem/quantity.hpp"
+#include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
@@ -30,19 +31,21 @@ using Names = std::span<const std::string_view>;
 /// Precedes a --set argument in messages, in place of the name of a file.
 inline constexpr std::string_view override_prefix = "--set ";
 
+/// The tree of a text; path: of its file, or override_prefix and an argument. `advice` says what to
+/// do if it is not TOML.
+toml::table parse_toml(const std::string& text, const std::string& path, std::string_view advice);
+
 /// "file:line:column", or the --set argument.
 std::string place_of(const toml::source_region& source);
 
-/// Throws an Error with the place, the key, and the text that follows the key.
-[[noreturn]] void refuse(const Entry& entry, std::string_view text);
-
-/// The same with a text that is formatted as by fmt::format().
-template <class Argument, class... Others>
-[[noreturn]] void refuse(const Entry& entry, fmt::format_string<Argument, Others...> text,
-                         Argument&& argument, Others&&... others)
+/// Throws an Error with the place, the key, and the text that follows the key, which is formatted
+/// as by fmt::format().
+template <class... Arguments>
+[[noreturn]] void refuse(const Entry& entry, fmt::format_string<Arguments...> text,
+                         Arguments&&... arguments)
 {
-    refuse(entry, std::string_view(fmt::format(text, std::forward<Argument>(argument),
-                                               std::forward<Others>(others)...)));
+    throw Error(exit_code::job, "{}: {}{}", place_of(entry.node->source()), entry.key,
+                fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 
 /// Throws Error unless the entry is a table with these keys only. `or_else` precedes "a table"

@@ -82,7 +82,7 @@ class ABoundary(Scratch):
                                  for axis, count in (("restitution_of_maximum", 10000000), ("slenderness", 10000))
                                  for key, value in (("first", 0.5), ("last", 0.9), ("count", count))),
                                "--set", "output.fields=[\"region\"]")
-        self.assert_exit(result, 65, "whose boundaries would take 6.4e+20 bytes")
+        self.assert_exit(result, 65, "lines and would take 6.4e+20 bytes")
 
     def test_and_spectra_do_not_overwrite_each_other(self):
         self.overturn("run", "small.toml", "-o", "spectrum.h5", *FEW)

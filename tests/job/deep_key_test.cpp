@@ -5,6 +5,8 @@
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
 
+#include <gmock/gmock.h>
+
 namespace overturn {
 
 namespace {
@@ -68,7 +70,9 @@ TEST(ReadingAJob, RefusesKeysOfAMillionParts)
 {
     const std::string deep = key_of(1000000);
     for (const std::string& job : {deep + " = 1", "[" + deep + "]", "x = { " + deep + " = 1 }"}) {
-        EXPECT_TRUE(refusal_of("\n" + job).starts_with("job.toml:2: a key has more than 16 parts"));
+        EXPECT_THAT(refusal_of("\n" + job),
+                    testing::AllOf(testing::StartsWith("job.toml:2:"),
+                                   testing::HasSubstr(": a key has more than 16 parts")));
     }
 }
 

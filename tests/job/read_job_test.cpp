@@ -227,14 +227,14 @@ tolerance = 1e-14
 
 TEST(ReadingAJob, AcceptsTheFinestAscendingRanges)
 {
-    // 4 eps last = 2^-49 apart for last = 2; half of that is refused.
+    // 80 steps of one unit in the last place; one more value does not fit in between.
     const std::vector<std::string> fine{"plane.frequency.first=1.9999999999999822",
-                                        "plane.frequency.last=2", "plane.frequency.count=11"};
+                                        "plane.frequency.last=2", "plane.frequency.count=81"};
     const Axis frequency = axis(job_of(sound_job, fine), "frequency");
     for (std::int64_t i = 1; i < frequency.size(); ++i) {
         EXPECT_LT(frequency[i - 1], frequency[i]);
     }
-    const std::vector<std::string> finer{fine[0], fine[1], "plane.frequency.count=21"};
+    const std::vector<std::string> finer{fine[0], fine[1], "plane.frequency.count=82"};
     EXPECT_NE(refusal_of(sound_job, finer), "");
 }
 

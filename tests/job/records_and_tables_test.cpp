@@ -143,7 +143,7 @@ TEST_F(Motions, HaveASecondComponentOfTheSameFileOrOfAnother)
         return refusal(exit_code::job, [&] { plane(scene, direction); });
     };
     EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 1"),
-                HasSubstr("has the accelerations of the horizontal component. Give the second"));
+                HasSubstr("has the accelerations of the horizontal component. Give another"));
     EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 2\nvertical = 2"),
                 HasSubstr("is also the vertical component"));
     EXPECT_THAT(message("record = 'a.V2A'\nsecond_component = 4"), HasSubstr("not a component"));
@@ -240,8 +240,8 @@ TEST_F(Columns, WhoseNamesCannotBeVariablesAreRefused)
     }
     EXPECT_THAT(
         refusal(exit_code::job, [&] { table(with_column("my note")); }),
-        HasSubstr("t.csv:1:4: the column \"my note\" cannot be a variable of a result file, "
-                  "because it contains a blank. Allowed are up to 248 bytes without blanks"));
+        HasSubstr("t.csv:1:4: the column \"my note\" cannot be a variable of a result file. "
+                  "Allowed are up to 248 bytes without blanks"));
     for (const std::string& name : {std::string(248, 'x'), std::string("\u00fcber-h\u00f6he;[m]"),
                                     std::string("pgv"), std::string("x_length")}) {
         EXPECT_EQ(refusal(exit_code::job, [&] { table(with_column(name)); }), "") << name;

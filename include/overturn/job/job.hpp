@@ -17,13 +17,13 @@ struct Motion {
     std::string file;      ///< path as the job spells it, or as a pattern matched it
     std::string name;      ///< unique among the motions of the job: the file, or with component
     std::string component; ///< its name in the file; may be empty
-    std::string label;     ///< the component, or its number if it has no name of its own
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
     std::string second;    ///< of the second horizontal component
     bool is_uncorrected;   ///< whether one of the files states that it was not corrected
     std::vector<std::string> header; ///< lines of the file in UTF-8
     IntensityMeasures measures;      ///< not scaled
     std::string checksum;            ///< XXH64 of the accelerations over g, in hexadecimal digits
+    std::shared_ptr<const Accelerogram> record;
 };
 
 /// The table of the blocks of a job.
