@@ -14,11 +14,6 @@
 
 namespace overturn {
 
-double frequency_parameter(double half_diagonal, double gravity)
-{
-    return std::sqrt(3 * gravity / (4 * half_diagonal));
-}
-
 std::optional<double> r_max_of(double slenderness)
 {
     return slenderness < limit_of_r_max ? std::optional(largest_restitution(slenderness))
@@ -31,16 +26,6 @@ double uplift_threshold(Theory theory, double slenderness)
                        [&]<Theory known>() { return uplift_acceleration<known>(slenderness); });
 }
 
-namespace {
-
-double least_uplift_threshold(const Scene& scene, const Point& point)
-{
-    return uplift_threshold(scene.theory,
-                            std::min(point.block.slenderness, point.block.other.slenderness));
-}
-
-} // namespace
-
 std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point)
 {
     const auto& record = scene.records[std::size_t(point.record)];
@@ -51,8 +36,9 @@ std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Po
 
 double pga_of_unit(const Scene& scene, const Point& point)
 {
+    const double least = std::min(point.block.slenderness, point.block.other.slenderness);
     return scene.is_recorded() ? directed_record(scene, point)->peak()
-                               : least_uplift_threshold(scene, point);
+                               : uplift_threshold(scene.theory, least);
 }
 
 double lifting_pga(const Scene& scene, const Point& point)
@@ -152,7 +138,7 @@ constexpr Derivation of_symmetric_block[]{
     {"frequency_parameter",
      {"size"},
      [](const Scene& scene, const Values& of) {
-         return frequency_parameter(of[0], scene.gravity);
+         return std::sqrt(3 * scene.gravity / (4 * of[0]));
      }},
     {"restitution",
      {"restitution_of_maximum", "slenderness"},

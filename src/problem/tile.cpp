@@ -7,15 +7,6 @@
 
 namespace overturn {
 
-namespace {
-
-std::int64_t ceiling_of_ratio(std::int64_t a, std::int64_t b)
-{
-    return (a + b - 1) / b;
-}
-
-} // namespace
-
 std::int64_t count_points(const Shape& shape)
 {
     return std::accumulate(shape.begin(), shape.end(), std::int64_t(1), std::multiplies());
@@ -26,7 +17,7 @@ Tiling::Tiling(Shape shape, const Shape& tile) : shape_(std::move(shape))
     assert(tile.size() == shape_.size());
     for (std::size_t i = 0; i < shape_.size(); ++i) {
         tile_shape_.push_back(std::min(tile[i], shape_[i]));
-        tiles_.push_back(ceiling_of_ratio(shape_[i], tile_shape_[i]));
+        tiles_.push_back((shape_[i] + tile_shape_[i] - 1) / tile_shape_[i]); // rounded up
     }
 }
 

@@ -16,9 +16,6 @@
 
 namespace overturn {
 
-/// p = sqrt(3g / 4R) [1/s] of a block of half diagonal R [m]; gravity: g [m/s2].
-double frequency_parameter(double half_diagonal, double gravity);
-
 /// r_max (Eq. 17) exists for blocks below this slenderness, arcsin sqrt(2/3) [rad].
 inline constexpr double limit_of_r_max = 0.9553166181245093;
 
