@@ -4,8 +4,6 @@
 // repeats its request, which shows that it is alive; the last answer is `end_of_work`.
 #include "overturn/farm/farm.hpp"
 
-#include "wait_for.hpp"
-
 #include "overturn/farm/tile_dealer.hpp"
 #include "overturn/text/error.hpp"
 

@@ -2,8 +2,6 @@
 
 #include "overturn/text/error.hpp"
 
-#include "wait_for.hpp"
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -36,46 +34,45 @@ const char* first_of(std::span<const char* const> variables)
     return nullptr;
 }
 
-/// A single rank sends no messages. With these settings Open MPI 4.1 starts in 0.01 s instead of
-/// 0.33 s: it forks no daemon and opens no network. The user's settings have priority.
-void prepare_for_one_rank()
+/// Settings of Open MPI 4.1, which other libraries ignore. The user's settings have priority.
+void prepare_open_mpi()
 {
     constexpr int keep = 0;
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
-    setenv("OMPI_MCA_pml", "ob1", keep);
-    setenv("OMPI_MCA_btl", "self", keep);
-    // Otherwise several such runs share a session folder, and one fails if it creates the folder
-    // while another removes it. Nothing is stored there.
-    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
-}
-
-/// overturn uses no shared file pointers. Two of Open MPI's components for them create and remove
-/// OUT.h5.locktest.0, OUT.h5.data.0, ... even if unrelated files have these names, and the first
-/// one overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file
-/// can be opened.
-void limit_shared_file_pointers()
-{
     constexpr int replace = 1;
+    // overturn uses no shared file pointers. Two of the components for them create and remove
+    // OUT.h5.locktest.0, OUT.h5.data.0, ... even if unrelated files have these names, and the first
+    // one overflows a buffer at paths of 245 bytes or more. The third one stays: with none, no file
+    // can be opened.
     setenv("OMPI_MCA_sharedfp", "^lockedfile,individual", replace);
-}
-
-/// Whether mpirun of Open MPI started all ranks on this host.
-bool all_ranks_are_here()
-{
     const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
-    return here != nullptr && all != nullptr && std::string_view(here) == all;
+    if (first_of(rank_variables) == nullptr) {
+        // A single rank sends no messages. It starts in 0.01 s instead of 0.33 s if it forks no
+        // daemon and opens no network.
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+        setenv("OMPI_MCA_pml", "ob1", keep);
+        setenv("OMPI_MCA_btl", "self", keep);
+        // Otherwise several such runs share a session folder, and one fails if it creates the
+        // folder while another removes it. Nothing is stored there.
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+    } else if (here != nullptr && all != nullptr && std::string_view(here) == all) {
+        // Ranks on one host communicate through its memory. They start in 0.1 s instead of 0.3 s if
+        // they open no network.
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION == 4 // elsewhere "vader" has another name
+        setenv("OMPI_MCA_pml", "ob1", keep);
+        setenv("OMPI_MCA_btl", "self,vader", keep);
+#endif
+    }
 }
 
-/// Ranks on one host communicate through its memory. With these settings Open MPI 4.1 starts in
-/// 0.1 s instead of 0.3 s: it opens no network. The user's settings have priority.
-void prepare_for_one_host()
+/// Waits without occupying a core. MPI's own waiting spins, which takes the core from ranks that
+/// compute if there are more ranks than cores.
+void wait_for(MPI_Request& request)
 {
-#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION == 4 // elsewhere "vader" has another name
-    constexpr int keep = 0;
-    setenv("OMPI_MCA_pml", "ob1", keep);
-    setenv("OMPI_MCA_btl", "self,vader", keep);
-#endif
+    int arrived = 0;
+    while (MPI_Test(&request, &arrived, MPI_STATUS_IGNORE), !arrived) {
+        std::this_thread::sleep_for(polling_interval);
+    }
 }
 
 volatile std::sig_atomic_t exit_code_of_abort = 0;
@@ -99,12 +96,7 @@ MpiSession::MpiSession()
     MPI_Initialized(&initialized);
     finalizes_ = initialized == 0;
     if (finalizes_) {
-        limit_shared_file_pointers();
-        if (first_of(rank_variables) == nullptr) {
-            prepare_for_one_rank();
-        } else if (all_ranks_are_here()) {
-            prepare_for_one_host();
-        }
+        prepare_open_mpi();
         // MPICH handles SIGUSR1 as the notice of a failed rank, and contacts the launcher; without
         // a launcher it waits forever. Here the signal means a stop.
         struct sigaction before = {};

@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace overturn {
 
 /// The rank that a launcher gave this process, without initialising MPI; 0 without a launcher.
 int launched_rank();
+
+/// Waiting ranks test for messages at this interval and sleep in between.
+inline constexpr std::chrono::microseconds polling_interval{50};
 
 /// Initialises and finalises MPI, unless MPI is initialised already.
 class MpiSession {
