@@ -133,8 +133,7 @@ void write_run_info(const Task& task, const FarmReport& report, double seconds)
 }
 
 /// Says how the run ended, and what a reader of the result must know. On rank 0.
-int report_end(const Task& task, const FarmReport& report, double seconds,
-               std::int64_t still_damaged)
+int report_end(const Task& task, const FarmReport& report, double seconds)
 {
     const StoredResult stored(task.path);
     const std::int64_t missing = stored.tiles().tiles - stored.tiles().tiles_done;
@@ -145,9 +144,9 @@ int report_end(const Task& task, const FarmReport& report, double seconds,
                     task.path, missing, stored.tiles().tiles);
     }
     say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
-    if (missing + still_damaged > 0) {
+    if (missing > 0) {
         return complain(stopped_by_signal(
-            fmt::format("; tiles missing: {} of {}", missing + still_damaged, task.tiling.size())));
+            fmt::format("; tiles missing: {} of {}", missing, task.tiling.size())));
     }
     for (const std::string& line : remarks_on(stored)) {
         say(fmt::format("{}: {}", task.path, line));
@@ -169,17 +168,11 @@ int compute_missing_tiles(const Task& task)
         }
         return exit_code::output;
     }
-    SpectrumFile file(path, task.session.communicator(), task.problem,
-                      task.options.durable ? Durability::on_disk : Durability::written);
+    SpectrumFile file(path, task.session.communicator(), task.problem, task.options.durable);
     std::vector<std::int64_t> missing;
-    std::int64_t still_damaged = 0;
     if (task.leads()) {
         for (const std::int64_t number : task.damaged) {
-            if (StopSignals::requested()) {
-                ++still_damaged;
-            } else {
-                file.forget(task.tiling[number]);
-            }
+            file.forget(task.tiling[number]);
         }
         missing = file.missing_tiles();
         say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
@@ -190,7 +183,7 @@ int compute_missing_tiles(const Task& task)
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
         write_run_info(task, report, seconds);
-        code = report_end(task, report, seconds, still_damaged);
+        code = report_end(task, report, seconds);
     }
     return task.session.from_rank_0(code);
 }

@@ -1,10 +1,12 @@
 #include "netcdf.hpp"
 
 #include "layout.hpp"
+#include "working_file.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
@@ -190,18 +192,24 @@ std::string record_text(const Motion& motion)
     return text + "\n";
 }
 
-void make_file(const std::string& path, const Job& job, FileKind kind,
-               const std::function<void(hid_t file)>& write)
+void make_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write)
 {
+    PartFile part(path);
     start_hdf5();
-    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, ordered_creation(H5P_FILE_CREATE),
-                          hdf5::file_access()),
-                H5Fclose);
-    write_origin(file, job, kind);
-    add_group(file, "run");
-    write(file);
-    add_job(file, job);
-    file.close();
+    try {
+        Handle file(H5Fcreate(part.path().c_str(), H5F_ACC_TRUNC, ordered_creation(H5P_FILE_CREATE),
+                              hdf5::file_access()),
+                    H5Fclose);
+        write_origin(file, job, kind);
+        add_group(file, "run");
+        write(file, part.path());
+        add_job(file, job);
+        file.close();
+    } catch (const hdf5::Hdf5Error& error) {
+        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
+                    path, error.what());
+    }
+    part.move_into_place();
 }
 
 } // namespace overturn::netcdf

@@ -48,7 +48,6 @@ void add_group(hid_t file, const char* name);
 /// Adds a netCDF-4 dimension without a variable. Its dataset takes no space.
 void add_bare_dimension(hid_t file, const StoredDimension& dimension);
 
-/// The properties and the creation of a dataset of any type.
 hdf5::Handle dataset_creation();
 hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                             const Dimensions& dimensions, hid_t creation);
@@ -56,10 +55,12 @@ hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
 /// The file, components and header lines of a record, as stored.
 std::string record_text(const Motion& motion);
 
-/// Creates a file of this kind: kind, program version and scene as attributes; the content that
-/// `write` adds; and in the group `run` the job as given, its overrides, and as resolved. Throws
-/// Hdf5Error.
-void make_file(const std::string& path, const Job& job, FileKind kind,
-               const std::function<void(hid_t file)>& write);
+/// Adds the content to a file under construction; part: its temporary path.
+using WriteContent = std::function<void(hid_t file, const std::string& part)>;
+
+/// Creates or replaces a file of this kind, which appears when it is complete: kind, program
+/// version and scene as attributes; the content that `write` adds; and in the group `run` the job
+/// as given, its overrides, and as resolved. Throws Error, and leaves no file behind.
+void make_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write);
 
 } // namespace overturn::netcdf

@@ -4,8 +4,6 @@
 
 #include "working_file.hpp"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>

@@ -5,15 +5,17 @@
 #include "tile_access.hpp"
 #include "working_file.hpp"
 
+#include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <new>
 #include <sstream>
@@ -101,7 +103,6 @@ void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, 
     count_stored(dataset, layout::type_of(field), bytes);
 }
 
-/// The metadata of a file of any kind.
 FileOrigin read_origin(hid_t file, const std::string& path)
 {
     FileOrigin origin;
@@ -147,9 +148,7 @@ Handle open_file(const std::string& path)
 } // namespace
 
 struct StoredResult::Open {
-    std::string path;
     Handle file;
-    FileOrigin origin;
     TilesSummary tiles;
     std::vector<std::uint64_t> checksums; ///< by tile number
     std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
@@ -170,9 +169,8 @@ struct StoredResult::Open {
                            tiles.axes.begin());
     }
 
-    void read_tiles()
+    void read_tiles(std::uint64_t bytes)
     {
-        const std::uint64_t bytes = origin.bytes;
         const auto open_number = [&](const char* name) {
             return open_own_dataset(file, layout::in_run_group(name));
         };
@@ -225,63 +223,49 @@ struct StoredResult::Open {
                                 const std::function<void()>& between_tiles, const Use& use) const
     {
         const Tiling all = tiling();
-        or_refused(path, [&] {
-            std::vector<StoredField> stored;
-            for (const Field field : fields) {
-                stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
+        std::vector<StoredField> stored;
+        for (const Field field : fields) {
+            stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
+        }
+        for (std::int64_t number = 0; number < all.size(); ++number) {
+            between_tiles();
+            if (checksums[std::size_t(number)] == not_computed_checksum) {
+                continue;
             }
-            for (std::int64_t number = 0; number < all.size(); ++number) {
-                between_tiles();
-                if (checksums[std::size_t(number)] == not_computed_checksum) {
-                    continue;
-                }
-                const Tile tile = all[number];
-                std::vector<FieldValues> values;
-                for (const StoredField& field : stored) {
-                    values.push_back(read_tile(field, tile));
-                }
-                use(tile, values);
+            const Tile tile = all[number];
+            std::vector<FieldValues> values;
+            for (const StoredField& field : stored) {
+                values.push_back(read_tile(field, tile));
             }
-        });
+            use(tile, values);
+        }
     }
 };
 
-StoredResult::StoredResult(const std::string& path) : open_(std::make_shared<Open>())
+StoredResult::StoredResult(const std::string& path) : path_(path), open_(std::make_shared<Open>())
 {
-    open_->path = path;
     or_refused(path, [&] {
         open_->file = open_file(path);
-        open_->origin = read_origin(open_->file, path);
-        if (open_->origin.has_tiles()) {
-            open_->read_tiles();
+        origin_ = read_origin(open_->file, path);
+        if (origin_.has_tiles()) {
+            open_->read_tiles(origin_.bytes);
         }
     });
 }
 
-const std::string& StoredResult::path() const
-{
-    return open_->path;
-}
-
-const FileOrigin& StoredResult::origin() const
-{
-    return open_->origin;
-}
-
 const TilesSummary& StoredResult::tiles() const
 {
-    if (!open_->origin.has_tiles()) {
+    if (!origin_.has_tiles()) {
         throw Error(exit_code::output,
-                    "\"{}\" is an HDF5 file, but not a spectrum of overturn: its kind is "
-                    "\"{}\".",
-                    open_->path, layout::name_of(open_->origin.kind));
+                    "\"{}\" is an HDF5 file, but not a spectrum of overturn: its kind is \"{}\".",
+                    path_, layout::name_of(origin_.kind));
     }
     return open_->tiles;
 }
 
 bool StoredResult::has_coordinate_checksums() const
 {
-    return open_->origin.format == layout::newest_format;
+    return origin_.format == layout::newest_format;
 }
 
 std::vector<std::string> StoredResult::damaged_coordinates() const
@@ -289,8 +273,8 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
     if (!has_coordinate_checksums()) {
         return {};
     }
-    return or_refused(open_->path, [&] {
-        const std::uint64_t bytes = open_->origin.bytes;
+    return or_refused(path_, [&] {
+        const std::uint64_t bytes = origin_.bytes;
         std::istringstream lines(read_text(open_->file, layout::coordinate_checksums, bytes));
         std::vector<std::string> damaged;
         for (std::string name, checksum; lines >> name >> checksum;) {
@@ -313,7 +297,8 @@ StoredResult::damaged_tiles(const std::function<void()>& between_tiles) const
             damaged.push_back(tile.number);
         }
     };
-    open_->for_each_computed_tile(tiles().fields, between_tiles, check_tile);
+    const std::vector<Field>& fields = tiles().fields;
+    or_refused(path_, [&] { open_->for_each_computed_tile(fields, between_tiles, check_tile); });
     return damaged;
 }
 
@@ -342,12 +327,140 @@ BoundaryLines StoredResult::count_lines() const
             lines.undecided_share += std::get<std::vector<double>>(values[3])[0];
         }
     };
-    open_->for_each_computed_tile(
-        fields, [] {}, count);
+    or_refused(path_, [&] {
+        open_->for_each_computed_tile(
+            fields, [] {}, count);
+    });
     const auto computed = double(std::max<std::int64_t>(1, lines.computed));
     lines.unsafe_share /= computed;
     lines.undecided_share /= computed;
     return lines;
+}
+
+namespace {
+
+/// The line of a text that begins at `begin`; of a long one, the part around `place`.
+std::string line_around(std::string_view text, std::size_t begin, std::size_t place)
+{
+    constexpr std::size_t before = 40;
+    constexpr std::size_t length = 80;
+    if (begin == text.size()) {
+        return "(nothing more)";
+    }
+    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
+    const std::size_t hidden = line.size() <= length ? 0 : std::max(place - begin, before) - before;
+    const std::string_view shown = line.substr(hidden, length);
+    return fmt::format("{}{}{}", hidden > 0 ? "..." : "", shown,
+                       hidden + shown.size() < line.size() ? "..." : "");
+}
+
+/// The part of a line of a resolved job that names the file of a record; empty for other lines.
+std::string_view record_named_in(std::string_view line)
+{
+    constexpr std::string_view before = "{ file = ";
+    const std::size_t begin = line.find(before);
+    const std::size_t end = line.find(", component = ");
+    return begin < end && end != line.npos
+               ? line.substr(begin + before.size(), end - begin - before.size())
+               : std::string_view();
+}
+
+/// Describes the first line in which two different texts differ.
+std::string first_difference(std::string_view stored, std::string_view given)
+{
+    const auto differ = std::ranges::mismatch(stored, given);
+    const auto place = std::size_t(differ.in1 - stored.begin());
+    const std::string_view same = given.substr(0, place);
+    const std::size_t begin = same.rfind('\n') + 1; // 0 if there is none
+    const auto line_of = [&](std::string_view text) {
+        return text.substr(begin, text.find('\n', begin) - begin);
+    };
+    const std::string_view record = record_named_in(line_of(given));
+    if (!record.empty() && record == record_named_in(line_of(stored))) {
+        return fmt::format("the record {} has changed since then, or is read with other keys "
+                           "(component, second_component, vertical, time_step, units, gravity). ",
+                           record);
+    }
+    return fmt::format("line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n",
+                       1 + std::ranges::count(same, '\n'), line_around(stored, begin, place),
+                       line_around(given, begin, place));
+}
+
+/// Throws Error unless the file is the result of this job, by this version of the program.
+void expect_result_of(const Job& job, const StoredResult& stored)
+{
+    const auto refuse = [&](const std::string& what) {
+        throw Error(exit_code::output, "\"{}\" {}", stored.path(), what);
+    };
+    const Problem& problem = job.problem;
+    const FileOrigin& origin = stored.origin();
+    if (origin.kind != FileKind(problem.product)) {
+        refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
+                           origin.kind == FileKind::history ? "a" : "an",
+                           layout::name_of(origin.kind),
+                           layout::name_of(FileKind(problem.product))));
+    }
+    if (origin.format != layout::newest_format) {
+        refuse(fmt::format("has the format of an earlier version ({}), which can be read but not "
+                           "resumed. Choose another name with -o.",
+                           origin.format));
+    }
+    if (origin.resolved_job != job.resolved) {
+        refuse(fmt::format("belongs to another job: {}Choose another name with -o.",
+                           first_difference(origin.resolved_job, job.resolved)));
+    }
+    if (origin.program_version != program_version() || origin.program_commit != program_commit()) {
+        refuse(fmt::format(
+            "was computed by overturn {} (commit {}), but this is overturn {} (commit "
+            "{}), whose results may differ in the last digits. Choose another name "
+            "with -o, or use that version.",
+            origin.program_version, origin.program_commit, program_version(), program_commit()));
+    }
+    const Tiling tiling = tiling_of(problem);
+    const TilesSummary& tiles = stored.tiles();
+    if (tiles.tile_shape != tiling.tile_shape() || tiles.tiles != tiling.size() ||
+        tiles.fields != problem.fields ||
+        !std::ranges::equal(tiles.axes, stored_dimensions(problem), {}, &AxisSummary::name,
+                            &StoredDimension::name)) {
+        refuse("is damaged: its fields or tiles do not match its job. Remove it, or choose another "
+               "name with -o.");
+    }
+    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
+        refuse(fmt::format("is damaged: the values of its coordinates have changed: {}. Remove it, "
+                           "or choose another name with -o.",
+                           fmt::join(damaged, ", ")));
+    }
+}
+
+} // namespace
+
+std::optional<StoredResult> existing_result(const std::string& path, const Job& job)
+{
+    std::error_code reason;
+    if (std::filesystem::status(path, reason).type() == std::filesystem::file_type::not_found) {
+        return std::nullopt;
+    }
+    std::optional<StoredResult> stored;
+    try {
+        stored.emplace(path);
+    } catch (const Error& error) {
+        throw Error(exit_code::output, "{} Choose another name with -o.", error.what());
+    }
+    expect_result_of(job, *stored);
+    return stored;
+}
+
+void clear_open_mark(const std::string& path)
+{
+    constexpr std::streamoff place = 20; // in a superblock of version 0
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(place);
+    if (file.get() != 0) {
+        const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDWR, hdf5::file_access());
+        if (opened >= 0) {
+            H5Fclose(opened);
+        }
+    }
 }
 
 } // namespace overturn

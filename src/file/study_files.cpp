@@ -19,23 +19,6 @@ namespace {
 using hdf5::write_attribute;
 using namespace netcdf;
 
-/// Creates a file of this kind with the content that `write` adds; replaces an existing file of the
-/// same kind. Throws Error.
-void write_whole_file(const std::string& path, FileKind kind, const Job& job,
-                      const std::function<void(hid_t file)>& write)
-{
-    expect_room_for(path, kind);
-    PartFile part(path);
-    try {
-        netcdf::make_file(part.path(), job, kind, write);
-    } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
-                    path, error.what());
-    }
-    part.move_into_place();
-}
-
-/// A quantity that is stored for each sample.
 struct SampleQuantity {
     const char* name;
     const char* long_name;
@@ -186,7 +169,6 @@ private:
     const std::vector<AccuracyRow>& rows_;
 };
 
-/// The settings and the results of each.
 void add_columns(const Rows& table)
 {
     using Row = AccuracyRow;
@@ -291,7 +273,8 @@ void expect_room_for(const std::string& path, FileKind kind)
 
 void write_history_file(const std::string& path, const Job& job, const History& history)
 {
-    write_whole_file(path, FileKind::history, job, [&](hid_t file) {
+    expect_room_for(path, FileKind::history);
+    make_file(path, job, FileKind::history, [&](hid_t file, const std::string&) {
         add_outcome(file, job, history);
         add_samples(file, history.samples);
         add_events(file, history.events);
@@ -301,8 +284,9 @@ void write_history_file(const std::string& path, const Job& job, const History& 
 void write_accuracy_file(const std::string& path, const Job& job, const AccuracySample& sample,
                          const std::vector<AccuracyRow>& rows)
 {
-    write_whole_file(path, FileKind::accuracy, job,
-                     [&](hid_t file) { add_study(file, sample, rows); });
+    expect_room_for(path, FileKind::accuracy);
+    make_file(path, job, FileKind::accuracy,
+              [&](hid_t file, const std::string&) { add_study(file, sample, rows); });
 }
 
 } // namespace overturn

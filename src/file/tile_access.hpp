@@ -31,7 +31,6 @@ List stored_dimensions_of(Field field, List of_points, std::size_t crossing)
     return of_points;
 }
 
-/// A field of an open file.
 struct StoredField {
     Field field;
     hdf5::Handle dataset;

@@ -119,17 +119,6 @@ PartFile::~PartFile()
     }
 }
 
-std::uint64_t PartFile::available_bytes() const
-{
-    std::error_code reason;
-    const std::filesystem::space_info space = std::filesystem::space(folder_, reason);
-    if (reason) {
-        throw Error(exit_code::output, "cannot determine the free space in \"{}\": {}.", folder_,
-                    in_sentence(reason.message()));
-    }
-    return space.available;
-}
-
 void PartFile::move_into_place()
 {
     if (!sync(part_) || std::rename(part_.c_str(), target_.c_str()) != 0 || !sync(folder_)) {

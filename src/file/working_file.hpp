@@ -3,7 +3,6 @@
 // Also syncing to the disk, and the messages of the operating system.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 namespace overturn {
@@ -37,11 +36,7 @@ public:
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
 
-    /// The path of the part file, to write to.
     const std::string& path() const { return part_; }
-
-    /// Free space on the disk for an unprivileged user [byte].
-    std::uint64_t available_bytes() const;
 
     /// Syncs the file, which must be closed, and renames it. Throws Error.
     void move_into_place();

@@ -114,16 +114,16 @@ class AStopDuringAWrite(OnFaultyDisk):
     def test_before_a_damaged_tile_is_cleared_leaves_the_file_incomplete(self):
         self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0)
         whole = checksum(self.folder / "out.h5")
-        with h5py.File(self.folder / "out.h5", "r+") as file:
-            file["velocity"][0, 0, 1, 2] += 1e-9
         for ranks in (None, 2):
-            # The first write is the one by which the ranks compare their files.
+            with h5py.File(self.folder / "out.h5", "r+") as file:
+                file["velocity"][0, 0, 1, 2] += 1e-9
+            # The first write precedes the comparison of the files by the ranks.
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   KILL_AT_WRITE=1, KILL_BY=int(signal.SIGUSR1))
             self.assert_stopped(result.returncode, result.stderr, ranks)
             self.assertIn("stopped by a signal; tiles missing: 1 of 24", words(result.stderr))
-        self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "1 damaged tile to recompute")
-        self.assertEqual(checksum(self.folder / "out.h5"), whole)
+            self.assert_exit(self.overturn("run", "small.toml", "-o", "out.h5"), 0, "23 of 24 tiles done")
+            self.assertEqual(checksum(self.folder / "out.h5"), whole)
 
 
 class AFullDisk(Scratch):

@@ -26,7 +26,6 @@ std::string hdf5_version();
 /// The MPI library's name and version, such as "Open MPI v4.1.4".
 std::string mpi_library();
 
-/// One rank's share of a run.
 struct RankInfo {
     std::string host;
     std::int64_t tiles = 0; ///< computed in this run

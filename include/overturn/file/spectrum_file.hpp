@@ -24,15 +24,6 @@ namespace overturn {
 /// files in MPI_Finalize, and crashes on a file that is incomplete because the disk was full.
 void start_hdf5();
 
-/// The file at the path, or nullopt if there is none. Throws Error if the path exists and is not a
-/// result file of this program version and job. Serial.
-std::optional<StoredResult> existing_result(const std::string& path, const Job& job);
-
-/// Clears the mark that says that a file is open for writing. HDF5 clears it on closing the file,
-/// so a run that is killed after its last tile leaves it set. A file that cannot be written is left
-/// as it is.
-void clear_open_mark(const std::string& path);
-
 /// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
 /// smaller. In floating point, which cannot overflow here.
 long double spectrum_file_bytes(const Job& job);
@@ -40,9 +31,9 @@ long double spectrum_file_bytes(const Job& job);
 /// Called between tiles; an exception from it stops the work.
 using BetweenTiles = std::function<void()>;
 
-/// Defined in skeleton.cpp. Creates the file, with no tile computed, under a temporary name, and
-/// renames it once it is synced to the disk. To be called by one rank. Throws Error, and leaves no
-/// file behind, if the folder is missing or not writable, or if there is not enough space.
+/// Creates the file, with no tile computed, under a temporary name, and renames it once it is
+/// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if the
+/// folder is missing or not writable, or if there is not enough space.
 void create_spectrum_file(
     const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
 
@@ -54,10 +45,6 @@ void demand_path_for_mpi(const std::string& path);
 /// ranks read it, and rank 0 resets it to 0. Throws Error on rank 0 if that fails.
 std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm communicator);
 
-/// When a tile is marked as done: once its values are written, so that they survive if a process is
-/// killed; or once they are synced to the disk, so that they also survive a power failure.
-enum class Durability { written, on_disk };
-
 /// A result file opened for writing by all ranks of a communicator.
 ///
 /// Opening and closing are collective. The destructor therefore does not close the file: a rank
@@ -65,9 +52,11 @@ enum class Durability { written, on_disk };
 /// ranks.
 class SpectrumFile {
 public:
-    /// The file must be one of this problem. Throws Error.
+    /// The file must be one of this problem. A tile is marked as done once its values are written,
+    /// so that they survive if a process is killed; if the file is to be durable, once they are
+    /// synced to the disk, so that they also survive a power failure. Throws Error.
     SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
-                 Durability durability = Durability::written);
+                 bool durable = false);
     ~SpectrumFile();
     SpectrumFile(const SpectrumFile&) = delete;
     SpectrumFile& operator=(const SpectrumFile&) = delete;

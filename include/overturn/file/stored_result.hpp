@@ -1,7 +1,7 @@
 // A result file opened for reading: what it contains, and what is damaged.
 #pragma once
 
-#include "overturn/problem/problem.hpp"
+#include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
 #include <cstdint>
@@ -64,8 +64,8 @@ public:
     /// Throws Error if the file is missing, not a result file of overturn, or damaged.
     explicit StoredResult(const std::string& path);
 
-    const std::string& path() const;
-    const FileOrigin& origin() const;
+    const std::string& path() const { return path_; }
+    const FileOrigin& origin() const { return origin_; }
 
     /// The rest is for spectra and boundaries.
     const TilesSummary& tiles() const;
@@ -86,7 +86,18 @@ public:
 
 private:
     struct Open;
+    std::string path_;
+    FileOrigin origin_;
     std::shared_ptr<Open> open_;
 };
+
+/// The file at the path, or nullopt if there is none. Throws Error if the path exists and is not a
+/// result file of this program version and job. Serial.
+std::optional<StoredResult> existing_result(const std::string& path, const Job& job);
+
+/// Clears the mark that says that a file is open for writing. HDF5 clears it on closing the file,
+/// so a run that is killed after its last tile leaves it set. A file that cannot be written is left
+/// as it is.
+void clear_open_mark(const std::string& path);
 
 } // namespace overturn
