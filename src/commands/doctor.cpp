@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -66,33 +65,29 @@ std::string launcher_text()
     return "none";
 }
 
+/// What a command of the shell prints; nothing if it cannot be started.
+std::istringstream output_of(const char* command)
+{
+    std::string output;
+    if (std::FILE* const pipe = popen(command, "r")) {
+        for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
+            output += char(letter);
+        }
+        pclose(pipe);
+    }
+    return std::istringstream(output);
+}
+
 /// The type of the file system that contains a folder, and where it is mounted.
 std::string file_system_of(const fs::path& folder)
 {
-    std::ifstream mounts("/proc/self/mounts");
+    setenv("OVERTURN_FOLDER", folder.c_str(), 1); // a variable needs no quoting
+    auto words = output_of("df --output=fstype,target -- \"$OVERTURN_FOLDER\" | tail -n 1");
     std::string type = "unknown";
     std::string place;
-    for (std::string line; std::getline(mounts, line);) {
-        std::istringstream words(line);
-        std::string device, mounted_on, mounted_type;
-        words >> device >> mounted_on >> mounted_type;
-        const fs::path inside = folder.lexically_relative(mounted_on);
-        if (!inside.empty() && *inside.begin() != ".." && mounted_on.size() >= place.size()) {
-            place = mounted_on;
-            type = mounted_type;
-        }
-    }
+    words >> type >> std::ws;
+    std::getline(words, place);
     return place.empty() ? type : fmt::format("{}, mounted on {}", type, place);
-}
-
-/// A word of a command of the shell.
-std::string shell_word(const std::string& word)
-{
-    std::string text = "'";
-    for (const char letter : word) {
-        text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-    }
-    return text + "'";
 }
 
 struct Interpreter {
@@ -108,24 +103,16 @@ Interpreter interpreter_of(const std::string& python)
     if (!fs::exists(tools)) {
         tools = program.parent_path() / "../tools"; // of a checkout
     }
-    const std::string command = fmt::format(
-        "OVERTURN={} {} -B -c 'import sys; sys.path.insert(0, sys.argv[1]); from overturn import "
-        "importable; importable.main()' {} 2>/dev/null",
-        shell_word(program.string()), shell_word(python),
-        shell_word(tools.lexically_normal().string()));
-    std::array<std::string, 2> lines;
-    if (std::FILE* const output = popen(command.c_str(), "r")) {
-        std::size_t line = 0;
-        for (int letter = std::fgetc(output); letter != EOF; letter = std::fgetc(output)) {
-            if (letter == '\n') {
-                ++line;
-            } else if (line < lines.size()) {
-                lines[line] += char(letter);
-            }
-        }
-        pclose(output);
-    }
-    return {lines[0], lines[1]};
+    setenv("OVERTURN", program.c_str(), 1);
+    setenv("OVERTURN_INTERPRETER", python.c_str(), 1);
+    setenv("OVERTURN_TOOLS", tools.lexically_normal().c_str(), 1);
+    auto lines = output_of("\"$OVERTURN_INTERPRETER\" -B -c 'import os, sys; sys.path.insert(0, "
+                           "os.environ[\"OVERTURN_TOOLS\"]); from overturn import importable; "
+                           "importable.main()' 2>/dev/null");
+    Interpreter found;
+    std::getline(lines, found.path);
+    std::getline(lines, found.contents);
+    return found;
 }
 
 /// The Python that the compiled module was built for, and `python3`, if that is another.

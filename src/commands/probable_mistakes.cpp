@@ -5,10 +5,10 @@
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/text/quoting.hpp"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <ranges>
 #include <string>
@@ -19,26 +19,22 @@ namespace overturn {
 
 namespace {
 
-/// How many words of the two names begin with the same four letters, ignoring case; shorter words
-/// are equal.
-int shared_words(std::string_view one, std::string_view other)
+/// How many words of the name of a quantity or of its synonyms begin with four letters that the
+/// column contains, ignoring case.
+int shared_words(std::string_view column, std::string_view quantity)
 {
-    using std::views::split;
-    const auto lower_case = [](unsigned char letter) { return std::tolower(letter); };
-    const auto begins_alike = [&](const auto& a, const auto& b) {
-        const auto [end, other_end] = std::ranges::mismatch(a, b, {}, lower_case, lower_case);
-        const auto length = end - a.begin();
-        return length >= 4 || (length == 3 && end == a.end() && other_end == b.end());
-    };
-    return int(std::ranges::count_if(one | split('_'), [&](const auto& word) {
-        return std::ranges::any_of(other | split('_'), [&](const auto& other_word) {
-            return begins_alike(word, other_word);
-        });
+    std::string words(quantity);
+    words += quantity == "incline"         ? "_lean_tilt"
+             : quantity == "center_offset" ? "_eccentricity"
+                                           : "";
+    return int(std::ranges::count_if(words | std::views::split('_'), [&](const auto& word) {
+        const auto beginning = std::string_view(word.begin(), word.end()).substr(0, 4);
+        return beginning.size() > 2 && boost::algorithm::icontains(column, beginning);
     }));
 }
 
-/// The quantity that a column without effect probably gives: its name is misspelt, or has a word in
-/// common with it, as in incline_deg. Empty if there is none, or if the points do not lack it.
+/// The quantity that a column without effect probably gives: its name is misspelt, or shares a word
+/// with it, as in incline_deg. Empty if there is none, or if the points do not lack it.
 std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 {
     const auto is_lacking = [&](std::string_view name) {
@@ -58,11 +54,7 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
     std::string_view meant;
     int most = 0;
     for (const std::string_view name : names) {
-        const std::string_view other_words = name == "incline"         ? "lean_tilt"
-                                             : name == "center_offset" ? "eccentricity"
-                                                                       : "";
-        const int shared = shared_words(column, name) + shared_words(column, other_words);
-        if (shared > most) {
+        if (const int shared = shared_words(column, name); shared > most) {
             most = shared;
             meant = name;
         }

@@ -9,21 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <ranges>
 
 namespace overturn {
 
 namespace {
-
-/// The first numbers of the list, so that the message stays short.
-std::string list_text(const std::vector<std::int64_t>& numbers)
-{
-    constexpr std::size_t most = 20;
-    const auto shown = std::min(numbers.size(), most);
-    return fmt::format("{}{}",
-                       fmt::join(numbers.begin(), numbers.begin() + std::ptrdiff_t(shown), ", "),
-                       numbers.size() > most ? ", ..." : "");
-}
 
 void check_file(const StoredResult& stored)
 {
@@ -36,11 +26,13 @@ void check_file(const StoredResult& stored)
                     path, fmt::join(damaged, ", "));
     }
     if (const auto damaged = stored.damaged_tiles(); !damaged.empty()) {
+        constexpr std::ptrdiff_t most = 20; // so that the message stays short
         throw Error(exit_code::output,
                     "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match "
-                    "(tile numbers: {}). Recompute them with {}.",
-                    path, damaged.size(), tiles.tiles_done, list_text(damaged),
-                    command_to_complete(stored));
+                    "(tile numbers: {}{}). Recompute them with {}.",
+                    path, damaged.size(), tiles.tiles_done,
+                    fmt::join(damaged | std::views::take(most), ", "),
+                    std::ssize(damaged) > most ? ", ..." : "", command_to_complete(stored));
     }
     fmt::print("{}: {} of {} {} done; {} match\n", path, tiles.tiles_done, tiles.tiles,
                tiles.tiles == 1 ? "tile is" : "tiles are",
