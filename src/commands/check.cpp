@@ -1,11 +1,10 @@
 // Prints what a job would compute and store, and its estimated time. Writes nothing.
 #include "commands.hpp"
-#include "dimension_lines.hpp"
 #include "human_units.hpp"
+#include "job_lines.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 #include "probable_mistakes.hpp"
-#include "record_lines.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
@@ -15,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <ranges>

@@ -2,9 +2,9 @@
 
 #include "commands.hpp"
 #include "help_texts.hpp"
-#include "installed_texts.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/kernel.hpp"
@@ -12,12 +12,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <concepts>
-#include <memory>
+#include <functional>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -26,75 +28,84 @@ namespace overturn {
 
 namespace {
 
-std::string kernel_text()
-{
-    try {
-        return fmt::format("{}, the widest that this processor supports", name_of(widest_kernel()));
-    } catch (const Error& error) {
-        return fmt::format("none: {}", error.what());
-    }
-}
-
 std::string version_text()
 {
+    std::string kernel;
+    try {
+        kernel =
+            fmt::format("{}, the widest that this processor supports", name_of(widest_kernel()));
+    } catch (const Error& error) {
+        kernel = fmt::format("none: {}", error.what());
+    }
     return fmt::format("overturn {} (commit {})\n"
                        "kernel   {}\n"
                        "MPI      {}\n"
                        "HDF5     {}",
-                       program_version(), program_commit(), kernel_text(), mpi_library(),
-                       hdf5_version());
+                       program_version(), program_commit(), kernel, mpi_library(), hdf5_version());
+}
+
+void add_count(CLI::App& command, const char* name, int& count, const CLI::Range& allowed,
+               const char* text)
+{
+    command.add_option(name, count, text)->check(allowed)->capture_default_str();
+}
+
+CLI::Option* add_text(CLI::App& command, const char* name, auto& value, const char* type,
+                      const std::string& text)
+{
+    return command.add_option(name, value, text)->type_name(type);
 }
 
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
     command.add_option("JOB", job.path, "Job file (TOML)")->required();
-    command.add_option("--set", job.overrides, "Override KEY with VALUE (TOML); repeatable")
-        ->type_name("KEY=VALUE")
+    add_text(command, "--set", job.overrides, "KEY=VALUE",
+             "Override KEY with VALUE (TOML); repeatable")
         ->allow_extra_args(false);
 }
 
-void add_run_arguments(CLI::App& command, RunOptions& options, const std::string& output)
+void add_run_arguments(CLI::App& command, RunOptions& options, const char* output)
 {
     add_job_arguments(command, options.job);
-    command
-        .add_option("-o,--output", options.output,
-                    fmt::format("Result file; default: {} in the working directory", output))
-        ->type_name("OUT.h5");
+    add_text(command, "-o,--output", options.output, "OUT.h5",
+             fmt::format("Result file; default: {} in the working directory", output));
     command
         .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
         ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
         ->capture_default_str();
     command.add_flag("--durable", options.durable,
                      "Sync each tile to disk, so that it survives a power failure; slower");
+    add_count(command, "--patience", options.patience, CLI::Range(1, 1000000),
+              "Stop the run if a rank is silent for this long [s]; rerun to resume");
+}
+
+void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
+{
+    add_job_arguments(command, options.job);
+    add_text(command, "-o,--output", options.output, "OUT.h5", "Result file")->required();
+    add_count(command, "--points", options.points, CLI::Range(16, 10000000),
+              "Maximum number of sample points, for times and verdicts");
+    add_count(command, "--digits", options.digits, CLI::Range(1, 1000000),
+              "Approximate number of points computed in 50 digits, for errors");
+}
+
+void add_history_arguments(CLI::App& command, HistoryOptions& options)
+{
+    add_job_arguments(command, options.job);
+    add_text(command, "--at", options.at, "AXIS=VALUE,...",
+             "A value for each axis on which the job has several values;\n"
+             "it need not be one of them")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_text(command, "-o,--output", options.output, "OUT.h5", "Result file")->required();
     command
-        .add_option("--patience", options.patience,
-                    "Stop the run if a rank is silent for this long [s]; rerun to resume")
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
-}
-
-CLI::Option* add_result_file(CLI::App& command, const char* name, std::string& path)
-{
-    return command.add_option(name, path, "Result file")->required();
-}
-
-/// CLI::PositiveNumber would print the largest double as the upper limit.
-std::string refusal_of_number(const std::string& text)
-{
-    double value = 0;
-    const bool is_valid =
-        CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
-    return is_valid ? "" : fmt::format("{} is not a positive, finite number.", text);
-}
-
-/// The steps of a search to a much larger acceleration would be too long, or too many.
-std::string refusal_of_pga(const std::string& text)
-{
-    constexpr double largest = 1000; // [g]
-    double value = 0;
-    return CLI::detail::lexical_cast(text, value) && value <= largest
-               ? ""
-               : fmt::format("{} is above {} g.", text, largest);
+        .add_option("--until", options.until,
+                    "Last time [1/p]; default: until the block comes to rest or overturns,\n"
+                    "at most 60/p after the pulse")
+        ->check(CLI::PositiveNumber);
+    add_count(command, "--samples", options.samples, CLI::Range(2, 10000000),
+              "Number of evenly spaced times, at least as many as the record has\n"
+              "samples; events are added");
 }
 
 /// An option for each quantity in metres or radians that describes a block.
@@ -127,95 +138,58 @@ void add_block(CLI::App& command, std::map<std::string, double>& block)
     }
 }
 
+/// CLI::Range would print the largest double as the upper limit.
+std::function<std::string(const std::string&)> positive_up_to(double largest)
+{
+    return [largest](const std::string& text) -> std::string {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value) || value <= 0) {
+            return fmt::format("{} is not a positive, finite number.", text);
+        }
+        return value <= largest ? "" : fmt::format("{} is above {} g.", text, largest);
+    };
+}
+
 void add_topple_arguments(CLI::App& command, ToppleOptions& options)
 {
-    const auto number = [&](const char* name, auto& value, const char* unit, const char* text) {
-        return command.add_option(name, value, text)->type_name(unit)->check(refusal_of_number);
-    };
-    const auto text = [&](const char* name, auto& value, const char* type, const char* what) {
-        return command.add_option(name, value, what)->type_name(type);
+    constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
+    const auto number = [&](const char* name, auto& value, const char* unit, const char* text,
+                            double largest = std::numeric_limits<double>::infinity()) {
+        return add_text(command, name, value, unit, text)->check(positive_up_to(largest));
     };
     add_block(command, options.block);
-    command
-        .add_option("--direction", options.direction,
-                    "180: the mirror image of the motion, for blocks with two different sides; any "
-                    "angle with --set scene.second_component=...")
-        ->type_name("DEGREES");
+    add_text(command, "--direction", options.direction, "DEGREES",
+             "180: the mirror image of the motion, for blocks with two different sides; any "
+             "angle with --set scene.second_component=...");
     number("--period", options.period, "S", "Period of the pulse [s]");
-    number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges")
-        ->check(refusal_of_pga);
-    text("--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
-    text("--record", options.record, "FILE", "Recorded motion instead of a pulse");
-    text("--component", options.component, "NAME", "Name or number in the record; default: 1");
-    number("--scale", options.scale, "X", "Factor on the record, instead of --pga");
+    number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges",
+           largest_pga);
+    add_text(command, "--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
+    add_text(command, "--record", options.record, "FILE", "Recorded motion instead of a pulse")
+        ->excludes("--period", "--pulse");
+    add_text(command, "--component", options.component, "NAME",
+             "Name or number in the record; default: 1")
+        ->needs("--record");
+    number("--scale", options.scale, "X", "Factor on the record, instead of --pga")
+        ->needs("--record")
+        ->excludes("--pga");
     number("--restitution", options.restitution, "R",
            "Energy ratio r at an impact, the square of the ratio of velocities");
     number("--restitution-of-maximum", options.restitution_of_maximum, "X",
-           "r over r_max (Eq. 17); default: 1");
-    number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search")
-        ->check(refusal_of_pga)
+           "r over r_max (Eq. 17); default: 1")
+        ->excludes("--restitution");
+    number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search",
+           largest_pga)
         ->capture_default_str();
-    text("--set", options.overrides, "scene.KEY=VALUE", "Set a key of [scene]; repeatable")
+    add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
+             "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
     command.add_flag("--json", options.json, "Print JSON for programs");
-    text("-o,--history", options.history, "OUT.h5",
-         "Write the motion at --pga or --scale, as overturn history does");
+    add_text(command, "-o,--history", options.history, "OUT.h5",
+             "Write the motion at --pga or --scale, as overturn history does");
 }
 
-void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
-{
-    add_job_arguments(command, options.job);
-    add_result_file(command, "-o,--output", options.output)->type_name("OUT.h5");
-    command
-        .add_option("--points", options.points,
-                    "Maximum number of sample points, for times and verdicts")
-        ->check(CLI::Range(16, 10000000))
-        ->capture_default_str();
-    command
-        .add_option("--digits", options.digits,
-                    "Approximate number of points computed in 50 digits, for errors")
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
-}
-
-void add_history_arguments(CLI::App& command, HistoryOptions& options)
-{
-    add_job_arguments(command, options.job);
-    command
-        .add_option("--at", options.at,
-                    "A value for each axis on which the job has several values;\n"
-                    "it need not be one of them")
-        ->type_name("AXIS=VALUE,...")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    add_result_file(command, "-o,--output", options.output)->type_name("OUT.h5");
-    command
-        .add_option("--until", options.until,
-                    "Last time [1/p]; default: until the block comes to rest or overturns,\n"
-                    "at most 60/p after the pulse")
-        ->check(CLI::PositiveNumber);
-    command
-        .add_option("--samples", options.samples,
-                    "Number of evenly spaced times, at least as many as the record has\n"
-                    "samples; events are added")
-        ->check(CLI::Range(2, 10000000))
-        ->capture_default_str();
-}
-
-/// All parsed options; must live as long as the parser.
-struct Arguments {
-    RunOptions run;
-    RunOptions boundary;
-    JobSource check;
-    AccuracyOptions accuracy;
-    HistoryOptions history;
-    ToppleOptions topple;
-    std::string info;
-    std::string verify;
-    std::string doctor = ".";
-};
-
-/// The parser of the command line, and the subcommand that it found.
+/// The parser of the command line, the options that it reads, and the subcommand that it finds.
 class Parser {
 public:
     Parser();
@@ -231,15 +205,21 @@ private:
         CLI::App* const command = app.add_subcommand(name, description);
         command->footer(footer);
         command->callback([this, execute, &options] {
-            chosen = {
-                .execute = [arguments = arguments_, execute, &options] { return execute(options); },
-                // Only `run` and `boundary`, which have these options, use MPI.
-                .on_every_rank = std::same_as<Options, RunOptions>};
+            chosen = {.execute = [execute, given = options] { return execute(given); },
+                      // Only `run` and `boundary`, which have these options, use MPI.
+                      .on_every_rank = std::same_as<Options, RunOptions>};
         });
         return *command;
     }
 
-    std::shared_ptr<Arguments> arguments_ = std::make_shared<Arguments>();
+    RunOptions run_;
+    RunOptions boundary_;
+    JobSource check_;
+    AccuracyOptions accuracy_;
+    HistoryOptions history_;
+    ToppleOptions topple_;
+    std::string result_file_;
+    std::string folder_ = ".";
 };
 
 Parser::Parser()
@@ -247,40 +227,159 @@ Parser::Parser()
     app.require_subcommand(1);
     app.footer(help::overview);
     app.set_version_flag("--version", version_text);
-    Arguments& to = *arguments_;
-
     add_run_arguments(
-        add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run, to.run),
-        to.run, "JOB.h5");
-    to.boundary.boundary = true;
+        add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run, run_),
+        run_, "JOB.h5");
+    boundary_.boundary = true;
     add_run_arguments(add("boundary",
                           "Find the amplitudes at which verdicts flip, with or without mpirun",
-                          help::boundary, run, to.boundary),
-                      to.boundary, "JOB_boundary.h5");
+                          help::boundary, run, boundary_),
+                      boundary_, "JOB_boundary.h5");
     add_job_arguments(add("check",
                           "Validate a job; print its points, bytes and time; write nothing",
-                          help::check, check, to.check),
-                      to.check);
+                          help::check, check, check_),
+                      check_);
     add_accuracy_arguments(add("accuracy",
                                "Measure error and computing time on a sample of a job's plane",
-                               help::accuracy, accuracy, to.accuracy),
-                           to.accuracy);
+                               help::accuracy, accuracy, accuracy_),
+                           accuracy_);
     add_history_arguments(
         add("history", "Compute the motion of one block: angle, velocity and events over time",
-            help::history, history, to.history),
-        to.history);
+            help::history, history, history_),
+        history_);
     add_topple_arguments(add("topple", "Answer whether one block topples, and at which PGA",
-                             help::topple, topple, to.topple),
-                         to.topple);
-    add_result_file(add("info", "Print a summary of a result file", help::info, info, to.info),
-                    "FILE", to.info);
-    add_result_file(
-        add("verify", "Check a result file for damage", help::verify, verify, to.verify), "FILE",
-        to.verify);
+                             help::topple, topple, topple_),
+                         topple_);
+    add("info", "Print a summary of a result file", help::info, info, result_file_)
+        .add_option("FILE", result_file_, "Result file")
+        ->required();
+    add("verify", "Check a result file for damage", help::verify, verify, result_file_)
+        .add_option("FILE", result_file_, "Result file")
+        ->required();
     add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
-        to.doctor)
-        .add_option("FOLDER", to.doctor, "Folder of the result files")
+        folder_)
+        .add_option("FOLDER", folder_, "Folder of the result files")
         ->capture_default_str();
+}
+
+/// "OUT.h5", "{auto,double}"; JOB for a positional argument; empty for a flag.
+std::string value_of(const CLI::Option& option)
+{
+    if (option.get_positional()) {
+        return option.get_name(true);
+    }
+    // The type is followed by a colon and the allowed values.
+    const std::string type = option.get_type_name();
+    return option.get_expected_max() == 0 ? "" : type.substr(type.find(':') + 1);
+}
+
+/// Escapes the characters that roff interprets or replaces.
+std::string escaped(std::string_view text)
+{
+    std::string result;
+    for (const char letter : text) {
+        switch (letter) {
+        case '\\': result += "\\e"; break;
+        case '-': result += "\\-"; break;
+        case '\'': result += "\\(aq"; break;
+        case '`': result += "\\(ga"; break;
+        case '^': result += "\\(ha"; break;
+        case '~': result += "\\(ti"; break;
+        default: result += letter;
+        }
+    }
+    return result;
+}
+
+/// A section whose text, in which no line begins with a dot, is shown as it is.
+std::string section(const std::string& name, std::string_view text)
+{
+    return fmt::format(".SH {}\n.nf\n{}\n.fi\n", escaped(name), escaped(text));
+}
+
+/// The cases list the words and the ending of the files that are allowed at a position of the line,
+/// given the position, the subcommand and the previous word.
+constexpr const char* completion_script = R"(# Bash completion for overturn.
+_overturn()
+{{
+    local word=${{COMP_WORDS[COMP_CWORD]}} words='' ending=''
+    case "$COMP_CWORD ${{COMP_WORDS[1]}} ${{COMP_WORDS[COMP_CWORD - 1]}}" in
+        1\ *) words='{}--help --version' ;;
+        *\ =) ;; # the value of a key
+{}{}    esac
+    if [[ -n $ending && $word != -* ]]; then
+        compopt -o filenames
+        mapfile -t COMPREPLY < <(compgen -f -X "!*.$ending" -- "$word"; compgen -d -- "$word")
+    else
+        mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+        [[ ${{COMPREPLY[*]}} != *= ]] || compopt -o nospace
+    fi
+}}
+complete -F _overturn overturn
+)";
+
+/// "auto double" for "{auto,double}"; the keys, each with "=", for "KEY=VALUE"; otherwise empty.
+std::string choices_of(std::string value)
+{
+    if (value == "AXIS=VALUE,...") {
+        return fmt::format("{}=", fmt::join(axis_names(), "= "));
+    }
+    if (value.ends_with("KEY=VALUE")) {
+        const std::string prefix = value.substr(0, value.size() - 9);
+        std::string keys;
+        for (const std::string& key : override_keys()) {
+            keys += key.starts_with(prefix) ? key + "= " : "";
+        }
+        return keys;
+    }
+    if (!value.starts_with('{')) {
+        return "";
+    }
+    std::replace(value.begin(), value.end(), ',', ' ');
+    return value.substr(1, value.size() - 2);
+}
+
+/// The manual page (roff).
+std::string manual_page(const CLI::App& program)
+{
+    std::string page = fmt::format(".TH OVERTURN 1 {} \"overturn {}\" \"User Commands\"\n"
+                                   ".SH NAME\noverturn \\- overturning spectra of rocking blocks\n",
+                                   manual::date_of_texts, program_version());
+    page += section("DESCRIPTION", manual::description) + section("SYNOPSIS", program.help());
+    for (const CLI::App* command : program.get_subcommands({})) {
+        page += section("overturn " + command->get_name(), command->help("overturn"));
+    }
+    return page + section("TOOLS", manual::tools) + section("ENVIRONMENT", manual::environment) +
+           section("FILES", manual::files) + ".SH SEE ALSO\n\\fBmpirun\\fR(1), \\fBh5dump\\fR(1)\n";
+}
+
+/// The script with which bash completes subcommands, options and file names.
+std::string bash_completion(const CLI::App& program)
+{
+    std::string commands, by_command, by_option;
+    for (const CLI::App* command : program.get_subcommands({})) {
+        std::string words, ending;
+        for (const CLI::Option* option : command->get_options()) {
+            const std::string value = value_of(*option);
+            if (option->get_positional()) {
+                ending = value == "JOB" ? "toml" : "h5";
+                continue;
+            }
+            const std::vector<std::string> names =
+                CLI::detail::split(option->get_name(false, true), ','); // "-o" and "--output"
+            words += fmt::format("{} ", fmt::join(names, " "));
+            if (!value.empty()) {
+                const std::string before = fmt::format("*\\ {}\\ ", command->get_name());
+                by_option += fmt::format("        {}{}) words='{}' ending='{}' ;;\n", before,
+                                         fmt::join(names, "|" + before), choices_of(value),
+                                         value.ends_with(".h5") ? "h5" : "");
+            }
+        }
+        commands += command->get_name() + " ";
+        by_command += fmt::format("        *\\ {}\\ *) words='{}' ending='{}' ;;\n",
+                                  command->get_name(), words, ending);
+    }
+    return fmt::format(completion_script, commands, by_option, by_command);
 }
 
 Command to_print(const std::string& text)

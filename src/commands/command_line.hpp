@@ -1,4 +1,5 @@
-// Parses the command line: the subcommand and its options; help and version.
+// Parses the command line: the subcommand and its options; help, version, and the texts that are
+// installed with the program: manual page and bash completion.
 #pragma once
 
 #include <functional>

@@ -51,7 +51,7 @@ int history(const HistoryOptions& options);
 struct ToppleOptions {
     std::map<std::string, double> block; ///< quantities of the block, by name
     std::optional<double> direction;     ///< [degree]
-    std::optional<std::string> pulse;    ///< its name; default: one_sine
+    std::string pulse = "one_sine";      ///< its name
     std::optional<double> period;        ///< of the pulse [s]
     std::string record;                  ///< path; empty: a pulse
     std::string component;               ///< of the record, its name or number

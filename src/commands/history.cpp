@@ -1,7 +1,7 @@
 // The motion of one block: the forced stage, then the analytical free stage.
 #include "commands.hpp"
-#include "dimension_lines.hpp"
 #include "guarded_reading.hpp"
+#include "job_lines.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
 #include "probable_mistakes.hpp"
@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -212,7 +211,7 @@ int history(const HistoryOptions& options)
     const auto parameter = extent_of(job, "frequency_parameter");
     const auto p = parameter ? std::optional(parameter->first) : std::nullopt; // [1/s]
     const Units units(p);
-    print_outcome(history, slenderness, peak_of_only_point(job), units);
+    print_outcome(history, slenderness, accurate_values(job.problem, Field::peak).front(), units);
     print_events(history, units);
     write_history_file(options.output, job, history);
     fmt::print("\n{0}: written; draw it with tools/plot_history {0}\n", options.output);

@@ -1,7 +1,7 @@
 // The outcome of a job with a single point, as computed for a spectrum.
 #pragma once
 
-#include "dimension_lines.hpp"
+#include "job_lines.hpp"
 
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
@@ -58,22 +58,22 @@ inline History history_of_only_point(const Job& job, HistoryView view = {})
     return history;
 }
 
-/// The value of a field of type double, as accurate as possible.
-inline double value_of_only_point(const Job& job, Field field)
+/// The values of a field of type double, as accurate as possible, tile by tile.
+inline std::vector<double> accurate_values(Problem problem, Field field)
 {
-    Problem problem = job.problem;
     problem.numerics = most_accurate;
     problem.fields = {field};
-    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
-    return std::get<std::vector<double>>(fields.values[0])[0];
+    const Tiling tiling = tiling_of(problem);
+    std::vector<double> all;
+    for (std::int64_t tile = 0; tile < tiling.size(); ++tile) {
+        const TileFields fields = compute_tile(problem, tiling[tile], widest_kernel());
+        const auto& values = std::get<std::vector<double>>(fields.values[0]);
+        all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
 }
 
-/// The largest |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
-inline double peak_of_only_point(const Job& job)
-{
-    return value_of_only_point(job, Field::peak);
-}
-
+/// peak: |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
 /// slenderness: nullopt if the block has two of them.
 inline std::string peak_text(double peak, const std::optional<double>& slenderness)
 {

@@ -1,7 +1,7 @@
 // The lines that commands print: messages, and rows of a name and a text.
 #pragma once
 
-#include "overturn/job/job.hpp"
+#include "overturn/problem/quantity.hpp"
 
 #include <fmt/format.h>
 

@@ -3,12 +3,12 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "human_units.hpp"
+#include "job_lines.hpp"
 #include "kernel_choice.hpp"
 #include "output_lines.hpp"
 #include "prepare_output.hpp"
 #include "probable_mistakes.hpp"
 #include "progress.hpp"
-#include "record_lines.hpp"
 #include "remarks.hpp"
 
 #include "overturn/farm/farm.hpp"

@@ -2,28 +2,60 @@
 // the command line; everything is computed as by `run`, `boundary` and `history`.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
+#include "job_lines.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
 #include "probable_mistakes.hpp"
 #include "progress.hpp"
-#include "record_lines.hpp"
-#include "topple_answer.hpp"
+#include "verdict_ranges.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
+#include "overturn/problem/plausibility.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
+#include "overturn/text/utf8.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace overturn {
 
 namespace {
+
+struct RestitutionAnswer {
+    double share; ///< r / r_max; NaN if there is no r_max
+    double ratio; ///< r
+    VerdictRanges ranges;
+};
+
+struct ToppleAnswer {
+    std::optional<Verdict> verdict; ///< nullopt if not requested
+    double peak = 0;                ///< |theta| / alpha
+    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
+    /// For each toppling range of the requested restitution: the largest friction from uplift to
+    /// its lower end, NaN if one is unknown; empty in the linear theory.
+    std::vector<double> friction_to_topple;
+    double pga = 0; ///< of the requested point
+    double lifting_pga = 0;
+    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
+};
+
+/// The name of a file or component, or another text, as a string of TOML and JSON. Throws Error if
+/// it is not UTF-8.
+std::string quoted_utf8(const std::string& text)
+{
+    if (!is_utf8(text)) {
+        throw Error(exit_code::usage, "{} is not UTF-8. Rename the file.", as_utf8(text));
+    }
+    return in_quotes(text);
+}
 
 /// The text of a job with a single point, or with these strengths: scales of a record, or peak
 /// accelerations of a pulse. If the command line gives no strength, its motion is 0.
@@ -31,9 +63,8 @@ std::string job_text(const ToppleOptions& options, const std::vector<double>& st
 {
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
-    text += is_recorded
-                ? fmt::format("record = {}\n", quoted_utf8(options.record))
-                : fmt::format("pulse = {}\n", quoted_utf8(options.pulse.value_or("one_sine")));
+    text += is_recorded ? fmt::format("record = {}\n", quoted_utf8(options.record))
+                        : fmt::format("pulse = {}\n", quoted_utf8(options.pulse));
     if (!options.component.empty()) {
         const bool is_number =
             options.component.find_first_not_of("0123456789") == std::string::npos &&
@@ -66,6 +97,7 @@ std::string job_text(const ToppleOptions& options, const std::vector<double>& st
     return text;
 }
 
+/// What the parser of the command line does not check.
 void expect_consistent(const ToppleOptions& options)
 {
     const auto refuse_if = [](bool wrong, const char* message) {
@@ -73,18 +105,9 @@ void expect_consistent(const ToppleOptions& options)
             throw Error(exit_code::usage, message);
         }
     };
-    const bool is_recorded = !options.record.empty();
-    refuse_if(is_recorded && options.period,
-              "--period applies to a pulse, but --record gives a recorded motion. Remove one.");
-    refuse_if(is_recorded && options.pulse, "--pulse and --record exclude each other. Remove one.");
-    refuse_if(!is_recorded && !options.period,
+    refuse_if(options.record.empty() && !options.period,
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
-    refuse_if(!is_recorded && options.scale,
-              "--scale applies to a record. Give --pga for a pulse, or --record.");
-    refuse_if(!is_recorded && !options.component.empty(),
-              "--component applies to a record. Remove it, or give --record.");
-    refuse_if(options.scale && options.pga, "--scale and --pga exclude each other. Remove one.");
     for (const std::string& argument : options.overrides) {
         refuse_if(!argument.starts_with("scene.") || argument.starts_with("scene.pulse") ||
                       argument.starts_with("scene.record"),
@@ -93,25 +116,6 @@ void expect_consistent(const ToppleOptions& options)
     }
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
-    refuse_if(options.restitution && options.restitution_of_maximum,
-              "--restitution and --restitution-of-maximum exclude each other. Remove one.");
-}
-
-/// The friction that the point of the command line needs at these strengths, see job_text().
-std::vector<double> friction_at(const ToppleOptions& options, const std::vector<double>& strengths)
-{
-    Problem problem =
-        read_job_text(job_text(options, strengths), command_line, options.overrides).problem;
-    problem.numerics = most_accurate;
-    problem.fields = {Field::friction};
-    const Tiling tiling = tiling_of(problem);
-    std::vector<double> friction;
-    for (std::int64_t tile = 0; tile < tiling.size(); ++tile) {
-        const TileFields fields = compute_tile(problem, tiling[tile], widest_kernel());
-        const auto& values = std::get<std::vector<double>>(fields.values[0]);
-        friction.insert(friction.end(), values.begin(), values.end());
-    }
-    return friction;
 }
 
 /// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
@@ -137,7 +141,8 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     for (double& strength : strengths) {
         strength /= scene.is_recorded() ? unit : 1;
     }
-    const std::vector<double> friction = friction_at(options, strengths);
+    const Job job = read_job_text(job_text(options, strengths), command_line, options.overrides);
+    const std::vector<double> friction = accurate_values(job.problem, Field::friction);
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
@@ -168,12 +173,12 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
     answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;
     if (options.pga || options.scale) {
-        answer.peak = peak_of_only_point(job);
+        answer.peak = accurate_values(job.problem, Field::peak).front();
         answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
         if (scene.theory == Theory::nonlinear) {
-            answer.friction = value_of_only_point(job, Field::friction);
+            answer.friction = accurate_values(job.problem, Field::friction).front();
         }
     }
     answer.lifting_pga = lifting_pga(scene, point);
@@ -248,13 +253,13 @@ std::string friction_text(double friction)
                : "the verdict holds if the coefficient is at least " + rounded_up(friction);
 }
 
-/// The numbers that complete a pulse, each after a comma.
-std::string shape_text(const Scene& scene)
+/// The numbers that complete a pulse, each with its name in this format.
+std::string shape_text(const Scene& scene, const char* format)
 {
     std::string text;
     for (const auto& [name, number] : shape_numbers) {
         if (has_number(scene.pulse, number)) {
-            text += fmt::format(", {} {}", name, scene.shape.*number);
+            text += fmt::format(fmt::runtime(format), name, scene.shape.*number);
         }
     }
     return text;
@@ -272,7 +277,7 @@ void print_question(const Job& job, const ToppleOptions& options)
     const std::string motion = scene.is_recorded()
                                    ? record_lines(job).front()
                                    : fmt::format("{}, period {} s{}", name_of(scene.pulse),
-                                                 *options.period, shape_text(scene));
+                                                 *options.period, shape_text(scene, ", {} {}"));
     std::string direction;
     if (options.direction) {
         direction = fmt::format("; direction {} degrees", *options.direction);
@@ -337,6 +342,113 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                    undecided > 0 ? fmt::format("Up to {:.2g} %", 100 * undecided) : "None",
                    undecided > 0 ? "are" : "is");
     }
+}
+
+/// JSON has neither NaN nor infinity.
+std::string json_of(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+/// A list of [first, last].
+std::string json_of(const std::vector<std::pair<double, double>>& ranges)
+{
+    std::vector<std::string> list;
+    for (const auto& [first, last] : ranges) {
+        list.push_back(fmt::format("[{}, {}]", first, json_of(last)));
+    }
+    return fmt::format("[{}]", fmt::join(list, ", "));
+}
+
+std::string json_of(const RestitutionAnswer& answer)
+{
+    const VerdictRanges& ranges = answer.ranges;
+    const double end = ranges.end_of_search();
+    auto toppling = ranges.with(Verdict::topples);
+    if (!toppling.empty() && toppling.back().second == end) {
+        toppling.back().second = std::numeric_limits<double>::infinity(); // it may go on
+    }
+    const std::string coarse =
+        ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",
+                                    ranges.coarse->first, ranges.coarse->last, ranges.coarse->step)
+                      : "null";
+    return fmt::format(
+        "\"restitution\": {}, \"restitution_of_maximum\": {}, "
+        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
+        "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
+        answer.ratio, json_of(answer.share), json_of(toppling), json_of(ranges.with(Verdict::safe)),
+        json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
+}
+
+std::string json_of_motion(const Job& job, const ToppleOptions& options)
+{
+    if (job.motions.empty()) {
+        const Scene& scene = job.problem.scene;
+        return fmt::format("{{\"pulse\": \"{}\", \"period\": {}{}}}", name_of(scene.pulse),
+                           *options.period, shape_text(scene, ", \"{}\": {}"));
+    }
+    const Motion& motion = job.motions.front();
+    return fmt::format("{{\"record\": {}, \"component\": {}, \"second_component\": {}, "
+                       "\"vertical\": {}, \"uncorrected\": {}}}",
+                       quoted_utf8(motion.file), quoted_utf8(motion.component),
+                       motion.second.empty() ? "null" : quoted_utf8(motion.second),
+                       motion.vertical.empty() ? "null" : quoted_utf8(motion.vertical),
+                       motion.is_uncorrected);
+}
+
+void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
+{
+    const auto alpha = slenderness_of_only_block(job);
+    const auto if_requested = [&](double value) {
+        return answer.verdict ? json_of(value) : "null";
+    };
+    const auto member = [](std::string_view name, const auto& value) {
+        fmt::print("  \"{}\": {},\n", name, value);
+    };
+    const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
+    fmt::print("{{\n");
+    std::vector<std::string> of_block;
+    for (const auto& [name, value] : options.block) {
+        of_block.push_back(fmt::format("\"{}\": {}", name, value));
+    }
+    member("block", fmt::format("{{{}}}", fmt::join(of_block, ", ")));
+    member("motion", json_of_motion(job, options));
+    member("direction", options.direction.value_or(0));
+    member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
+    member("topples", answer.verdict == Verdict::topples ? "true"
+                      : answer.verdict == Verdict::safe  ? "false"
+                                                         : "null");
+    member("pga", if_requested(answer.pga));
+    member("peak_of_alpha", if_requested(answer.peak));
+    member("peak_degrees",
+           alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
+    member("friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
+    member("lifts_off", answer.friction && std::isinf(*answer.friction) ? "true" : "false");
+    if (alpha) {
+        member("slenderness", *alpha);
+    } else {
+        member("slenderness_plus", extent_of(job, "slenderness_plus")->first);
+        member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
+    }
+    member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
+    if (!alpha) {
+        member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
+    }
+    std::vector<std::string> friction;
+    for (const double each : answer.friction_to_topple) {
+        friction.push_back(json_of(each));
+    }
+    member("friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
+    member("gravity", job.problem.scene.gravity);
+    member("lifting_pga", json_of(answer.lifting_pga));
+    member("pga_max", options.pga_max);
+    member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
+    member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
+    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
+    }
+    fmt::print("\n  ]\n}}\n");
 }
 
 void write_history(const Job& job, const std::string& path)

@@ -338,13 +338,13 @@ class Toppling(Scratch):
 
     def test_refuses_what_contradicts_itself(self):
         for arguments, words in (
-                ((*RECORD, "--period", "0.5"), "--period applies to a pulse"),
-                ((*RECORD, "--pulse", "one_sine"), "exclude each other"),
+                ((*RECORD, "--period", "0.5"), "--period excludes --record"),
+                ((*RECORD, "--pulse", "one_sine"), "--pulse excludes --record"),
                 ((*STATUE, "--pga", "0.4"), "Give --period"),
-                ((*PULSE, "--scale", "2"), "--scale applies to a record"),
-                ((*PULSE, "--component", "2"), "--component applies to a record"),
-                ((*RECORD, "--scale", "2", "--pga", "1"), "exclude each other"),
-                ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "exclude"),
+                ((*PULSE, "--scale", "2"), "--scale requires --record"),
+                ((*PULSE, "--component", "2"), "--component requires --record"),
+                ((*RECORD, "--scale", "2", "--pga", "1"), "--pga excludes --scale"),
+                ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "--restitution excludes --restitution-of-maximum"),
                 ((*PULSE, "--history", "a.h5"), "Give --pga or --scale"),
                 ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
                 (("--width", "0", "--height", "1.8", "--period", "0.5"), "width = 0 is outside (0, inf)"),

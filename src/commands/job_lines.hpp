@@ -1,4 +1,5 @@
-// What the coordinates of a job mean in degrees, metres, seconds and g.
+// What a job contains, in lines for people: coordinates in degrees, metres, seconds and g; recorded
+// ground motions; columns of tables.
 #pragma once
 
 #include "overturn/job/job.hpp"
@@ -6,15 +7,19 @@
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace overturn {
 
@@ -63,7 +68,6 @@ inline std::optional<double> r_max_of_only_block(const Job& job)
                : r_max_of(extent_of(job, "slenderness")->first);
 }
 
-/// A line about the blocks.
 inline std::string block_line(const Job& job)
 {
     std::string line;
@@ -118,7 +122,6 @@ inline std::string contact_line(const Job& job)
                                          : "");
 }
 
-/// A line about the ground motions.
 inline std::string ground_line(const Job& job)
 {
     std::string line = "peak " + extent_of(job, "pga")->text(" g");
@@ -136,6 +139,115 @@ inline std::string ground_line(const Job& job)
                                   : ", each block under a pulse of its own";
     }
     return line;
+}
+
+/// Lines of a large suite beyond this number are left out.
+inline constexpr std::size_t most_record_lines = 10;
+
+inline void shorten(std::vector<std::string>& lines)
+{
+    if (lines.size() > most_record_lines) {
+        const std::size_t more = lines.size() - most_record_lines;
+        lines.resize(most_record_lines);
+        lines.push_back(fmt::format("and {} more {}", more, noun_of(more, "records")));
+    }
+}
+
+/// A line for each record whose accelerations are those of an earlier one under another name.
+inline std::vector<std::string> lines_of_equal_records(const Job& job)
+{
+    std::vector<std::string> lines;
+    std::map<std::pair<std::string, double>, std::string> names;
+    for (std::size_t i = 0; i < job.motions.size(); ++i) {
+        const Motion& motion = job.motions[i];
+        const double time_step = job.problem.scene.records[i]->time_step();
+        const auto [first, is_new] =
+            names.emplace(std::pair(motion.checksum, time_step), motion.name);
+        if (!is_new) {
+            lines.push_back(printable(
+                fmt::format("{}: the same accelerations as {}; it counts as another motion",
+                            motion.name, first->second)));
+        }
+    }
+    shorten(lines);
+    return lines;
+}
+
+/// A line for each record: its file, components, duration and intensity. Then a line for each that
+/// equals another one.
+inline std::vector<std::string> record_lines(const Job& job)
+{
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < job.motions.size(); ++i) {
+        const Motion& motion = job.motions[i];
+        const Accelerogram& record = *job.problem.scene.records[i];
+        const std::string component =
+            (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
+            (motion.second.empty() ? ""
+                                   : fmt::format(", second {} up to {:.3g} g", motion.second,
+                                                 record.in_direction(90).peak())) +
+            (motion.vertical.empty() ? ""
+                                     : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
+                                                   record.upwards_peak())) +
+            (motion.is_uncorrected ? ", not corrected" : "");
+        lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
+                                              motion.file, component, record.samples(),
+                                              double(record.samples() - 1) * record.time_step(),
+                                              motion.measures.pga, motion.measures.pgv)));
+    }
+    shorten(lines);
+    const std::vector<std::string> equal = lines_of_equal_records(job);
+    lines.insert(lines.end(), equal.begin(), equal.end());
+    return lines;
+}
+
+/// A line for each record whose vertical motion cancels gravity at some scale of the job.
+inline std::vector<std::string> free_fall_lines(const Job& job)
+{
+    std::vector<std::string> lines;
+    const Scene& scene = job.problem.scene;
+    if (!scene.is_recorded()) {
+        return lines;
+    }
+    const std::vector<ScaleRange> scales = scales_of(scene, job.problem.grid);
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+        const double largest = scene.records[i]->free_fall_scale();
+        if (std::isfinite(largest) && !(scales[i].largest < largest)) {
+            lines.push_back(printable(fmt::format(
+                "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
+                "are undecided (status 16, free_fall)",
+                job.motions[i].name, largest)));
+        }
+    }
+    shorten(lines);
+    return lines;
+}
+
+/// The names of the columns of the table of a job that describe nothing of a point; empty if there
+/// are none.
+inline std::string unused_columns(const Job& job)
+{
+    std::string names;
+    if (job.blocks) {
+        for (const TableColumn& column : job.blocks->table.columns) {
+            if (!job.problem.grid.has_table_column(column.name)) {
+                names += (names.empty() ? "" : ", ") + column.name;
+            }
+        }
+    }
+    return printable(names);
+}
+
+/// What a reader of the log of a run must know of its records and columns.
+inline std::vector<std::string> notes_on(const Job& job)
+{
+    std::vector<std::string> lines = lines_of_equal_records(job);
+    const std::vector<std::string> free_fall = free_fall_lines(job);
+    lines.insert(lines.end(), free_fall.begin(), free_fall.end());
+    if (const std::string names = unused_columns(job); !names.empty()) {
+        lines.push_back("columns without effect: " + names);
+    }
+    return lines;
 }
 
 } // namespace overturn
