@@ -24,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 namespace overturn {
 
@@ -212,15 +213,6 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     return answer;
 }
 
-double most_undecided_of(const std::vector<RestitutionAnswer>& answers)
-{
-    double most = 0;
-    for (const RestitutionAnswer& each : answers) {
-        most = std::max(most, each.ranges.undecided_share());
-    }
-    return most;
-}
-
 /// With two decimals.
 std::string rounded_up(double friction)
 {
@@ -335,7 +327,10 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                    other.ranges.text(other.ranges.decimals(answer.pga), 6));
     }
     if (is_recorded) {
-        const double undecided = most_undecided_of(answer.by_restitution);
+        const double undecided = std::ranges::max(
+            answer.by_restitution | std::views::transform([](const RestitutionAnswer& each) {
+                return each.ranges.undecided_share();
+            }));
         fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
                    "of the searched accelerations {} undecided.\n",
                    100 * toppling_step,
@@ -353,10 +348,9 @@ std::string json_of(double value)
 /// A list of [first, last].
 std::string json_of(const std::vector<std::pair<double, double>>& ranges)
 {
-    std::vector<std::string> list;
-    for (const auto& [first, last] : ranges) {
-        list.push_back(fmt::format("[{}, {}]", first, json_of(last)));
-    }
+    const auto list = ranges | std::views::transform([](const auto& range) {
+                          return fmt::format("[{}, {}]", range.first, json_of(range.second));
+                      });
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
@@ -407,11 +401,10 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     };
     const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
     fmt::print("{{\n");
-    std::vector<std::string> of_block;
-    for (const auto& [name, value] : options.block) {
-        of_block.push_back(fmt::format("\"{}\": {}", name, value));
-    }
-    member("block", fmt::format("{{{}}}", fmt::join(of_block, ", ")));
+    const auto block = options.block | std::views::transform([](const auto& given) {
+                           return fmt::format("\"{}\": {}", given.first, given.second);
+                       });
+    member("block", fmt::format("{{{}}}", fmt::join(block, ", ")));
     member("motion", json_of_motion(job, options));
     member("direction", options.direction.value_or(0));
     member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
@@ -434,10 +427,8 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     if (!alpha) {
         member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
     }
-    std::vector<std::string> friction;
-    for (const double each : answer.friction_to_topple) {
-        friction.push_back(json_of(each));
-    }
+    const auto friction = answer.friction_to_topple |
+                          std::views::transform([](double each) { return json_of(each); });
     member("friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
     member("gravity", job.problem.scene.gravity);
     member("lifting_pga", json_of(answer.lifting_pga));
