@@ -77,12 +77,10 @@ private:
                         std::move(values)});
     }
 
-    /// first, first + 1, ...; a single number without a dimension.
-    void add_numbers(std::string_view name, const Dimensions& along, double first,
-                     std::string_view long_name)
+    /// first, first + 1, ...
+    void add_numbers(const StoredDimension& dimension, double first, std::string_view long_name)
     {
-        const std::int64_t count = along.empty() ? 1 : along.front().size;
-        add(name, along, long_name, "1", [count, first] {
+        add(dimension.name, {dimension}, long_name, "1", [count = dimension.size, first] {
             std::vector<double> numbers(static_cast<std::size_t>(count));
             std::iota(numbers.begin(), numbers.end(), first);
             return numbers;
@@ -118,9 +116,9 @@ private:
     {
         const StoredDimension& dimension = dimensions_[i];
         if (dimension.name == flip_dimension) {
-            add_numbers(dimension.name, {dimension}, 0, "number of the flip, counted from 0");
+            add_numbers(dimension, 0, "number of the flip, counted from 0");
         } else if (dimension.name == table_dimension) {
-            add_numbers(dimension.name, {dimension}, 1, "number of the block in the table");
+            add_numbers(dimension, 1, "number of the block in the table");
         } else {
             add_column(grid_.dimensions[i].columns.front(), {dimension});
         }
