@@ -57,20 +57,12 @@ void print_head(const AccuracySample& sample)
                     "verdicts", "cided", "> bound", "error"));
 }
 
-std::string wrong(const AccuracyRow& row, const AccuracySample& sample)
-{
-    if (sample.settled == 0) {
-        return "-";
-    }
-    return row.wrong_verdicts == 0
-               ? "0"
-               : fmt::format("{:.1e}", double(row.wrong_verdicts) / double(sample.settled));
-}
-
 void print_row(const AccuracyRow& row, const AccuracySample& sample)
 {
     const std::string name =
         fmt::format("{}{}", name_of(row.numerics.method), row.numerics.resolve ? " resolved" : "");
+    const double wrong =
+        double(row.wrong_verdicts) / double(std::max<std::int64_t>(1, sample.settled));
     const auto share = [](double value) {
         return std::isnan(value) ? std::string("-") : fmt::format("{:.2g}", value);
     };
@@ -78,8 +70,8 @@ void print_row(const AccuracyRow& row, const AccuracySample& sample)
                     "{:>8} {:>6} {:>6} {:>9}",
                     name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps,
                     row.evaluations, row.margin[0], row.margin[2], row.margin[4],
-                    wrong(row, sample), row.undecided, share(row.bound_exceeded),
-                    share(row.bound_over_error)));
+                    sample.settled == 0 ? "-" : share(wrong), row.undecided,
+                    share(row.bound_exceeded), share(row.bound_over_error)));
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -227,15 +229,14 @@ inline std::vector<std::string> free_fall_lines(const Job& job)
 /// are none.
 inline std::string unused_columns(const Job& job)
 {
-    std::string names;
-    if (job.blocks) {
-        for (const TableColumn& column : job.blocks->table.columns) {
-            if (!job.problem.grid.has_table_column(column.name)) {
-                names += (names.empty() ? "" : ", ") + column.name;
-            }
-        }
+    if (!job.blocks) {
+        return "";
     }
-    return printable(names);
+    auto names = job.blocks->table.columns | std::views::transform(&TableColumn::name) |
+                 std::views::filter([&](const std::string& name) {
+                     return !job.problem.grid.has_table_column(name);
+                 });
+    return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
 /// What a reader of the log of a run must know of its records and columns.

@@ -5,7 +5,6 @@
 #include "guarded_reading.hpp"
 #include "human_units.hpp"
 #include "job_lines.hpp"
-#include "kernel_choice.hpp"
 #include "output_lines.hpp"
 #include "probable_mistakes.hpp"
 #include "progress.hpp"

@@ -1,6 +1,5 @@
 // A build without kernels for this processor: src/sweep/kernel.cpp is compiled with none.
-#include "commands/kernel_choice.hpp"
-
+#include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>

@@ -32,4 +32,8 @@ bool runs_here(Kernel kernel);
 /// The widest kernel that runs here. Throws Error.
 Kernel widest_kernel();
 
+/// The kernel of this name, one of kernel_names; of "auto", the widest one. Throws Error if it does
+/// not run here.
+Kernel kernel_called(std::string_view name);
+
 } // namespace overturn
