@@ -342,9 +342,9 @@ std::string choices_of(std::string value)
 /// The manual page (roff).
 std::string manual_page(const CLI::App& program)
 {
-    std::string page = fmt::format(".TH OVERTURN 1 {} \"overturn {}\" \"User Commands\"\n"
+    std::string page = fmt::format(".TH OVERTURN 1 \"\" \"overturn {}\" \"User Commands\"\n"
                                    ".SH NAME\noverturn \\- overturning spectra of rocking blocks\n",
-                                   manual::date_of_texts, program_version());
+                                   program_version());
     page += section("DESCRIPTION", manual::description) + section("SYNOPSIS", program.help());
     for (const CLI::App* command : program.get_subcommands({})) {
         page += section("overturn " + command->get_name(), command->help("overturn"));

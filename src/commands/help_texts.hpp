@@ -102,9 +102,6 @@ recomputes damaged tiles.)";
 
 namespace overturn::manual {
 
-/// The date of these texts. With the date of the build, equal sources would give different bytes.
-inline constexpr const char* date_of_texts = "2026-11-23";
-
 inline constexpr const char* description =
     R"(A rigid block that stands free on the ground rocks when the ground shakes, and may overturn.
 An overturning spectrum shows what becomes of the block for every frequency and amplitude of a
