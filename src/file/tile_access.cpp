@@ -47,6 +47,23 @@ FieldValues not_computed(Field field, std::int64_t count)
         layout::fill_value(field));
 }
 
+void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values)
+{
+    const Tile part = stored.part_of(tile);
+    if (part.count.empty()) {
+        write_tile(stored, tile, values);
+        return;
+    }
+    constexpr std::uint32_t no_filter_skipped = 0;
+    std::visit(
+        [&](const auto& list) {
+            check(H5Dwrite_chunk(stored.dataset, H5P_DEFAULT, no_filter_skipped,
+                                 extents(part.begin).data(), list.size() * sizeof(list[0]),
+                                 list.data()));
+        },
+        values);
+}
+
 void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
     const Tile part = stored.part_of(tile);

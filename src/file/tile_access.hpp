@@ -47,6 +47,9 @@ struct StoredField {
 /// The fill values of a field that is not computed yet.
 FieldValues not_computed(Field field, std::int64_t count);
 
+/// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
+void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values);
+
 void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values);
 FieldValues read_tile(const StoredField& stored, const Tile& tile);
 
