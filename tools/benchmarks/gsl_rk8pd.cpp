@@ -32,7 +32,7 @@ std::vector<PeerEnd<double>> solve_by_gsl_rk8pd(const PeerProblem& problem, doub
     gsl_set_error_handler_off();
     const StepHandle step(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, 2), gsl_odeiv2_step_free);
     const ControlHandle control(
-        gsl_odeiv2_control_y_new(tolerance * problem.points.front().slenderness, tolerance),
+        gsl_odeiv2_control_y_new(tolerance * problem.points.front().block.slenderness, tolerance),
         gsl_odeiv2_control_free);
     const EvolveHandle evolve(gsl_odeiv2_evolve_alloc(2), gsl_odeiv2_evolve_free);
     const double first_step = std::pow(tolerance, 1.0 / 8);

@@ -27,7 +27,7 @@ double first_step(double tolerance, double fastest)
 
 double allowed_error(double tolerance, const PeerProblem& problem)
 {
-    return tolerance * problem.points.front().slenderness;
+    return tolerance * problem.points.front().block.slenderness;
 }
 
 } // namespace

@@ -15,7 +15,7 @@ std::vector<PeerEnd<long double>> solve_reference(const PeerProblem& problem, do
     namespace odeint = boost::numeric::odeint;
     using S = long double;
     using Stepper = odeint::runge_kutta_fehlberg78<RockingState<S>, S>;
-    const S allowed = S(tolerance) * problem.points.front().slenderness;
+    const S allowed = S(tolerance) * problem.points.front().block.slenderness;
     auto controlled = odeint::make_controlled<Stepper>(allowed, S(tolerance));
     Stepper plain;
 

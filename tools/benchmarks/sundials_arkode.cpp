@@ -22,7 +22,7 @@ std::vector<PeerEnd<double>> solve_by_arkode(const PeerProblem& problem, double 
     const double first_step = std::pow(tolerance, 0.2);
     ERKStepSetUserData(memory, &current);
     ERKStepSetTableNum(memory, ARKODE_DORMAND_PRINCE_7_4_5);
-    ERKStepSStolerances(memory, tolerance, tolerance * problem.points.front().slenderness);
+    ERKStepSStolerances(memory, tolerance, tolerance * problem.points.front().block.slenderness);
     ERKStepSetMaxNumSteps(memory, 1 << 20);
     ERKStepRootInit(memory, 2, rocking_gaps);
     ERKStepSetRootDirection(memory, const_cast<int*>(closing_gaps));

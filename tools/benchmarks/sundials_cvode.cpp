@@ -21,7 +21,7 @@ std::vector<PeerEnd<double>> solve_by_cvode_adams(const PeerProblem& problem, do
     SUNNonlinearSolver corrector = SUNNonlinSol_FixedPoint(state.vector(), 0, state.context());
     CVodeSetNonlinearSolver(memory, corrector);
     CVodeSetUserData(memory, &current);
-    CVodeSStolerances(memory, tolerance, tolerance * problem.points.front().slenderness);
+    CVodeSStolerances(memory, tolerance, tolerance * problem.points.front().block.slenderness);
     CVodeSetMaxNumSteps(memory, 1 << 20);
     CVodeRootInit(memory, 2, rocking_gaps);
     CVodeSetRootDirection(memory, const_cast<int*>(closing_gaps));
