@@ -1,6 +1,9 @@
 """The peer benchmark: compares overturn's kernels with alternative solvers on the same points, at
 the same error relative to the same reference, in turns on one core."""
 
+import importlib
+import importlib.metadata
+import importlib.util
 import json
 import math
 import pathlib
@@ -21,7 +24,8 @@ SAMPLE_SECONDS = 0.05
 NAME_WIDTH = 36  # the longest name and a gap
 
 EXPLANATION = """\
-Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy: the paper's block under
+Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy, and with heyoka.py (from PyPI) if the
+Python that runs this has it: the paper's block under
 a one-sine pulse, frequency 0.5 to 8 by amplitude 1.2 to 12. For each solver and target error, it
 finds the loosest tolerance whose error is within the target (99th percentile, over the points that
 do not overturn, of the larger of the errors of angle and velocity at the end of the pulse), then
@@ -42,7 +46,7 @@ EXPLANATION_OF_ROWS = """\
 odeint_dopri5 finds events on its dense output of order 4, _restepping by repeated steps to the
 event. The peers use sine and cosine of the C library, _our_sines uses overturn's polynomials.
 scipy_rk45: error and time on up to {side} x {side} points spread over the plane; all others on
-every point."""
+every point. heyoka_taylor: the batch mode of heyoka.py, called from Python."""
 
 
 def add_arguments(parser):
@@ -111,20 +115,19 @@ class ProgramSolver:
         return self.program.measure(self.name, tolerance, SAMPLE_SECONDS)["us_per_point"]
 
 
-class ScipySolver:
-    """SciPy on a subset of the points, for both time and error."""
+class PythonSolver:
+    """A module on a subset of the points, for both time and error."""
 
-    name = "scipy_rk45"
     tightest = TIGHTEST["other"]
 
-    def __init__(self, program, samples, error_unit):
-        import scipy_rk45
-        self.measure = scipy_rk45.measure
+    def __init__(self, name, program, samples, error_unit, side):
+        self.name = name
+        self.measure = importlib.import_module(name).measure
         self.samples, self.error_unit = samples, error_unit
         lines = program.reference_file.read_text().splitlines()[1:]
         rows = [[float(word) for word in line.split()] for line in lines]
         points = program.ground.points
-        side = min(program.ground.scipy_side, points)
+        side = min(side, points)
         spread = [(2 * i + 1) * points // (2 * side) for i in range(side)]
         chosen = [rows[i * points + j] for i in spread for j in spread]
         self.points = [row[:4] for row in chosen]
@@ -166,13 +169,15 @@ def check_verdicts(program, solvers):
 def machine(about):
     import numpy
     import scipy
+    packages = {package: importlib.metadata.version(package) for package in ("heyoka",)
+                if importlib.util.find_spec(package)}
     model = next((line.split(":", 1)[1].strip()
                   for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                   if line.startswith("model name")), platform.processor())
     return {"cpu": model, "kernel": about["kernel"], "compiler": about["compiler"],
             "libraries": {"boost": about["boost"], "gsl": about["gsl"],
                           "sundials": about["sundials"], "scipy": scipy.__version__,
-                          "numpy": numpy.__version__, "python": platform.python_version()}}
+                          "numpy": numpy.__version__, "python": platform.python_version(), **packages}}
 
 
 def find_tolerances(solvers, targets):
@@ -262,7 +267,9 @@ def run(options):
     reference = check_reference(program)
     check_verdicts(program, about["solvers"])
     solvers = [ProgramSolver(program, name) for name in about["solvers"]]
-    solvers.append(ScipySolver(program, samples, reference["error_unit"]))
+    solvers.append(PythonSolver("scipy_rk45", program, samples, reference["error_unit"], ground.scipy_side))
+    if not samples and importlib.util.find_spec("heyoka"):
+        solvers.append(PythonSolver("heyoka_taylor", program, samples, reference["error_unit"], ground.points))
     print("tolerances for the target errors:", flush=True)
     matched = find_tolerances(solvers, ground.targets)
     print("times:", flush=True)

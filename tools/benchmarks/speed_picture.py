@@ -15,14 +15,14 @@ LABELS = {
     "overturn_rk45": "overturn, rk45", "overturn_taylor": "overturn, taylor",
     "odeint_dopri5": "Boost.odeint dopri5", "gsl_rk8pd": "GSL rk8pd",
     "arkode_dopri5": "SUNDIALS ARKODE dopri5", "cvode_adams": "SUNDIALS CVODE Adams",
-    "scipy_rk45": "SciPy RK45",
+    "scipy_rk45": "SciPy RK45", "heyoka_taylor": "heyoka.py, batches",
 }
 OURS = {"overturn_rk45": "#1b6ca8", "overturn_taylor": "#c8422b"}
 PEERS = "#767676"
 RAISED = {"arkode_dopri5": 5, "cvode_adams": -5}  # labels that would overlap [points]
 COMPARED_AT = 1e-9  # [rad]
 MARKERS = {"odeint_dopri5": "o", "gsl_rk8pd": "s", "arkode_dopri5": "^", "cvode_adams": "v",
-           "scipy_rk45": "D"}
+           "scipy_rk45": "D", "heyoka_taylor": "P"}
 
 
 def add_arguments(parser):
