@@ -71,7 +71,7 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const char* outpu
              fmt::format("Result file; default: {} in the working directory", output));
     command
         .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
-        ->check(CLI::IsMember({"auto", "double", "avx2", "avx512"}))
+        ->check(CLI::IsMember({"auto", "double", "neon", "avx2", "avx512"}))
         ->capture_default_str();
     command.add_flag("--durable", options.durable,
                      "Sync each tile to disk, so that it survives a power failure; slower");

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 std::string kernels_text()
 {
     std::string text;
-    for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
+    for (int i = 0; i < int(kernel_names.size()); ++i) {
+        const auto kernel = Kernel(i);
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name_of(kernel),
                             !is_compiled(kernel)      ? "not in this build"
                             : !processor_runs(kernel) ? "not supported by this processor"

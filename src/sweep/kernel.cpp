@@ -20,6 +20,7 @@ namespace overturn {
     }
 
 OVERTURN_DECLARE(double)
+OVERTURN_DECLARE(neon)
 OVERTURN_DECLARE(avx2)
 OVERTURN_DECLARE(avx512)
 
@@ -31,6 +32,9 @@ constexpr std::array<SweepKernelChoice, 5> compiled(Kernel kernel)
     switch (kernel) {
 #ifdef OVERTURN_KERNEL_double
     case Kernel::one_lane: return OVERTURN_LIST(double);
+#endif
+#ifdef OVERTURN_KERNEL_neon
+    case Kernel::neon: return OVERTURN_LIST(neon);
 #endif
 #ifdef OVERTURN_KERNEL_avx2
     case Kernel::avx2: return OVERTURN_LIST(avx2);
@@ -61,12 +65,12 @@ bool processor_runs(Kernel kernel)
     // The kernels are compiled for x86-64-v3 and v4; these features identify them.
     const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                        __builtin_cpu_supports("bmi2");
-    if (kernel != Kernel::avx512) {
-        return is_v3;
-    }
-    return is_v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512cd");
+    const bool is_v4 = is_v3 && __builtin_cpu_supports("avx512f") &&
+                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
+    return kernel == Kernel::avx512 ? is_v4 : kernel != Kernel::neon && is_v3;
+#elif defined(__aarch64__)
+    return kernel == Kernel::one_lane || kernel == Kernel::neon;
 #else
     return kernel == Kernel::one_lane;
 #endif
@@ -79,7 +83,8 @@ bool runs_here(Kernel kernel)
 
 Kernel widest_kernel()
 {
-    for (const Kernel kernel : {Kernel::avx512, Kernel::avx2, Kernel::one_lane}) {
+    for (const Kernel kernel :
+         {Kernel::avx512, Kernel::avx2, Kernel::neon, Kernel::one_lane}) {
         if (runs_here(kernel)) {
             return kernel;
         }

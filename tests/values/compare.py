@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares every value that two builds of overturn store for the same jobs.
 
-    compare.py OLD NEW [--only NAME]
+    compare.py OLD NEW [--only NAME] [--figure-points N]
 
 OLD and NEW are programs. Both run the jobs of jobs/ and of tests/values/jobs, some of them also as
 boundaries, histories and accuracy studies. Every number and text in a result of OLD must be in that of
@@ -10,7 +10,8 @@ bytes on several ranks and with every kernel, and both must give the same answer
 Attributes that differ and new coordinates are reported only. stored_values.py lists the intended
 differences between formats; programs of format 3 read the jobs in the older spelling of r / r_max.
 
---only chooses the comparisons whose names contain NAME. A few minutes; MPIEXEC starts the ranks."""
+--only chooses the comparisons whose names contain NAME; --figure-points sets the points of both axes of the figures of
+the paper, by default 400. A few minutes; MPIEXEC starts the ranks."""
 
 import argparse
 import collections
@@ -30,8 +31,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ["jobs", "tests/values/jobs"]
 MPIEXEC = os.environ.get("MPIEXEC", "mpirun")
 
-# Keys of smaller spectra, by the name of the job: those of the paper's figures, and others.
-FIGURE = ["plane.frequency.count=400", "plane.amplitude.count=400"]
+FIGURE_AXES = ["frequency", "amplitude"]  # of the jobs of the paper's figures
+# Keys of smaller spectra, by the name of the job.
 SMALLER = {"synthetic": ["plane.scale.count=70", "plane.size.count=70"],
            "fragility": ["plane.scale.count=10"]}
 RECORDS_OF_SUITE = "4"
@@ -122,10 +123,11 @@ def write_older_jobs(folder):
 class Comparison:
     """Both programs, in a folder with the jobs; what was found."""
 
-    def __init__(self, old, new, only):
+    def __init__(self, old, new, only, figure_points):
         self.programs = {"old": old, "new": new}
         self.folders = {"old": pathlib.Path(), "new": pathlib.Path()}  # of their jobs
         self.only = only
+        self.figure = [f"plane.{axis}.count={figure_points}" for axis in FIGURE_AXES]
         self.kernels = ["double", "avx2", "avx512"]
         self.failures = 0
         self.notes = collections.Counter()
@@ -143,7 +145,7 @@ class Comparison:
         folders = (pathlib.Path(folder) for folder in FOLDERS)
         jobs = {path.stem: path for folder in folders for path in sorted(folder.glob("**/*.toml"))}
         for name, job in jobs.items():
-            self.results("run", job, FIGURE if name.startswith("figure") else SMALLER.get(name, []))
+            self.results("run", job, self.figure if name.startswith("figure") else SMALLER.get(name, []))
         for name, *keys in BOUNDARIES:
             self.results("boundary", jobs[name], keys)
         for name, at, *keys in HISTORIES:
@@ -225,11 +227,13 @@ def main():
     for program in ("old", "new"):
         parser.add_argument(program, type=pathlib.Path, metavar=program.upper())
     parser.add_argument("--only", metavar="NAME", default="")
+    parser.add_argument("--figure-points", metavar="N", type=int, default=400)
     options = parser.parse_args()
     for program in (options.old, options.new):
         if not os.access(program, os.X_OK):
             parser.error(f"{program} is not a program")
-    comparison = Comparison(options.old.resolve(), options.new.resolve(), options.only)
+    comparison = Comparison(options.old.resolve(), options.new.resolve(), options.only,
+                            options.figure_points)
     with tempfile.TemporaryDirectory() as scratch:
         for folder in FOLDERS:
             shutil.copytree(ROOT / folder, pathlib.Path(scratch) / folder,

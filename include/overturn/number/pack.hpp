@@ -84,6 +84,14 @@ private:
         return xsimd::bitwise_cast<integers>(index + pack(0x1p+52)) ^
                integers(number_traits<double>::two_to_52_bits);
     }
+#ifdef __aarch64__
+    static std::array<pack, 2> pairs_at(const double* from, const std::uint64_t* at, xsimd::neon64)
+    {
+        const float64x2_t first = vld1q_f64(from + at[0]);
+        const float64x2_t second = vld1q_f64(from + at[1]);
+        return {vzip1q_f64(first, second), vzip2q_f64(first, second)};
+    }
+#endif
 #ifdef __AVX2__
     static __m256d two_pairs(const double* first, const double* second)
     {

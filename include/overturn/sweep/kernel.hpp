@@ -10,11 +10,12 @@ namespace overturn {
 
 /// A lane width with its instruction set, as --kernel names it. Where one function is meant, a
 /// kernel is one of those compiled for this width. All widths give identical bits. one_lane
-/// computes one point at a time. On x86-64 it uses the instructions of avx2 and is for debugging
-/// and comparison; on other processors it is the only width.
-enum class Kernel { one_lane, avx2, avx512 };
+/// computes one point at a time. On x86-64 it uses the instructions of avx2; there and on 64-bit ARM,
+/// where neon has two lanes, it is for debugging and comparison.
+enum class Kernel { one_lane, neon, avx2, avx512 };
 
-inline constexpr std::array<std::string_view, 3> kernel_names{"double", "avx2", "avx512"};
+/// From the narrowest to the widest.
+inline constexpr std::array<std::string_view, 4> kernel_names{"double", "neon", "avx2", "avx512"};
 constexpr std::string_view name_of(Kernel kernel)
 {
     return kernel_names[std::size_t(kernel)];
