@@ -79,7 +79,10 @@ constexpr auto product = [](const Scene&, const Values& of) { return of[0] * of[
 constexpr auto ratio = [](const Scene&, const Values& of) { return of[0] / of[1]; };
 constexpr auto sum = [](const Scene&, const Values& of) { return of[0] + of[1]; };
 constexpr auto difference = [](const Scene&, const Values& of) { return of[0] - of[1]; };
-constexpr auto distance = [](const Scene&, const Values& of) { return std::hypot(of[0], of[1]); };
+/// Not std::hypot: that of the C library rounds differently on other processors.
+constexpr auto distance = [](const Scene&, const Values& of) {
+    return std::sqrt(of[0] * of[0] + of[1] * of[1]);
+};
 constexpr auto arctan = [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); };
 constexpr auto period = [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); };
 
