@@ -83,8 +83,7 @@ bool runs_here(Kernel kernel)
 
 Kernel widest_kernel()
 {
-    for (const Kernel kernel :
-         {Kernel::avx512, Kernel::avx2, Kernel::neon, Kernel::one_lane}) {
+    for (const Kernel kernel : {Kernel::avx512, Kernel::avx2, Kernel::neon, Kernel::one_lane}) {
         if (runs_here(kernel)) {
             return kernel;
         }

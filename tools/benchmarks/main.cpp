@@ -152,8 +152,8 @@ void write_reference(const std::string& path, const PeerProblem& problem, const 
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const Point& point = problem.points[i];
         file << fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.21Lg} {:.21Lg} {} {}\n",
-                            point.block.slenderness, point.block.restitution, point.amplitude, point.frequency,
-                            ends[i].angle, ends[i].velocity, int(ends[i].region),
+                            point.block.slenderness, point.block.restitution, point.amplitude,
+                            point.frequency, ends[i].angle, ends[i].velocity, int(ends[i].region),
                             int(ends[i].compared));
     }
     if (!file.flush()) {

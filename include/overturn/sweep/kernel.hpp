@@ -10,8 +10,8 @@ namespace overturn {
 
 /// A lane width with its instruction set, as --kernel names it. Where one function is meant, a
 /// kernel is one of those compiled for this width. All widths give identical bits. one_lane
-/// computes one point at a time. On x86-64 it uses the instructions of avx2; there and on 64-bit ARM,
-/// where neon has two lanes, it is for debugging and comparison.
+/// computes one point at a time. On x86-64 it uses the instructions of avx2; there and on 64-bit
+/// ARM, where neon has two lanes, it is for debugging and comparison.
 enum class Kernel { one_lane, neon, avx2, avx512 };
 
 /// From the narrowest to the widest.
