@@ -79,9 +79,13 @@ constexpr auto product = [](const Scene&, const Values& of) { return of[0] * of[
 constexpr auto ratio = [](const Scene&, const Values& of) { return of[0] / of[1]; };
 constexpr auto sum = [](const Scene&, const Values& of) { return of[0] + of[1]; };
 constexpr auto difference = [](const Scene&, const Values& of) { return of[0] - of[1]; };
-/// Not std::hypot: that of the C library rounds differently on other processors.
+/// Not std::hypot: that of the C library rounds differently on other processors. The unit, a power
+/// of two, keeps the squares within the range of doubles.
 constexpr auto distance = [](const Scene&, const Values& of) {
-    return std::sqrt(of[0] * of[0] + of[1] * of[1]);
+    const double unit = std::ldexp(1.0, std::ilogb(std::max(std::abs(of[0]), std::abs(of[1]))));
+    const double x = of[0] / unit;
+    const double y = of[1] / unit;
+    return unit * std::sqrt(x * x + y * y);
 };
 constexpr auto arctan = [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); };
 constexpr auto period = [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); };

@@ -55,6 +55,20 @@ TEST(Coordinates, OfABlockFollowFromEveryDescriptionOfIt)
     }
 }
 
+TEST(Coordinates, OfABlockOfAnySizeScaleExactly)
+{
+    const auto size_of = [](double scale) {
+        const Grid grid = grid_of({}, {number("width", width * scale),
+                                       number("height", height * scale), number("restitution", 0.8),
+                                       number("amplitude", 2), number("frequency", 3)});
+        return value_of({}, grid, "size");
+    };
+    for (const double scale :
+         {0x1p-560, 0x1p-3, 0x1p+560}) { // squares are beyond the range of doubles
+        EXPECT_EQ(size_of(scale), scale * size_of(1));
+    }
+}
+
 TEST(Coordinates, OfAPulseFollowFromEveryDescriptionOfIt)
 {
     const double frequency = 2 * pi / (0.7 * p);
