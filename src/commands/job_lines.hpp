@@ -3,24 +3,12 @@
 #pragma once
 
 #include "overturn/job/job.hpp"
-#include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/contact.hpp"
 #include "overturn/problem/coordinates.hpp"
-#include "overturn/problem/given.hpp"
-#include "overturn/text/quoting.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace overturn {
@@ -31,224 +19,30 @@ inline double in_degrees(double angle)
 }
 
 /// The extent of a coordinate over all points of a job; nullopt if the coordinate is not known.
-inline std::optional<Extent> extent_of(const Job& job, std::string_view name)
-{
-    const Grid corners = corners_of(job.problem.grid);
-    const Coordinates coordinates(job.problem.scene, corners);
-    return coordinates.has(name) ? std::optional(extent_of(coordinates.of(name))) : std::nullopt;
-}
-
-inline std::string degrees_text(const Extent& angle)
-{
-    return Extent{in_degrees(angle.first), in_degrees(angle.last)}.text(" degrees");
-}
-
-/// What describes blocks with two different sides: alpha, p and R of the sides plus and minus,
-/// r_max.
-inline std::string two_sides_line(const Job& job)
-{
-    const auto of_both = [&](std::string_view plus, std::string_view minus, const auto& text) {
-        return fmt::format("{} (+), {} (-)", text(*extent_of(job, plus)),
-                           text(*extent_of(job, minus)));
-    };
-    const auto in = [](std::string_view unit) {
-        return [unit](const Extent& extent) { return extent.text(unit); };
-    };
-    return fmt::format("alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
-                       of_both("slenderness_plus", "slenderness_minus", degrees_text),
-                       of_both("size_plus", "size_minus", in(" m")),
-                       of_both("frequency_parameter", "frequency_parameter_minus", in(" 1/s")),
-                       job.problem.scene.gravity, extent_of(job, "largest_restitution")->text(""),
-                       job.blocks ? ", r = " + extent_of(job, "restitution")->text("") : "");
-}
+std::optional<Extent> extent_of(const Job& job, std::string_view name);
 
 /// r_max of the only block of a job, if it exists.
-inline std::optional<double> r_max_of_only_block(const Job& job)
-{
-    return job.problem.grid.has_two_sides()
-               ? std::optional(extent_of(job, "largest_restitution")->first)
-               : r_max_of(extent_of(job, "slenderness")->first);
-}
+std::optional<double> r_max_of_only_block(const Job& job);
 
-inline std::string block_line(const Job& job)
-{
-    std::string line;
-    if (job.blocks) {
-        line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
-    }
-    if (job.problem.grid.has_two_sides()) {
-        return line + two_sides_line(job);
-    }
-    const Extent alpha = *extent_of(job, "slenderness");
-    line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
-    if (job.blocks) {
-        line += ", r = " + extent_of(job, "restitution")->text("");
-    } else if (const auto least = r_max_of(alpha.last)) {
-        line += ", r_max = " + Extent{*least, largest_restitution(alpha.first)}.text("");
-    }
-    if (const auto size = extent_of(job, "size")) {
-        line += fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
-                            extent_of(job, "frequency_parameter")->text(" 1/s"),
-                            job.problem.scene.gravity);
-    }
-    return line;
-}
+std::string block_line(const Job& job);
 
 /// A line about the friction coefficients that rocking needs.
-inline std::string contact_line(const Job& job)
-{
-    constexpr double large = 0.7;
-    constexpr double never = std::numeric_limits<double>::infinity();
-    Extent lift{never, 0};
-    Extent impact{never, 0};
-    const auto include = [](Extent& extent, double value) {
-        extent = {std::min(extent.first, value), std::max(extent.last, value)};
-    };
-    const Grid corners = corners_of(job.problem.grid);
-    for (const Point& point : Coordinates(job.problem.scene, corners).points()) {
-        const ContactSides<double> sides(point.block, point.gyration);
-        const Block<double> other = point.block.turned();
-        include(lift, friction_to_lift(sides.plus, point.block.slenderness));
-        include(lift, friction_to_lift(sides.minus, other.slenderness));
-        include(impact, friction_of_impact(point.block, sides.plus, sides.minus));
-        include(impact, friction_of_impact(other, sides.minus, sides.plus));
-    }
-    const auto text = [](const Extent& extent) {
-        return extent.first == extent.last
-                   ? fmt::format("{:.3g}", extent.first)
-                   : fmt::format("{:.3g} to {:.3g}", extent.first, extent.last);
-    };
-    return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
-                       text(lift), text(impact),
-                       lift.last > large ? fmt::format("; few contacts have more than {}", large)
-                                         : "");
-}
+std::string contact_line(const Job& job);
 
-inline std::string ground_line(const Job& job)
-{
-    std::string line = "peak " + extent_of(job, "pga")->text(" g");
-    if (const auto period = extent_of(job, "pulse_period")) {
-        line = fmt::format("period {}, {}", period->text(" s"), line);
-    }
-    const Dimension* table = job.problem.grid.table();
-    const auto has = [&](Role role) {
-        return table != nullptr && std::ranges::any_of(table->columns, [&](const Column& column) {
-                   return column.quantity->role == role;
-               });
-    };
-    if (has(Role::motion) || has(Role::rate)) {
-        line += has(Role::motion) ? ", each block under a record of its own"
-                                  : ", each block under a pulse of its own";
-    }
-    return line;
-}
-
-/// Lines of a large suite beyond this number are left out.
-inline constexpr std::size_t most_record_lines = 10;
-
-inline void shorten(std::vector<std::string>& lines)
-{
-    if (lines.size() > most_record_lines) {
-        const std::size_t more = lines.size() - most_record_lines;
-        lines.resize(most_record_lines);
-        lines.push_back(fmt::format("and {} more {}", more, noun_of(more, "records")));
-    }
-}
-
-/// A line for each record whose accelerations are those of an earlier one under another name.
-inline std::vector<std::string> lines_of_equal_records(const Job& job)
-{
-    std::vector<std::string> lines;
-    std::map<std::pair<std::string, double>, std::string> names;
-    for (std::size_t i = 0; i < job.motions.size(); ++i) {
-        const Motion& motion = job.motions[i];
-        const double time_step = job.problem.scene.records[i]->time_step();
-        const auto [first, is_new] =
-            names.emplace(std::pair(motion.checksum, time_step), motion.name);
-        if (!is_new) {
-            lines.push_back(printable(
-                fmt::format("{}: the same accelerations as {}; it counts as another motion",
-                            motion.name, first->second)));
-        }
-    }
-    shorten(lines);
-    return lines;
-}
+std::string ground_line(const Job& job);
 
 /// A line for each record: its file, components, duration and intensity. Then a line for each that
 /// equals another one.
-inline std::vector<std::string> record_lines(const Job& job)
-{
-    std::vector<std::string> lines;
-    for (std::size_t i = 0; i < job.motions.size(); ++i) {
-        const Motion& motion = job.motions[i];
-        const Accelerogram& record = *job.problem.scene.records[i];
-        const std::string component =
-            (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
-            (motion.second.empty() ? ""
-                                   : fmt::format(", second {} up to {:.3g} g", motion.second,
-                                                 record.in_direction(90).peak())) +
-            (motion.vertical.empty() ? ""
-                                     : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
-                                                   record.upwards_peak())) +
-            (motion.is_uncorrected ? ", not corrected" : "");
-        lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
-                                              motion.file, component, record.samples(),
-                                              double(record.samples() - 1) * record.time_step(),
-                                              motion.measures.pga, motion.measures.pgv)));
-    }
-    shorten(lines);
-    const std::vector<std::string> equal = lines_of_equal_records(job);
-    lines.insert(lines.end(), equal.begin(), equal.end());
-    return lines;
-}
+std::vector<std::string> record_lines(const Job& job);
 
 /// A line for each record whose vertical motion cancels gravity at some scale of the job.
-inline std::vector<std::string> free_fall_lines(const Job& job)
-{
-    std::vector<std::string> lines;
-    const Scene& scene = job.problem.scene;
-    if (!scene.is_recorded()) {
-        return lines;
-    }
-    const std::vector<ScaleRange> scales = scales_of(scene, job.problem.grid);
-    for (std::size_t i = 0; i < scales.size(); ++i) {
-        const double largest = scene.records[i]->free_fall_scale();
-        if (std::isfinite(largest) && !(scales[i].largest < largest)) {
-            lines.push_back(printable(fmt::format(
-                "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
-                "are undecided (status 16, free_fall)",
-                job.motions[i].name, largest)));
-        }
-    }
-    shorten(lines);
-    return lines;
-}
+std::vector<std::string> free_fall_lines(const Job& job);
 
 /// The names of the columns of the table of a job that describe nothing of a point; empty if there
 /// are none.
-inline std::string unused_columns(const Job& job)
-{
-    if (!job.blocks) {
-        return "";
-    }
-    auto names = job.blocks->table.columns | std::views::transform(&TableColumn::name) |
-                 std::views::filter([&](const std::string& name) {
-                     return !job.problem.grid.has_table_column(name);
-                 });
-    return printable(fmt::format("{}", fmt::join(names, ", ")));
-}
+std::string unused_columns(const Job& job);
 
 /// What a reader of the log of a run must know of its records and columns.
-inline std::vector<std::string> notes_on(const Job& job)
-{
-    std::vector<std::string> lines = lines_of_equal_records(job);
-    const std::vector<std::string> free_fall = free_fall_lines(job);
-    lines.insert(lines.end(), free_fall.begin(), free_fall.end());
-    if (const std::string names = unused_columns(job); !names.empty()) {
-        lines.push_back("columns without effect: " + names);
-    }
-    return lines;
-}
+std::vector<std::string> notes_on(const Job& job);
 
 } // namespace overturn

@@ -19,6 +19,7 @@
 #include "overturn/job/job.hpp"
 #include "overturn/problem/problem_bytes.hpp"
 #include "overturn/sweep/compute_tile.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 

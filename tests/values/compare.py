@@ -31,7 +31,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ["jobs", "tests/values/jobs"]
 MPIEXEC = os.environ.get("MPIEXEC", "mpirun")
 
-FIGURE_AXES = ["frequency", "amplitude"]  # of the jobs of the paper's figures
 # Keys of smaller spectra, by the name of the job.
 SMALLER = {"synthetic": ["plane.scale.count=70", "plane.size.count=70"],
            "fragility": ["plane.scale.count=10"]}
@@ -127,7 +126,7 @@ class Comparison:
         self.programs = {"old": old, "new": new}
         self.folders = {"old": pathlib.Path(), "new": pathlib.Path()}  # of their jobs
         self.only = only
-        self.figure = [f"plane.{axis}.count={figure_points}" for axis in FIGURE_AXES]
+        self.figure = [f"plane.{axis}.count={figure_points}" for axis in ("frequency", "amplitude")]
         self.kernels = ["double", "avx2", "avx512"]
         self.failures = 0
         self.notes = collections.Counter()

@@ -169,15 +169,14 @@ def check_verdicts(program, solvers):
 def machine(about):
     import numpy
     import scipy
-    packages = {package: importlib.metadata.version(package) for package in ("heyoka",)
-                if importlib.util.find_spec(package)}
+    heyoka = {"heyoka": importlib.metadata.version("heyoka")} if importlib.util.find_spec("heyoka") else {}
     model = next((line.split(":", 1)[1].strip()
                   for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                   if line.startswith("model name")), platform.processor())
     return {"cpu": model, "kernel": about["kernel"], "compiler": about["compiler"],
             "libraries": {"boost": about["boost"], "gsl": about["gsl"],
                           "sundials": about["sundials"], "scipy": scipy.__version__,
-                          "numpy": numpy.__version__, "python": platform.python_version(), **packages}}
+                          "numpy": numpy.__version__, "python": platform.python_version(), **heyoka}}
 
 
 def find_tolerances(solvers, targets):

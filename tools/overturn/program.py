@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
 from overturn import datasets
-from overturn.checkout import is_program, overturn_path
+from overturn.checkout import IS_CHECKOUT, is_program, overturn_path
 
 if TYPE_CHECKING:
     import xarray
@@ -82,8 +82,10 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 def _output_of(command, path, job):
     program = overturn_path()
     if not is_program(program):
-        raise ProgramError(f"there is no program \"{program}\". Build it (tools/quickstart does), or set OVERTURN "
-                           "to the path of another one.", 2)
+        is_named = IS_CHECKOUT or os.environ.get("OVERTURN")
+        looked_for = f"program \"{program}\"" if is_named else "program overturn on the PATH"
+        raise ProgramError(f"there is no {looked_for}. Build it (tools/quickstart does), or set OVERTURN to the path of "
+                           "another one.", 2)
     try:
         done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, errors="replace")
