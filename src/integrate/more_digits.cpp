@@ -2,7 +2,7 @@
 
 namespace overturn {
 
-OVERTURN_MORE_DIGITS(template, long double, PulseExcitation<long double>)
+OVERTURN_MORE_DIGITS(template, Digits31, PulseExcitation<Digits31>)
 OVERTURN_MORE_DIGITS(template, Digits50, PulseExcitation<Digits50>)
 OVERTURN_MORE_DIGITS(template, Digits50, RecordExcitation<Digits50, Directions::both>)
 

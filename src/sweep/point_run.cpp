@@ -31,6 +31,39 @@ std::vector<std::shared_ptr<const Accelerogram>> records_of(const Scene& scene,
     return records;
 }
 
+Digits31 in_31_digits(const Digits50& x)
+{
+    const double high(x);
+    return {high, double(x - high)};
+}
+
+PerLobe<Digits31> in_31_digits(const PerLobe<Digits50>& exact)
+{
+    PerLobe<Digits31> result;
+    for (const Digits50& number : exact) {
+        result.push_back(in_31_digits(number));
+    }
+    return result;
+}
+
+/// The functions that an excitation is made with are not defined in 31 digits.
+PulseExcitation<Digits31> in_31_digits(const PulseExcitation<Digits50>& exact)
+{
+    const PulseMotion<Digits50>& motion = exact.motion;
+    return {{motion.pulse,
+             motion.form,
+             in_31_digits(motion.begin),
+             in_31_digits(motion.end),
+             in_31_digits(motion.kink),
+             in_31_digits(motion.fastest),
+             {in_31_digits(motion.sine.scale), in_31_digits(motion.sine.q),
+              in_31_digits(motion.sine.sine_of_nu), in_31_digits(motion.sine.cosine_of_nu)},
+             in_31_digits(motion.peaks)},
+            in_31_digits(exact.acceleration),
+            in_31_digits(exact.frequency),
+            in_31_digits(exact.uplifts)};
+}
+
 } // namespace
 
 Outcomes::Outcomes(std::size_t points, const Outputs& wanted)
@@ -130,7 +163,7 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
 {
     const Point& at = this->point(point);
     const Block<T> block = block_in<T>(at.block);
-    if constexpr (!std::same_as<T, long double>) { // only for pulses
+    if constexpr (!std::same_as<T, Digits31>) { // only for pulses
         if (const Accelerogram* record = record_of(point)) {
             return visit(
                 record_excitation<theory>(*record, block, T(at.amplitude), T(at.frequency)));
@@ -141,8 +174,14 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         return visit(
             PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
     } else {
-        return visit(pulse_excitation<theory>(pulse_motion<T>(scene_.pulse, scene_.shape), block,
-                                              T(at.amplitude), T(at.frequency)));
+        const auto exact = pulse_excitation<theory>(
+            pulse_motion<Digits50>(scene_.pulse, scene_.shape), block_in<Digits50>(at.block),
+            Digits50(at.amplitude), Digits50(at.frequency));
+        if constexpr (std::same_as<T, Digits31>) {
+            return visit(in_31_digits(exact));
+        } else {
+            return visit(exact);
+        }
     }
 }
 
@@ -162,8 +201,14 @@ void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vect
 
 void PointRun::run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const
 {
-    constexpr double tolerance = 1e-29;
-    run_to({Integrator::recorded_31, tolerance, UncertainImpact::go_on}, outcomes, chosen);
+    if (scene_.is_recorded()) {
+        run_to({Integrator::recorded_31, MoreDigits<Digits31>::tolerance, UncertainImpact::go_on},
+               outcomes, chosen);
+        return;
+    }
+    for (const int point : chosen) {
+        run_in_more_digits<Digits31>(point, outcomes);
+    }
 }
 
 void PointRun::run_to(const Accuracy& accuracy, Outcomes& outcomes,
@@ -252,7 +297,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
     });
 }
 
-template void PointRun::run_in_more_digits<long double>(int, Outcomes&) const;
+template void PointRun::run_in_more_digits<Digits31>(int, Outcomes&) const;
 template void PointRun::run_in_more_digits<Digits50>(int, Outcomes&) const;
 
 namespace {

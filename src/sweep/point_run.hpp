@@ -101,11 +101,11 @@ public:
     void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
              UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
-    /// The same in 31 digits, under records only. Region, margin and error are computed before the
-    /// end is rounded to double.
+    /// The same in 31 digits. Region, margin and error are computed before the end is rounded to
+    /// double.
     void run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const;
 
-    /// Integrates one point in more digits, T: long double, only under a pulse, or Digits50.
+    /// Integrates one point in more digits, T: Digits31, only under a pulse, or Digits50.
     /// Region, margin and error are computed before the end is rounded to double.
     template <class T>
     void run_in_more_digits(int point, Outcomes& outcomes) const;

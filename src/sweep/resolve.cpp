@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace overturn {
 
@@ -43,9 +42,6 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
     return in_doubt;
 }
 
-/// With more digits, a series of bounces takes as many steps as in double.
-constexpr int most_steps_in_31_digits = 20000;
-
 /// Whether a point took at most this number of steps, in addition to one per interval of a record.
 bool is_short(const PointRun& run, int point, int most_steps, const Outcomes& outcomes)
 {
@@ -73,22 +69,13 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
     run.run(most_accurate, outcomes, in_doubt);
     in_doubt = settle_capped(run, in_doubt, 1, outcomes);
     std::erase_if(in_doubt, [&](int point) { return run.settle_low_bounces(point, outcomes); });
-    if (run.scene().is_recorded()) {
-        std::vector<int> chosen;
-        std::ranges::copy_if(in_doubt, std::back_inserter(chosen), [&](int point) {
-            return is_short(run, point, most_steps_in_31_digits, outcomes);
-        });
-        run.run_in_31_digits(outcomes, chosen);
-        std::erase_if(in_doubt, [&](int point) { return is_settled(point, outcomes); });
-    } else if (std::numeric_limits<long double>::digits > std::numeric_limits<double>::digits) {
-        std::erase_if(in_doubt, [&](int point) {
-            if (!is_short(run, point, MoreDigits<long double>::most_steps, outcomes)) {
-                return false;
-            }
-            run.run_in_more_digits<long double>(point, outcomes);
-            return is_settled(point, outcomes);
-        });
-    }
+    // With more digits, a series of bounces takes as many steps as in double.
+    std::vector<int> chosen;
+    std::ranges::copy_if(in_doubt, std::back_inserter(chosen), [&](int point) {
+        return is_short(run, point, MoreDigits<Digits31>::most_steps, outcomes);
+    });
+    run.run_in_31_digits(outcomes, chosen);
+    std::erase_if(in_doubt, [&](int point) { return is_settled(point, outcomes); });
     for (const int point : in_doubt) {
         bool settled = false;
         if (outcomes.in_50_digits < most_in_50_digits &&

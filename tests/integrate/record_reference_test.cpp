@@ -21,9 +21,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double exact_margin(const LinearEnd& end, const RecordPoint& point)
 {
-    const Block<long double> block{point.block.slenderness, point.block.restitution};
-    const State<long double> state{end.tilt, end.rate, end.side};
-    return double(end.fell ? margin_of_fall<Theory::linear>(end.rate, block)
+    const Block<Digits50> block{point.block.slenderness, point.block.restitution};
+    const State<Digits50> state{end.tilt, end.rate, end.side};
+    return double(end.fell ? margin_of_fall<Theory::linear>(state.rate, block)
                            : margin_after_pulse<Theory::linear>(state, block));
 }
 

@@ -111,9 +111,30 @@ TEST(DoubleDouble, TheSineOfASmallAngleIsAccurateToTheLastDigit)
     }
 }
 
-TEST(DoubleDouble, PiIsThatOf31Digits)
+TEST(DoubleDouble, TheExponentialIsAccurateTo30Digits)
+{
+    std::mt19937_64 generator(1);
+    for (const double largest : {1e-20, 1e-3, 0.35, 30.0, 600.0}) {
+        std::uniform_real_distribution<double> uniform(0, largest);
+        double error = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double high = uniform(generator);
+            const Digits31 x = Digits31(high) + Digits31(high * 0x1.23p-55);
+            const Digits50 exact = exp(-exactly(x));
+            error =
+                std::max(error, std::abs(double((exactly(exponential_decay(x)) - exact) / exact)));
+        }
+        EXPECT_LT(error, 1e-30 + largest * 0x1p-106) << largest; // that of x itself
+    }
+    EXPECT_EQ(double(exponential_decay(Digits31(0)) - Digits31(1)), 0);
+}
+
+TEST(DoubleDouble, ConstantsAreThoseOf31Digits)
 {
     EXPECT_LT(std::abs(double(exactly(pi<Digits31>()) - pi<Digits50>())), 2 * u_squared);
+    EXPECT_LT(std::abs(double(exactly(number_traits<Digits31>::ln_two()) -
+                              number_traits<Digits50>::ln_two())),
+              u_squared);
 }
 
 TEST(DoubleDouble, ComparesByBothParts)

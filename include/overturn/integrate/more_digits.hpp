@@ -5,6 +5,7 @@
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/number/digits50.hpp"
+#include "overturn/number/double_double.hpp"
 
 #include <functional>
 
@@ -15,11 +16,11 @@ namespace overturn {
 template <class T>
 struct MoreDigits;
 
-/// 19 digits, for pulses: at most a dozen microseconds per step.
+/// For pulses; under a record, a kernel integrates in 31 digits.
 template <>
-struct MoreDigits<long double> {
+struct MoreDigits<Digits31> {
     using Method = Taylor<20>;
-    static constexpr double tolerance = 1e-17;
+    static constexpr double tolerance = 1e-29;
     static constexpr int most_steps = 20000;
 };
 
@@ -33,10 +34,9 @@ struct MoreDigits<Digits50> {
 
 /// Like run_forced_stage(), for one block, with the outputs impacts and error, under a record also
 /// the peak. A run that exceeds `step_limit` steps, in addition to one per interval of a record, is
-/// capped, as is one that stop_requested() ends; it is called every few milliseconds. T: long
-/// double, only under a pulse, or Digits50; excitation: PulseExcitation<T>, or
-/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate. Under a record, a kernel
-/// integrates in 31 digits.
+/// capped, as is one that stop_requested() ends; it is called every few milliseconds. T:
+/// Digits31, only under a pulse, or Digits50; excitation: PulseExcitation<T>, or
+/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
 template <class T, Theory theory, class Excitation>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,
@@ -72,7 +72,7 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
         const Block<T>&, const __VA_ARGS__&, const std::function<bool()>&, double, int);           \
     keyword ForcedEnd<T> run_in_more_digits<T, Theory::linear>(                                    \
         const Block<T>&, const __VA_ARGS__&, const std::function<bool()>&, double, int);
-OVERTURN_MORE_DIGITS(extern template, long double, PulseExcitation<long double>)
+OVERTURN_MORE_DIGITS(extern template, Digits31, PulseExcitation<Digits31>)
 OVERTURN_MORE_DIGITS(extern template, Digits50, PulseExcitation<Digits50>)
 OVERTURN_MORE_DIGITS(extern template, Digits50, RecordExcitation<Digits50, Directions::both>)
 

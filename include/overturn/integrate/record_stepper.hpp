@@ -211,23 +211,6 @@ private:
         }
     }
 
-    /// A bound of the error of the terms that are estimates, see full_terms [rad per unit]. Their
-    /// roundings are at most a few units of the last place of the largest of them. One term may be
-    /// small by chance; the one before it is larger by much more than its weight here.
-    static E error_of_estimates(const Series& series, const E& h)
-    {
-        constexpr int first = full_terms<T, order + 1>;
-        if constexpr (first > order) {
-            return E(0.0);
-        } else {
-            using std::abs;
-            const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
-            const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
-            return E(16 * std::numeric_limits<scalar_t<E>>::epsilon()) * power<first - 1>(h) *
-                   greater<E>(terms, E(size_of(first + 1) * (h * h)));
-        }
-    }
-
     /// With the tilt x, y = x - alpha, the gravity g and the push B, both linear in time,
     ///
     ///     |x''| <= |g| |y| + |B|,   |x'''| <= (|g| + |B|) |x'| + |g'| |y| + |B'|

@@ -46,6 +46,25 @@ struct TaylorStep {
     T highest; ///< [rad]
 };
 
+/// A bound of the error of the terms that are estimates, see full_terms, at h [rad per unit]. Their
+/// roundings are at most a few units of the last place of the largest of them. One term may be
+/// small by chance; the one before it is larger by much more than its weight here.
+template <int order, Number T>
+estimate_t<T> error_of_estimates(const RockingSeries<order, T>& series, const estimate_t<T>& h)
+{
+    using E = estimate_t<T>;
+    constexpr int first = full_terms<T, order + 1>;
+    if constexpr (first > order) {
+        return E(0.0);
+    } else {
+        using std::abs;
+        const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
+        const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
+        return E(16 * std::numeric_limits<scalar_t<E>>::epsilon()) * power<first - 1>(h) *
+               greater<E>(terms, E(size_of(first + 1) * (h * h)));
+    }
+}
+
 template <int order, Theory theory, Number T>
 class TaylorErrors {
     using E = estimate_t<T>;

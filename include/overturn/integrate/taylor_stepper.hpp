@@ -19,6 +19,7 @@ namespace overturn {
 template <int order, Theory theory, Number T, Outputs outputs = Outputs{}>
 class TaylorStepper {
     using S = scalar_t<T>;
+    using E = estimate_t<T>;
     using Mask = mask_t<T>;
     using Series = RockingSeries<order, T>;
     static constexpr int last_terms = overturn::last_terms<order>;
@@ -28,7 +29,8 @@ class TaylorStepper {
 public:
     TaylorStepper(const Block<T>& block, const PulseExcitation<T>& excitation, const S& tolerance)
         : excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
-          tolerance_(tolerance), log2_tolerance_(rough_log2(tolerance_)), errors_(log2_tolerance_)
+          tolerance_(tolerance), log2_tolerance_(rough_log2(tolerance_)),
+          errors_(estimate_of(log2_tolerance_))
     {
         see_side(block, excitation.frequency);
     }
@@ -104,9 +106,12 @@ public:
                                                   h,
                                                   lower_bound(bounds.lower()),
                                                   upper_bound(bounds.upper())};
+            E beyond = error_of_estimates(series, E(estimate_of(h)));
+            if (is_wavelet_) {
+                beyond = beyond + E(estimate_of(left_out_of(push, now.phase, h)));
+            }
             return StepEndWithErrors<T>{
-                end, errors_.of(step, slenderness_, pushes_at(now, h, end.phase), end,
-                                is_wavelet_ ? left_out_of(push, now.phase, h) : zero)};
+                end, errors_.of(step, slenderness_, pushes_at(now, h, end.phase), end, beyond)};
         } else if constexpr (outputs.peak) {
             const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
             constexpr int parts = 8;
@@ -218,7 +223,7 @@ private:
     T log2_most_allowed_;
     T lost_ = T(S(0)); // see acceleration()
     struct NoErrors {
-        explicit NoErrors(const T&) {}
+        explicit NoErrors(const E&) {}
     };
     [[no_unique_address]] std::conditional_t<outputs.error, TaylorErrors<order, theory, T>,
                                              NoErrors>

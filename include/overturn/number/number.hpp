@@ -1,5 +1,5 @@
-// The number abstraction: the physics is written once for double, SIMD lanes, 19, 31 and 50
-// digits. A new number type specialises number_traits.
+// The number abstraction: the physics is written once for double, SIMD lanes, 31 and 50 digits.
+// A new number type specialises number_traits.
 #pragma once
 
 #include <array>
@@ -11,17 +11,11 @@
 
 namespace overturn {
 
-/// The fused multiply-add of the physics; that of other numbers is found in their namespaces. For
-/// long double it is a product and a sum: x87 has no fma, and that of the C library takes half a
-/// microsecond.
+/// The fused multiply-add of the physics; that of other numbers is found in their namespaces.
 namespace arithmetic {
 [[gnu::always_inline]] inline double fma(double a, double b, double c)
 {
     return std::fma(a, b, c);
-}
-[[gnu::always_inline]] inline long double fma(long double a, long double b, long double c)
-{
-    return a * b + c;
 }
 } // namespace arithmetic
 
@@ -53,9 +47,6 @@ struct scalar_number_traits {
         return body();
     }
 };
-
-template <>
-struct number_traits<long double> : scalar_number_traits<long double> {};
 
 /// A positive number is mantissa * 2^exponent.
 template <class T>
