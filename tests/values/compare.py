@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares every value that two builds of overturn store for the same jobs.
 
-    compare.py OLD NEW [--only NAME] [--figure-points N]
+    compare.py OLD NEW [--only NAME] [--figure-points N] [--other-processor]
 
 OLD and NEW are programs. Both run the jobs of jobs/ and of tests/values/jobs, some of them also as
 boundaries, histories and accuracy studies. Every number and text in a result of OLD must be in that of
@@ -11,7 +11,8 @@ Attributes that differ and new coordinates are reported only. stored_values.py l
 differences between formats; programs of format 3 read the jobs in the older spelling of r / r_max.
 
 --only chooses the comparisons whose names contain NAME; --figure-points sets the points of both axes of the figures of
-the paper, by default 400. A few minutes; MPIEXEC starts the ranks."""
+the paper, by default 400. --other-processor allows differences in the last digits of the values that
+BY_C_LIBRARY lists. A few minutes; MPIEXEC starts the ranks."""
 
 import argparse
 import collections
@@ -122,11 +123,12 @@ def write_older_jobs(folder):
 class Comparison:
     """Both programs, in a folder with the jobs; what was found."""
 
-    def __init__(self, old, new, only, figure_points):
+    def __init__(self, old, new, options):
         self.programs = {"old": old, "new": new}
         self.folders = {"old": pathlib.Path(), "new": pathlib.Path()}  # of their jobs
-        self.only = only
-        self.figure = [f"plane.{axis}.count={figure_points}" for axis in ("frequency", "amplitude")]
+        self.only = options.only
+        self.other_processor = options.other_processor
+        self.figure = [f"plane.{axis}.count={options.figure_points}" for axis in ("frequency", "amplitude")]
         self.kernels = ["double", "avx2", "avx512"]
         self.failures = 0
         self.notes = collections.Counter()
@@ -169,7 +171,7 @@ class Comparison:
                 return self.fail(name, f"exit code {code} of the {which} program: {said}")
         print(f"{took['old']:6.2f} s {took['new']:6.2f} s  {name}", flush=True)
         self.seconds.update(took)
-        for text in compare(paths["old"], paths["new"], self.notes):
+        for text in compare(paths["old"], paths["new"], self.notes, self.other_processor):
             self.fail(name, text)
         if self.counts[command] == 0:
             for value in unnoticed_flips(paths["old"]):
@@ -227,12 +229,12 @@ def main():
         parser.add_argument(program, type=pathlib.Path, metavar=program.upper())
     parser.add_argument("--only", metavar="NAME", default="")
     parser.add_argument("--figure-points", metavar="N", type=int, default=400)
+    parser.add_argument("--other-processor", action="store_true")
     options = parser.parse_args()
     for program in (options.old, options.new):
         if not os.access(program, os.X_OK):
             parser.error(f"{program} is not a program")
-    comparison = Comparison(options.old.resolve(), options.new.resolve(), options.only,
-                            options.figure_points)
+    comparison = Comparison(options.old.resolve(), options.new.resolve(), options)
     with tempfile.TemporaryDirectory() as scratch:
         for folder in FOLDERS:
             shutil.copytree(ROOT / folder, pathlib.Path(scratch) / folder,
