@@ -14,7 +14,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <ranges>
 
 namespace overturn {
 
@@ -33,12 +32,12 @@ constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
 std::string as_json(const RunInfo& run)
 {
-    const auto ranks =
-        run.ranks | std::views::transform([](const RankInfo& rank) {
-            return fmt::format(
-                R"(    {{"host": {}, "tiles": {}, "compute_seconds": {}, "write_seconds": {}}})",
-                in_quotes(rank.host), rank.tiles, rank.compute_seconds, rank.write_seconds);
-        });
+    std::vector<std::string> ranks;
+    for (const RankInfo& rank : run.ranks) {
+        ranks.push_back(fmt::format(
+            R"(    {{"host": {}, "tiles": {}, "compute_seconds": {}, "write_seconds": {}}})",
+            in_quotes(rank.host), rank.tiles, rank.compute_seconds, rank.write_seconds));
+    }
     const auto start = std::chrono::time_point_cast<std::chrono::seconds>(run.start);
     return fmt::format(R"({}{},
   "program_commit": {},

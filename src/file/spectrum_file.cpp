@@ -20,7 +20,6 @@
 #include <filesystem>
 #include <limits>
 #include <random>
-#include <ranges>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -83,7 +82,10 @@ void write_flags(hid_t dataset, Field field)
             write_attribute(dataset, traits.has_bits ? "flag_masks" : "flag_values", values);
         },
         layout::fill_value(field));
-    const auto meanings = traits.flags | std::views::transform(&FieldFlag::meaning);
+    std::vector<std::string_view> meanings;
+    for (const FieldFlag& flag : traits.flags) {
+        meanings.push_back(flag.meaning);
+    }
     write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
 }
 
@@ -157,8 +159,10 @@ void add_checksums(hid_t file, const Problem& problem)
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the last varies fastest");
     if (!tiling.shape().empty()) {
-        const Dimensions dimensions = stored_dimensions(problem);
-        const auto names = dimensions | std::views::transform(&StoredDimension::name);
+        std::vector<std::string> names;
+        for (const StoredDimension& dimension : stored_dimensions(problem)) {
+            names.push_back(dimension.name);
+        }
         write_attribute(dataset, layout::dimensions, fmt::format("{}", fmt::join(names, " ")));
         write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 namespace overturn {
 
@@ -130,9 +129,9 @@ Given given_motions(const Entry& record, const std::vector<Motion>& motions)
                                const GivenError& error)
 {
     const std::string& name = error.quantity();
-    for (const Given& each : std::views::reverse(given)) {
-        if (each.quantity->name == name && each.as != GivenAs::column) {
-            refuse({toml::at_path(*job.node, each.label).node(), each.label}, "{}", error.what());
+    for (auto each = given.rbegin(); each != given.rend(); ++each) {
+        if (each->quantity->name == name && each->as != GivenAs::column) {
+            refuse({toml::at_path(*job.node, each->label).node(), each->label}, "{}", error.what());
         }
     }
     const bool is_block = find(job, "block") && (name == "width" || name == "height");

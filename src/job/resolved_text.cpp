@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
+#include <span>
 
 namespace overturn {
 
@@ -87,14 +87,15 @@ std::string blocks_text(const BlockTable& blocks)
 std::string plane_text(const Grid& grid)
 {
     std::string text;
-    for (const Quantity& quantity : std::views::reverse(all_quantities())) {
-        const Column* const column = grid.find(quantity.name);
-        if (column != nullptr && quantity.role != Role::motion &&
-            !grid.has_table_column(quantity.name)) {
+    const std::span<const Quantity> quantities = all_quantities();
+    for (auto quantity = quantities.rbegin(); quantity != quantities.rend(); ++quantity) {
+        const Column* const column = grid.find(quantity->name);
+        if (column != nullptr && quantity->role != Role::motion &&
+            !grid.has_table_column(quantity->name)) {
             text +=
-                fmt::format("{} = {}\n", quantity.name,
-                            grid.dimension_of(quantity.name) ? axis_text(column->values)
-                                                             : float_text(column->values.first()));
+                fmt::format("{} = {}\n", quantity->name,
+                            grid.dimension_of(quantity->name) ? axis_text(column->values)
+                                                              : float_text(column->values.first()));
         }
     }
     return text.empty() ? "" : "\n[plane]\n" + text;
