@@ -259,11 +259,11 @@ class Toppling(Scratch):
         # Without loss, a block bounces too often to be followed just above the acceleration that
         # lifts it.
         arguments = ("--width", "0.3", "--height", "1.8", "--period", "0.3", "--pulse", "sine",
-                     "--set", "scene.cycles=3", "--restitution", "1", "--pga", "0.1667",
-                     "--pga-max", "0.1668")
+                     "--set", "scene.cycles=3", "--restitution", "1", "--pga", "0.16668",
+                     "--pga-max", "0.1667")
         answer = self.answer(*arguments)
         self.assertIsNone(answer["topples"])
-        self.assertEqual(self.verdict_in(answer, 0.1667), ["undecided_pga"])
+        self.assertEqual(self.verdict_in(answer, 0.16668), ["undecided_pga"])
         self.assertGreater(answer["undecided_share"], 0.5)
         self.assert_partition(answer)
         self.assertEqual(answer["by_restitution"][0]["undecided_share"], 0)
