@@ -39,7 +39,7 @@ TEST(FreeStageOfThePapersFigures, HasTheOutcomeOfTheRegionAtEveryPoint)
         }
         ++spectra;
         Problem problem =
-            read_job(entry.path(), {"plane.frequency.count=120", "plane.amplitude.count=120"})
+            read_job(entry.path(), {"plane.frequency.count=80", "plane.amplitude.count=80"})
                 .problem;
         problem.fields = {Field::region, Field::angle, Field::velocity};
         const Tiling tiling = tiling_of(problem);
