@@ -61,7 +61,7 @@ def write_museum(folder):
             height = choose.lognormvariate(0, 0.5)  # [m]
             print(f"{height / choose.uniform(1, 8):.4f},{height:.4f},{choose.uniform(0.8, 1):.3f}", file=table)
     job = folder / "museum.toml"
-    job.write_text('scene.record = "*.AT2"\nblocks.table = "museum.csv"\noutput.fields = ["region"]\n')
+    job.write_text('scene.record = "*.AT2"\nplane.scale = 1\nblocks.table = "museum.csv"\noutput.fields = ["region"]\n')
     return job
 
 
