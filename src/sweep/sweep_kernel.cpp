@@ -30,6 +30,28 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
+/// put(number, array) stores the lanes.
+template <Theory theory>
+void store_peaks(const auto& stage, const ForcedEnd<T>& end, const Outputs& wanted,
+                 const OutcomePointers& to, const auto& put)
+{
+    if (wanted.peak) {
+        put(end.peak, to.peak);
+    }
+    if (wanted.grazes) {
+        put(end.lowest_turn, to.lowest_turn);
+        put(end.softest_impact, to.softest_impact);
+        put(end.last_impact, to.last_impact);
+    }
+    if constexpr (theory == Theory::nonlinear) {
+        if (wanted.contact) {
+            const auto demand = stage.contact_demand();
+            put(demand.friction, to.friction);
+            put(demand.normal, to.normal);
+        }
+    }
+}
+
 /// Stores the lanes of one pack, except those without a point. outputs: chosen at compile time, see
 /// Outputs; task.outputs: at run time.
 template <Theory theory, Outputs outputs>
@@ -65,21 +87,7 @@ template <Theory theory, Outputs outputs>
     }
     put(flags, to.flags);
     if constexpr (outputs.peak) {
-        if (task.outputs.peak) {
-            put(end.peak, to.peak);
-        }
-        if (task.outputs.grazes) {
-            put(end.lowest_turn, to.lowest_turn);
-            put(end.softest_impact, to.softest_impact);
-            put(end.last_impact, to.last_impact);
-        }
-        if constexpr (theory == Theory::nonlinear) {
-            if (task.outputs.contact) {
-                const auto demand = stage.contact_demand();
-                put(demand.friction, to.friction);
-                put(demand.normal, to.normal);
-            }
-        }
+        store_peaks<theory>(stage, end, task.outputs, to, put);
     }
     if (task.outputs.impacts) {
         put(end.impacts, to.impacts);

@@ -365,7 +365,7 @@ private:
             }
         }
         if constexpr (outputs.error) {
-            margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, lanes, rests);
+            margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, {lanes, rests});
         }
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {

@@ -15,6 +15,12 @@ class MarginError {
     using Mask = mask_t<T>;
 
 public:
+    /// The lanes that strike the ground, and those of them that come to rest.
+    struct Struck {
+        Mask lanes;
+        Mask rests;
+    };
+
     /// Whether it is uncertain that an event has happened, so that the error is unknown.
     const Mask& is_doubtful() const { return doubtful_; }
 
@@ -64,8 +70,9 @@ public:
     /// then, as has its error, which must still be small compared with alpha.
     /// block: as seen from the side of `now`, before the impact.
     void pass_impact(const Block<T>& block, const T& rate_ratio, const auto& excitation,
-                     const Rocking<T>& now, const Mask& lanes, const Mask& rests)
+                     const Rocking<T>& now, const Struck& struck)
     {
+        const auto& [lanes, rests] = struck;
         const auto push = now.side * excitation.ground(now.phase);
         const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
         const T after =

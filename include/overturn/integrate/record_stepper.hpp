@@ -79,7 +79,6 @@ public:
         decltype(auto) series = leading<order>(known);
         const T left = (end_of_piece - now.phase) * units_per_sample_;
         T h = longest_step(now, series, left, active);
-
         const Mask none = active && !active;
         const StepBounds<T> bounds = bounds_over(series, push, h);
         const Mask suspect = active && may_meet(series, bounds, h);
@@ -96,37 +95,19 @@ public:
         if (any<T>(suspect)) {
             const Meeting meeting = first_meeting(series, bounds, {h, tilt, rate}, suspect);
             h = meeting.time;
-            const T phase = now.phase + (h + meeting.delay) * samples_per_unit_;
-            end = {.phase = select<T>(h == left && !meeting.happens(), end_of_piece,
-                                      lesser<T>(phase, end_of_piece)),
-                   .tilt = select<T>(meeting.tilt < zero, zero, meeting.tilt),
-                   .rate = meeting.rate * time_.per_time,
-                   .moved = active,
-                   .strikes = meeting.strikes,
-                   .falls = meeting.falls,
-                   .broken = active && !((tilt - tilt) + (rate - rate) == zero)};
+            end = end_at(meeting, now, left, end_of_piece);
+            end.moved = active;
+            end.broken = active && !((tilt - tilt) + (rate - rate) == zero);
         }
         // The tilt is nowhere farther from its values at both ends.
         const T aside = bounds.acceleration * h * h * T(S(1) / 8);
         const auto with_peak = [&](const auto& of_step) {
             if constexpr (outputs.peak) {
                 const auto& rough = estimate_of(series);
-                const auto sample_at = [&](const E& share) {
-                    return sample_of(rough, E(estimate_of(h)), share);
-                };
-                constexpr int parts = 2;
-                see(parts, [&] {
-                    return [rough, pushes = estimate_of(push), length = E(estimate_of(h)),
-                            per_unit = E(estimate_of(time_.per_time))](const E& share) {
-                        const E one(scalar_t<E>(1));
-                        const E per_step = per_unit / select<E>(length > E(0.0), length, one);
-                        const MotionSample<E> sample = sample_of(rough, length, share);
-                        const auto ground = pushes.at(E(share * length));
-                        return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
-                            sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
-                    };
-                });
+                const E length = estimate_of(h);
+                see(parts_seen, motion_within(series, push, length));
                 const T most = greater<T>(now.tilt, end.tilt) + aside;
+                const auto sample_at = [&](const E& at) { return sample_of(rough, length, at); };
                 const E peak =
                     highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt), estimate_of(most),
                                     estimate_of(so_far.peak), sample_at);
@@ -150,6 +131,25 @@ public:
     }
 
 private:
+    static constexpr int parts_seen = 2; // of a step
+
+    /// Makes the motion as a function of the share of a step of this length, see
+    /// ContactWatch::see_step().
+    auto motion_within(const Series& series, const auto& push, const E& length) const
+    {
+        return [&, this] {
+            return [rough = estimate_of(series), pushes = estimate_of(push), length,
+                    per_unit = E(estimate_of(time_.per_time))](const E& share) {
+                const E one(scalar_t<E>(1));
+                const E per_step = per_unit / select<E>(length > E(0.0), length, one);
+                const MotionSample<E> sample = sample_of(rough, length, share);
+                const auto ground = pushes.at(E(share * length));
+                return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
+                    sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
+            };
+        };
+    }
+
     /// The end of a step at `time`, which is that of the event but for the delay [units]. Without
     /// an event, it is the end of the whole step, or comes before an event that is not yet certain.
     struct Meeting {
@@ -171,6 +171,22 @@ private:
         N rate; ///< [rad per unit]
     };
     using Instant = InstantIn<T>;
+
+    /// The end of a step; left: to the end of the piece [units].
+    StepEnd<T> end_at(const Meeting& meeting, const Rocking<T>& now, const T& left,
+                      const T& end_of_piece) const
+    {
+        const T zero(S(0));
+        const T phase = now.phase + (meeting.time + meeting.delay) * samples_per_unit_;
+        StepEnd<T> end;
+        end.phase = select<T>(meeting.time == left && !meeting.happens(), end_of_piece,
+                              lesser<T>(phase, end_of_piece));
+        end.tilt = select<T>(meeting.tilt < zero, zero, meeting.tilt);
+        end.rate = meeting.rate * time_.per_time;
+        end.strikes = meeting.strikes;
+        end.falls = meeting.falls;
+        return end;
+    }
 
     template <Number N>
     static InstantIn<N> instant(const auto& tilt, const auto& rate, const N& time)

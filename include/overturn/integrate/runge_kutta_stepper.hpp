@@ -128,14 +128,7 @@ public:
             }
             return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
-            constexpr int parts = 2;
-            see(parts, [&] {
-                return [this, &now, phase_step,
-                        tilt = dense_output(start, step.end, h)](const T& share) {
-                    return moving_block(excitation_, now, phase_step, share,
-                                        sample_of(tilt, share));
-                };
-            });
+            see(parts_seen, motion_within({start, step, h}, now, phase_step));
             return with_extremes({start, step, h}, end, so_far, moved && !arrived);
         } else {
             return end;
@@ -160,6 +153,20 @@ private:
         const Step<T>& step;
         const T& length;
     };
+
+    static constexpr int parts_seen = 2; // of a step
+
+    /// Makes the motion as a function of the share of a step, see ContactWatch::see_step().
+    auto motion_within(const TrialStep& trial, const Rocking<T>& now, const T& phase_step) const
+    {
+        return [&, this] {
+            return [this, &now, phase_step,
+                    tilt =
+                        dense_output(trial.start, trial.step.end, trial.length)](const T& share) {
+                return moving_block(excitation_, now, phase_step, share, sample_of(tilt, share));
+            };
+        };
+    }
 
     /// The stages are compiled for each pulse. Computing the pushes before the stages, or selecting
     /// the pulse in each stage, costs a tenth more, because it prevents overlapping execution.

@@ -100,43 +100,58 @@ public:
             move_to_event(end, event.strikes, event.falls,
                           T(slope_of_series(series.rate, h) * (fastest_ * fastest_)), excitation_);
         }
+        const auto taken = [&] {
+            return TaylorStep<known_order, T>{known,
+                                              {unit_, fastest_},
+                                              h,
+                                              lower_bound(bounds.lower()),
+                                              upper_bound(bounds.upper())};
+        };
         if constexpr (outputs.error) {
-            const TaylorStep<known_order, T> step{known,
-                                                  {unit_, fastest_},
-                                                  h,
-                                                  lower_bound(bounds.lower()),
-                                                  upper_bound(bounds.upper())};
             E beyond = error_of_estimates(series, E(estimate_of(h)));
             if (is_wavelet_) {
                 beyond = beyond + E(estimate_of(left_out_of(push, now.phase, h)));
             }
             return StepEndWithErrors<T>{
-                end, errors_.of(step, slenderness_, pushes_at(now, h, end.phase), end, beyond)};
+                end, errors_.of(taken(), slenderness_, pushes_at(now, h, end.phase), end, beyond)};
         } else if constexpr (outputs.peak) {
-            const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
-            constexpr int parts = 8;
-            see(parts, [&] {
-                return [this, &now, series, h](const T& share) {
-                    return moving_block(excitation_, now, T(h * phase_per_unit_), share,
-                                        sample_of(series, h, share));
-                };
-            });
-            const T per_step = h * unit_;
-            const TurnsInStep<T> turns(
-                {now.rate * per_step, series.rate[1] * h * h},
-                {end.rate * per_step, slope_of_series(series.rate, h) * h * h}, T(S(1)));
-            return StepEndWithPeak<T>{
-                end,
-                highest_tilt<T>(now.tilt, end.tilt, upper_bound(bounds.upper()), so_far.peak,
-                                sample_at),
-                lowest_turn<T>(turns, lower_bound(bounds.lower()), so_far.lowest_turn,
-                               active && !end.strikes, sample_at)};
+            see(parts_seen, motion_within(series, now, h));
+            return with_extremes(taken(), now, end, so_far, active);
         } else {
             return end;
         }
     }
 
 private:
+    static constexpr int parts_seen = 8; // of a step
+
+    /// Makes the motion as a function of the share of a step, see ContactWatch::see_step().
+    auto motion_within(const Series& series, const Rocking<T>& now, const T& h) const
+    {
+        return [&, this] {
+            return [this, &now, series, h](const T& share) {
+                return moving_block(excitation_, now, T(h * phase_per_unit_), share,
+                                    sample_of(series, h, share));
+            };
+        };
+    }
+
+    StepEndWithPeak<T> with_extremes(const TaylorStep<order, T>& step, const Rocking<T>& now,
+                                     const StepEnd<T>& end, const auto& so_far,
+                                     const Mask& active) const
+    {
+        const Series& series = step.known;
+        const T& h = step.h;
+        const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+        const T per_step = h * unit_;
+        const TurnsInStep<T> turns({now.rate * per_step, series.rate[1] * h * h},
+                                   {end.rate * per_step, slope_of_series(series.rate, h) * h * h},
+                                   T(S(1)));
+        return {end, highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, sample_at),
+                lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, active && !end.strikes,
+                               sample_at)};
+    }
+
     /// The excitation's `acceleration`, positive towards the side of the tilt; 0 once a wavelet
     /// is below the round-off of the acceleration of the block.
     T acceleration(const Rocking<T>& now) const

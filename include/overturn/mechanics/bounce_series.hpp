@@ -37,6 +37,43 @@ T fastest_bounce_series(const Block<T>& block, const auto& excitation)
     }
 }
 
+/// The pulls on both sides.
+template <Number T>
+struct Pulls {
+    T plus;
+    T minus;
+};
+
+/// Whether all flights, which would last `twice` under a pull of 1, end within the duration over
+/// which the pulls change from `first` to `last`; see bounces_die_out(). one_increases: the pull on
+/// one side, while that on the other decreases.
+template <bool one_increases, Number T>
+mask_t<T> all_flights_end_within(const T& duration, const T& twice, const Pulls<T>& first,
+                                 const Pulls<T>& last)
+{
+    using std::sqrt;
+    using S = scalar_t<T>;
+    const T zero(S(0));
+    const T one(S(1));
+    if constexpr (one_increases) {
+        const mask_t<T> plus_rises = last.plus >= first.plus;
+        const T rise = select<T>(plus_rises, first.plus, first.minus);
+        const T rise_then = select<T>(plus_rises, last.plus, last.minus);
+        const T fall_then = select<T>(plus_rises, last.minus, last.plus);
+        const T growth =
+            sqrt(select<T>(rise > zero, rise_then, zero) / select<T>(rise > zero, rise, one));
+        return twice <= duration * rise && twice * growth <= duration * fall_then;
+    } else {
+        const auto growth = [&](const T& from, const T& to) -> T {
+            return sqrt(greater<T>(to / select<T>(from > zero, from, one), one));
+        };
+        const T weaker = select<T>(first.plus < first.minus, first.plus, first.minus);
+        const T least = lesser<T>(weaker, lesser<T>(last.plus, last.minus));
+        return twice * growth(first.plus, last.plus) * growth(first.minus, last.minus) <=
+               duration * least;
+    }
+}
+
 /// Per lane: whether the bounces after an impact at `phase` [rad or samples] are certain to die out
 /// before the motion ends and before the ground can lift the block. v >= 0 is the rate just after
 /// the impact.
@@ -106,24 +143,9 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     const auto ground_then = excitation.ground(select<T>(in_time, over, phase));
     const T plus_then = pull_on_plus(ground_then);
     const T minus_then = pull_on_minus(ground_then);
-    const T twice = series + series;
-    mask_t<T> short_enough;
-    if constexpr (std::same_as<decltype(ground_now), const T>) {
-        const mask_t<T> plus_rises = plus_then >= plus;
-        const T rise = select<T>(plus_rises, plus, minus);
-        const T rise_then = select<T>(plus_rises, plus_then, minus_then);
-        const T fall_then = select<T>(plus_rises, minus_then, plus_then);
-        const T growth =
-            sqrt(select<T>(rise > zero, rise_then, zero) / select<T>(rise > zero, rise, one));
-        short_enough = twice <= duration * rise && twice * growth <= duration * fall_then;
-    } else {
-        const auto growth = [&](const T& first, const T& last) -> T {
-            return sqrt(greater<T>(last / select<T>(first > zero, first, one), one));
-        };
-        const T least = lesser<T>(weaker, lesser<T>(plus_then, minus_then));
-        short_enough =
-            twice * growth(plus, plus_then) * growth(minus, minus_then) <= duration * least;
-    }
+    constexpr bool one_increases = std::same_as<decltype(ground_now), const T>;
+    const mask_t<T> short_enough = all_flights_end_within<one_increases, T>(
+        duration, series + series, {plus, minus}, {plus_then, minus_then});
     // On the other side, the square of the rate is larger by R_i / R_j.
     const T without_pace = weaker / greater<T>(pace, one);
     const mask_t<T> low =
