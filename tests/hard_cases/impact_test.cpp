@@ -31,16 +31,11 @@ const std::vector<Neighbours>& grazes()
     return found;
 }
 
-TEST(GrazingImpact, IsTwoImpactsOrNone)
+// Each test finds the grazes again, which takes seconds.
+TEST(GrazingImpact, IsTwoImpactsOrNoneAndHasTheRightVerdictOnBothSides)
 {
     for (const Neighbours& graze : grazes()) {
         EXPECT_EQ(truth_of(graze.below).impacts, truth_of(graze.above).impacts + 2);
-    }
-}
-
-TEST(GrazingImpact, HasTheRightVerdictOnBothSides)
-{
-    for (const Neighbours& graze : grazes()) {
         expect_right_verdicts_around(graze, &HardCase::amplitude);
     }
 }
@@ -72,13 +67,7 @@ TEST(GrazingImpact, IsCountedByEveryRunWithAFiniteError)
             passing.amplitude *= 1 + distance;
             expect_impacts_counted(passing);
         }
-    }
-}
-
-TEST(GrazingImpact, IsDetectedByEveryMethodIfItsErrorIsSmallEnough)
-{
-    // Ensures that the test above does not pass only because of infinite errors.
-    for (const Neighbours& graze : grazes()) {
+        // Ensures that this does not pass only because of infinite errors.
         HardCase point = graze.below;
         point.amplitude *= 1 - 1e-6;
         for (const Method method : {Method::rk45, Method::taylor}) {

@@ -26,7 +26,7 @@ class Picture(Curve):
 
 class TestAPicture(Picture):
     def test_has_the_hazard_the_fragility_and_the_rate(self):
-        text, words = self.words("result.h5", "hazard.txt", "--years", "500", "--survival", "0.3")
+        text, words = self.words("result.h5", "hazard.txt", "--years", "500", "--survival", "0.3", "--samples", "50")
         for line in (r"overturning against pga \[g\]", r"rate \d.* a year \(95 % confidence",
                      r"survival of 500 years 0\.\d",
                      r"largest factor on the rates of the hazard, survival of 500 years with the probability 0.3: \d",
@@ -37,7 +37,8 @@ class TestAPicture(Picture):
             self.assertIn(line, words)
 
     def test_is_drawn_against_the_measure_of_the_hazard(self):
-        text, words = self.words("result.h5", OPENQUAKE, "--site", "1", "--together", "size", "--limit", "0.5")
+        text, words = self.words("result.h5", OPENQUAKE, "--site", "1", "--together", "size", "--limit", "0.5",
+                                 "--samples", "50")
         self.assertIn("peak above 0.5 against pgv [m s-1]", text)
         self.assertIn("4 blocks together", text)
         self.assertIn("PGV [m/s]", words)

@@ -3,7 +3,10 @@
 Times are in 1/p, so that a velocity is d theta / d(p t) [rad]; q is over p^2.
 """
 
+import functools
+
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
 from overturn.captions import is_linear
 from overturn.regions import CODES, SAFE, coloured
@@ -86,6 +89,7 @@ def regions_of_states(block, angle, velocity):
     return codes
 
 
+@functools.lru_cache(maxsize=4)
 def map_of_regions(block, reach, highest):
     """Returns angles up to +-reach, velocities up to +-highest, and the codes of their regions, row by row."""
     places = (np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1
@@ -107,17 +111,20 @@ def fill_regions(panel, block, reach, highest):
 def fill_libration(panel, block, colour, reach, highest):
     """Fills the set of all safe states (Eq. 20), blades and rhomboid."""
     is_safe = np.isin(map_of_regions(block, reach, highest)[2], SAFE)
-    picture = np.zeros((*is_safe.shape, 4))
-    picture[is_safe] = to_rgba(colour)
+    picture = np.zeros((*is_safe.shape, 4), np.uint8)
+    picture[is_safe] = [round(255 * part) for part in to_rgba(colour)]
     show(panel, picture, reach, highest)
 
 
 def draw_boundaries(panel, block, reach, highest, **style):
     """Draws the lines between the regions."""
     angle, velocity, codes = map_of_regions(block, reach, highest)
-    for colour, width in (("white", 2.2), ("black", 0.9)):  # visible on dark colours, too
-        for code in np.unique(codes):
-            panel.contour(angle, velocity, codes == code, [0.5], colors=colour, linewidths=width, **style)
+    style = {"zorder": 2} | style
+    lines = []
+    for code in np.unique(codes):
+        lines += panel.contour(angle, velocity, codes == code, [0.5], colors="white", linewidths=2.2, **style).allsegs[0]
+    # On top of white, visible on dark colours, too.
+    panel.add_collection(LineCollection(lines, colors="black", linewidths=0.9, **style), autolim=False)
 
 
 def name_phase_axes(panel):
