@@ -76,4 +76,4 @@ def run(options):
     points, samples = BLOCKS * RECORDS, round(DURATION / 0.01) + 1
     busy = sum(rank["compute_seconds"] for rank in sidecar["ranks"])
     print(f"{BLOCKS} blocks under {RECORDS} records of {samples} samples on {options.ranks} ranks: {wall:.0f} s, "
-          f"{1e9 * busy / points / samples:.1f} ns per point and sample on each")
+          f"{1e9 * busy / points / samples:.1f} ns of one core per point and sample")

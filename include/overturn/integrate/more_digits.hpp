@@ -34,9 +34,9 @@ struct MoreDigits<Digits50> {
 
 /// Like run_forced_stage(), for one block, with the outputs impacts and error, under a record also
 /// the peak. A run that exceeds `step_limit` steps, in addition to one per interval of a record, is
-/// capped, as is one that stop_requested() ends; it is called every few milliseconds. T:
-/// Digits31, only under a pulse, or Digits50; excitation: PulseExcitation<T>, or
-/// RecordExcitation<T, Directions::both>. Instantiated in src/integrate.
+/// capped, as is one that stop_requested() ends; it is called every few milliseconds. T: Digits31,
+/// only under a pulse, or Digits50; excitation: PulseExcitation<T>, or RecordExcitation<T,
+/// Directions::both>. Instantiated in src/integrate.
 template <class T, Theory theory, class Excitation>
 ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitation,
                                 const std::function<bool()>& stop_requested = nullptr,

@@ -133,8 +133,7 @@ public:
 private:
     static constexpr int parts_seen = 2; // of a step
 
-    /// Makes the motion as a function of the share of a step of this length, see
-    /// ContactWatch::see_step().
+    /// For see(): returns the motion as a function of the share of the step, which has this length.
     auto motion_within(const Series& series, const auto& push, const E& length) const
     {
         return [&, this] {
@@ -172,7 +171,8 @@ private:
     };
     using Instant = InstantIn<T>;
 
-    /// The end of a step; left: to the end of the piece [units].
+    /// The end of a step at a meeting, without `moved` and `broken`; left: to the end of the piece
+    /// [units].
     StepEnd<T> end_at(const Meeting& meeting, const Rocking<T>& now, const T& left,
                       const T& end_of_piece) const
     {

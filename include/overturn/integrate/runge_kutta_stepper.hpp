@@ -156,7 +156,7 @@ private:
 
     static constexpr int parts_seen = 2; // of a step
 
-    /// Makes the motion as a function of the share of a step, see ContactWatch::see_step().
+    /// For see(): returns the motion as a function of the share of the step.
     auto motion_within(const TrialStep& trial, const Rocking<T>& now, const T& phase_step) const
     {
         return [&, this] {

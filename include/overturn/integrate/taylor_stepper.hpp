@@ -125,7 +125,7 @@ public:
 private:
     static constexpr int parts_seen = 8; // of a step
 
-    /// Makes the motion as a function of the share of a step, see ContactWatch::see_step().
+    /// For see(): returns the motion as a function of the share of the step.
     auto motion_within(const Series& series, const Rocking<T>& now, const T& h) const
     {
         return [&, this] {
