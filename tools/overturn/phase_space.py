@@ -6,14 +6,13 @@ Times are in 1/p, so that a velocity is d theta / d(p t) [rad]; q is over p^2.
 import functools
 
 import numpy as np
-from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
 from overturn.captions import is_linear
 from overturn.regions import CODES, SAFE, coloured
 from overturn.tool import USAGE, ToolError
 
 HALF_TURN = np.pi / 2  # tilt of an overturned block
-PIXELS = 1200  # of a map of states, per side; even, so that none is at the angle 0
+PIXELS = 600  # of a map of states, per side; even, so that none is at the angle 0
 
 
 class FreeBlock:
@@ -91,10 +90,9 @@ def regions_of_states(block, angle, velocity):
 
 @functools.lru_cache(maxsize=4)
 def map_of_regions(block, reach, highest):
-    """Returns angles up to +-reach, velocities up to +-highest, and the codes of their regions, row by row."""
+    """Returns the codes of the regions of angles up to +-reach and velocities up to +-highest, row by row."""
     places = (np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1
-    angle, velocity = reach * places, highest * places
-    return angle, velocity, regions_of_states(block, angle, velocity[:, None])
+    return regions_of_states(block, reach * places, highest * places[:, None])
 
 
 def show(panel, picture, reach, highest):
@@ -105,26 +103,42 @@ def show(panel, picture, reach, highest):
 
 def fill_regions(panel, block, reach, highest):
     """Fills all regions with their colours."""
-    show(panel, coloured(map_of_regions(block, reach, highest)[2]), reach, highest)
+    show(panel, coloured(map_of_regions(block, reach, highest)), reach, highest)
 
 
 def fill_libration(panel, block, colour, reach, highest):
     """Fills the set of all safe states (Eq. 20), blades and rhomboid."""
-    is_safe = np.isin(map_of_regions(block, reach, highest)[2], SAFE)
+    is_safe = np.isin(map_of_regions(block, reach, highest), SAFE)
     picture = np.zeros((*is_safe.shape, 4), np.uint8)
     picture[is_safe] = [round(255 * part) for part in to_rgba(colour)]
     show(panel, picture, reach, highest)
 
 
-def draw_boundaries(panel, block, reach, highest, **style):
+def boundaries(block, highest):
+    """Returns the lines between the regions: angles and velocities, nan where equal regions are on both sides."""
+    def edge(angle, velocity, across, along):
+        """The part of a line at which the regions just across it differ."""
+        before, after = (regions_of_states(block, angle + step * across, velocity + step * along)
+                         for step in (-1e-9, 1e-9))
+        return np.where(before != after, angle, np.nan), velocity
+
+    lines = [edge(0, np.linspace(-highest, highest, 2001), 1, 0)]
+    for side, sign in ((block, 1), (block.other, -1)):
+        for energy in (side.top, side.other.top / side.restitution, side.top / side.restitution**2):
+            q = side.largest_rate**2 - energy / side.size
+            tip = side.outermost_angle(max(q, 0))  # where the speed is zero, and its slope infinite
+            angle = np.sort(np.append(np.linspace(2e-9, HALF_TURN, 1001), [tip - 1e-8, tip + 1e-8]))
+            rate = side.rate(angle, q) * side.pace / block.pace
+            lines += [edge(sign * angle, way * rate, 0, 1) for way in (1, -1)]
+    return lines
+
+
+def draw_boundaries(panel, block, highest, zorder=2):
     """Draws the lines between the regions."""
-    angle, velocity, codes = map_of_regions(block, reach, highest)
-    style = {"zorder": 2} | style
-    lines = []
-    for code in np.unique(codes):
-        lines += panel.contour(angle, velocity, codes == code, [0.5], colors="white", linewidths=2.2, **style).allsegs[0]
-    # On top of white, visible on dark colours, too.
-    panel.add_collection(LineCollection(lines, colors="black", linewidths=0.9, **style), autolim=False)
+    lines = boundaries(block, highest)
+    for colour, width in (("white", 2.2), ("black", 0.9)):  # visible on dark colours, too
+        for line in lines:
+            panel.plot(*line, color=colour, linewidth=width, zorder=zorder, scalex=False, scaley=False)
 
 
 def name_phase_axes(panel):

@@ -140,7 +140,7 @@ def draw_landing(panel, spectrum, landing, title):
     fill_libration(panel, spectrum.block, LIBRATION, *landing.reach)
     panel.imshow(landing.picture(), extent=landing.extent(), origin="lower", aspect="auto",
                  interpolation="nearest", zorder=2)
-    draw_boundaries(panel, spectrum.block, *landing.reach, zorder=3)
+    draw_boundaries(panel, spectrum.block, landing.reach[1], zorder=3)
     left, right, bottom, top = landing.extent()
     panel.set(xlim=(left, right), ylim=(bottom, top), title=title)
     name_phase_axes(panel)

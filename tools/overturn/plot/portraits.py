@@ -208,7 +208,7 @@ def mark_blades(panel, block):
 def portrait_libration(block, highest):
     figure, panel = pyplot.subplots(figsize=(9.5, 7))
     fill_libration(panel, block, LIBRATION, HALF_TURN, highest)
-    draw_boundaries(panel, block, HALF_TURN, highest)
+    draw_boundaries(panel, block, highest)
     draw_orbit_from_c(panel, block)
     mark_blades(panel, block)
     frame(panel, "The libration region with the loss at the first impact", HALF_TURN, highest)
@@ -230,8 +230,8 @@ def portrait_regions(block, highest):
     figure, panel = pyplot.subplots(figsize=(9.5, 7))
     reach = reach_of("regions", block)
     fill_regions(panel, block, reach, highest)
-    draw_boundaries(panel, block, reach, highest)
-    codes = map_of_regions(block, reach, highest)[2]
+    draw_boundaries(panel, block, highest)
+    codes = map_of_regions(block, reach, highest)
     cells = thinned(np.arange(len(codes)))
     codes = codes[np.ix_(cells, cells)]
     for code in np.unique(codes):
