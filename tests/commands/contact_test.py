@@ -218,10 +218,10 @@ class AContact(Scratch):
         return self.compare('pulse = "one_sine"', rows, ground_of, lambda row: [0, row["pulse_period"]])
 
     def test_of_boxes_under_pulses_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_pulses(1, 85, False), 75)
+        self.assertGreater(self.compare_under_pulses(1, 30, False), 25)
 
     def test_of_blocks_with_two_sides_under_pulses_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_pulses(2, 90, True), 80)
+        self.assertGreater(self.compare_under_pulses(2, 30, True), 25)
 
     def compare_under_a_record(self, seed, two_sided):
         random = np.random.default_rng(seed)
@@ -229,7 +229,7 @@ class AContact(Scratch):
         samples = np.concatenate([[0], random.normal(0, 1, 14), [0]])
         samples /= abs(samples).max()
         np.savetxt(self.folder / "r.txt", np.column_stack([times, samples]), header="time [s], acceleration [g]")
-        rows = random_blocks(random, 60, two_sided)
+        rows = random_blocks(random, 30, two_sided)
         for row in rows:
             row["scale"] = random.uniform(0.5, 3) * row["width"] / row["height"]
 
@@ -238,10 +238,10 @@ class AContact(Scratch):
         return self.compare('record = "r.txt"\nunits = "g"', rows, ground_of, lambda row: list(times))
 
     def test_of_boxes_under_a_record_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_a_record(3, False), 15)
+        self.assertGreater(self.compare_under_a_record(3, False), 5)
 
     def test_of_blocks_with_two_sides_under_a_record_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_a_record(4, True), 15)
+        self.assertGreater(self.compare_under_a_record(4, True), 5)
 
 
 if __name__ == "__main__":
