@@ -275,7 +275,7 @@ bool report(const std::string& spectra, const Counts& counts, double most)
 bool check(std::int64_t points, std::uint64_t seed, const FillRule& rule)
 {
     // The share falls with the side as the length of the boundaries over the area.
-    const std::int64_t side = points > 100'000'000 ? 4096 : 512;
+    const std::int64_t side = points > 100'000'000 ? 4096 : 256;
     const double most = 0.03 * 4096 / double(side);
     bool right = true;
     Counts hard;
