@@ -19,7 +19,7 @@ PAGES = ["README.md", "CONTRIBUTING.md", "jobs/README.md", *sorted(
 
 # Blocks that are not run: the page, the beginning of the block, and the reason.
 NOT_RUN = {
-    ("README.md", "tools/quickstart"): "installs, builds and tests; CI runs tools/check only",
+    ("README.md", "tools/quickstart"): "installs, builds and tests, as CI does",
     ("docs/clusters.md", "sbatch"): "needs Slurm; tools/check slurm runs the scripts",
     ("docs/installing.md", "cmake --preset release"): "configures the build used by the other blocks",
     ("docs/developing.md", "cmake --preset dev"): "a second build; tools/check docs has already made the first",

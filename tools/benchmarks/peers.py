@@ -24,19 +24,18 @@ SAMPLE_SECONDS = 0.05
 NAME_WIDTH = 36  # the longest name and a gap
 
 EXPLANATION = """\
-Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy, and with heyoka.py (from PyPI) if the
-Python that runs this has it: the paper's block under
-a one-sine pulse, frequency 0.5 to 8 by amplitude 1.2 to 12. For each solver and target error, it
-finds the loosest tolerance whose error is within the target (99th percentile, over the points that
-do not overturn, of the larger of the errors of angle and velocity at the end of the pulse), then
-times all solvers in turns and prints medians of processor time. Errors are differences in rad
-from a reference in long double by a third-party method, which is checked by a second reference.
+Compares the kernels of overturn with Boost.odeint, GSL, SUNDIALS and SciPy, and with heyoka.py
+(from PyPI) if the Python that runs this has it: the paper's block under a one-sine pulse, frequency
+0.5 to 8 by amplitude 1.2 to 12. For each solver and target error, it finds the loosest tolerance
+whose error is within the target (99th percentile, over the points that do not overturn, of the
+larger of the errors of angle and velocity at the end of the pulse), then times all solvers in turns
+and prints medians of processor time. Errors are differences in rad from a reference in long double
+by a third-party method, which is checked by a second reference.
 
 --record: blocks of slenderness 0.245, size 0.2 to 3 m, under a record with a scale of 0.5 to 2.5.
 Errors are divided by the slenderness and taken at the points whose `error` at a tolerance of 1e-12
-is below 1e-6.
-All solvers stop at every sample, continue with the step size from before it, and skip the time at
-rest. Also prints the time per point and sample.
+is below 1e-6. All solvers stop at every sample, continue with the step size from before it, and
+skip the time at rest. Also prints the time per point and sample.
 
 Installs missing dependencies, builds in build-bench, and takes a few minutes, with --record a
 quarter of an hour. Do not run other programs at the same time."""

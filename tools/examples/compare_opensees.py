@@ -35,7 +35,8 @@ Writes OUT.json, the result of every point, and OUT.png; prints a table. Times a
 about a quarter of an hour.
 
 The restitution r of a setting is measured in OpenSees: the block rocks freely after a pulse, and r is the mean energy
-ratio of successive half-cycles. overturn then computes the same points with this r, or with r_max without one."""
+ratio of successive half-cycles. overturn then computes the same points with this r, or with r_max
+if r could not be measured."""
 
 SLENDERNESS = np.arctan(WIDTH / HEIGHT)  # alpha [rad]
 LARGEST_RESTITUTION = (1 - 1.5 * np.sin(SLENDERNESS) ** 2) ** 2  # r_max [1]

@@ -22,9 +22,10 @@ example:
   tools/plot_fragility fragility.h5 --im pga pgv     # draws fragility_fragility.png, a panel each
   tools/plot_fragility fragility.h5 --by size        # four curves, each of a quarter of the sizes
 
-The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence interval at each
-value, by bootstrap over the motions. beta is the scatter: the smaller, the better the measure predicts
-the outcome. Points without a verdict (undecided, or not computed yet) are left out, counted and reported.
+The curve is fitted to the single points by maximum likelihood. The band is the 95 % confidence
+interval at each value, by bootstrap over the motions. beta is the scatter: the smaller, the better
+the measure predicts the outcome. Points without a verdict (undecided, or not computed yet) are left
+out, counted and reported.
 All blocks are pooled in one curve, unless --by groups them.
 
 Other choices of blocks, and the numbers as arrays: overturn.fragility() in Python."""
