@@ -67,11 +67,9 @@ std::vector<std::string> lines_of_equal_records(const Job& job)
 {
     std::vector<std::string> lines;
     std::map<std::pair<std::string, double>, std::string> names;
-    for (std::size_t i = 0; i < job.motions.size(); ++i) {
-        const Motion& motion = job.motions[i];
-        const double time_step = job.problem.scene.records[i]->time_step();
+    for (const Motion& motion : job.motions) {
         const auto [first, is_new] =
-            names.emplace(std::pair(motion.checksum, time_step), motion.name);
+            names.emplace(std::pair(motion.checksum, motion.record->time_step()), motion.name);
         if (!is_new) {
             lines.push_back(printable(
                 fmt::format("{}: the same accelerations as {}; it counts as another motion",
@@ -101,7 +99,7 @@ std::string block_line(const Job& job)
         return line + two_sides_line(job);
     }
     const Extent alpha = *extent_of(job, "slenderness");
-    line += "alpha = " + Extent{in_degrees(alpha.first), in_degrees(alpha.last)}.text(" degrees");
+    line += "alpha = " + degrees_text(alpha);
     if (job.blocks) {
         line += ", r = " + extent_of(job, "restitution")->text("");
     } else if (const auto least = r_max_of(alpha.last)) {
@@ -166,9 +164,8 @@ std::string ground_line(const Job& job)
 std::vector<std::string> record_lines(const Job& job)
 {
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < job.motions.size(); ++i) {
-        const Motion& motion = job.motions[i];
-        const Accelerogram& record = *job.problem.scene.records[i];
+    for (const Motion& motion : job.motions) {
+        const Accelerogram& record = *motion.record;
         const std::string component =
             (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
             (motion.second.empty() ? ""

@@ -14,6 +14,7 @@
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
@@ -127,10 +128,7 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
         return {};
     }
-    std::vector<double> accelerations;
-    for (const auto& [first, last] : toppling) {
-        accelerations.push_back(first);
-    }
+    std::vector<double> accelerations = mapped(toppling, &std::pair<double, double>::first);
     if (const double highest = accelerations.back(); ranges.lifting < highest) {
         const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
         accelerations.insert(accelerations.end(), scan.begin(), scan.end());
@@ -138,10 +136,9 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     std::ranges::sort(accelerations);
     const auto [begin, end] = std::ranges::unique(accelerations);
     accelerations.erase(begin, end);
-    std::vector<double> strengths = accelerations;
-    for (double& strength : strengths) {
-        strength /= scene.is_recorded() ? unit : 1;
-    }
+    const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
+        return scene.is_recorded() ? acceleration / unit : acceleration;
+    });
     const Job job = read_job_text(job_text(options, strengths), command_line, options.overrides);
     const std::vector<double> friction = accurate_values(job.problem, Field::friction);
     std::vector<double> needed;
@@ -213,12 +210,6 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     return answer;
 }
 
-/// With two decimals.
-std::string rounded_up(double friction)
-{
-    return fmt::format("{:.2f}", -rounded_down(-friction, 2));
-}
-
 /// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
 std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
 {
@@ -228,9 +219,10 @@ std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
     for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
         const double friction = answer.friction_to_topple[i];
         list.push_back(fmt::format("{} at {:.{}f} g",
-                                   std::isnan(friction)   ? "unknown"
-                                   : std::isinf(friction) ? "infinite"
-                                                          : rounded_up(friction),
+                                   std::isnan(friction) ? "unknown"
+                                   : std::isinf(friction)
+                                       ? "infinite"
+                                       : fmt::format("{:.2f}", rounded_up(friction, 2)),
                                    rounded_down(toppling[i].first, decimals), decimals));
     }
     return fmt::format("{}{}", fmt::join(list, ", "),
@@ -242,7 +234,8 @@ std::string friction_text(double friction)
     return std::isnan(friction) ? "unknown"
            : std::isinf(friction)
                ? "the block would leave the ground, so that the verdict is doubtful"
-               : "the verdict holds if the coefficient is at least " + rounded_up(friction);
+               : fmt::format("the verdict holds if the coefficient is at least {:.2f}",
+                             rounded_up(friction, 2));
 }
 
 /// The numbers that complete a pulse, each with its name in this format.

@@ -39,7 +39,7 @@ std::vector<Ends> rounded(const std::vector<Ends>& ranges, int decimals)
 {
     std::vector<Ends> all;
     for (const auto& [first, last] : ranges) {
-        const Ends next{rounded_down(first, decimals), -rounded_down(-last, decimals)};
+        const Ends next{rounded_down(first, decimals), rounded_up(last, decimals)};
         if (!all.empty() && next.first <= all.back().second) {
             all.back().second = next.second;
         } else {
@@ -194,7 +194,7 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
     if (coarse) {
         text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
                             rounded_down(coarse->first, decimals), decimals,
-                            -rounded_down(-coarse->last, decimals), decimals, 100 * coarse->step);
+                            rounded_up(coarse->last, decimals), decimals, 100 * coarse->step);
     }
     return text;
 }

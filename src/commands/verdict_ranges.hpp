@@ -18,6 +18,10 @@ enum class Verdict { safe, topples, undecided };
 /// The largest number of this many decimals that is at most the value; the printed number is never
 /// above the value.
 double rounded_down(double value, int decimals);
+inline double rounded_up(double value, int decimals)
+{
+    return -rounded_down(-value, decimals);
+}
 
 /// The verdict of the region of a block at rest after the motion.
 Verdict verdict_of(Region region);

@@ -3,6 +3,7 @@
 #include "layout.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 
@@ -176,22 +177,14 @@ private:
     {
         const std::optional<std::size_t> place = grid_.dimension_of("motion");
         const Dimensions along = place ? Dimensions{dimensions_[*place]} : Dimensions();
-        std::vector<const Motion*> motions;
-        for (const double number : grid_.find("motion")->values.values()) {
-            motions.push_back(&job_.motions[Scene::record_index(number)]);
-        }
-        std::vector<std::string> names;
-        for (const Motion* motion : motions) {
-            names.push_back(motion->name);
-        }
-        add_texts("motion_name", along, std::move(names), "file of the recorded ground motion");
+        const std::vector<const Motion*> motions =
+            mapped(grid_.find("motion")->values.values(),
+                   [&](double number) { return &job_.motions[Scene::record_index(number)]; });
+        add_texts("motion_name", along, mapped(motions, [](auto* motion) { return motion->name; }),
+                  "file of the recorded ground motion");
         for (const Measure& measure : measures) {
             add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
-                std::vector<double> values;
-                for (const Motion* motion : motions) {
-                    values.push_back(motion->measures.*measure.value);
-                }
-                return values;
+                return mapped(motions, [&](auto* each) { return each->measures.*measure.value; });
             });
             std::string& comment = all_.back().variable.comment;
             comment = measure.comment;

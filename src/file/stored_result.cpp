@@ -9,6 +9,7 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -153,14 +154,7 @@ struct StoredResult::Open {
     std::vector<std::uint64_t> checksums; ///< by tile number
     std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
 
-    Tiling tiling() const
-    {
-        Shape shape;
-        for (const AxisSummary& axis : tiles.axes) {
-            shape.push_back(axis.size);
-        }
-        return {std::move(shape), tiles.tile_shape};
-    }
+    Tiling tiling() const { return {mapped(tiles.axes, &AxisSummary::size), tiles.tile_shape}; }
 
     /// The place of `crossing` among the axes; any place if there is none.
     std::size_t crossing() const
@@ -223,21 +217,16 @@ struct StoredResult::Open {
                                 const std::function<void()>& between_tiles, const Use& use) const
     {
         const Tiling all = tiling();
-        std::vector<StoredField> stored;
-        for (const Field field : fields) {
-            stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
-        }
+        const std::vector<StoredField> stored = mapped(fields, [&](Field field) {
+            return StoredField{field, hdf5::open_dataset(file, name_of(field)), crossing()};
+        });
         for (std::int64_t number = 0; number < all.size(); ++number) {
             between_tiles();
             if (checksums[std::size_t(number)] == not_computed_checksum) {
                 continue;
             }
             const Tile tile = all[number];
-            std::vector<FieldValues> values;
-            for (const StoredField& field : stored) {
-                values.push_back(read_tile(field, tile));
-            }
-            use(tile, values);
+            use(tile, mapped(stored, [&](const StoredField& f) { return read_tile(f, tile); }));
         }
     }
 };
