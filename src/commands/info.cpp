@@ -1,4 +1,3 @@
-// Prints a summary of a result file, and how to resume it if it is unfinished.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "human_units.hpp"
@@ -70,21 +69,17 @@ void print_axes_and_tiles(const StoredResult& stored)
     }
 }
 
-void print_summary(const StoredResult& stored)
-{
-    print_origin(stored.path(), stored.origin());
-    if (stored.origin().has_tiles()) {
-        print_axes_and_tiles(stored);
-    }
-    fmt::print("\nThe job with all defaults:\n\n{}", printable(stored.origin().resolved_job));
-}
-
 } // namespace
 
 int info(const std::string& path)
 {
     const GuardedReading guarded(path);
-    print_summary(StoredResult(path));
+    const StoredResult stored(path);
+    print_origin(path, stored.origin());
+    if (stored.origin().has_tiles()) {
+        print_axes_and_tiles(stored);
+    }
+    fmt::print("\nThe job with all defaults:\n\n{}", printable(stored.origin().resolved_job));
     return exit_code::complete;
 }
 
