@@ -1,8 +1,7 @@
-// Measures error and computing time on a sample of a job's plane.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
+#include "job_lines.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"

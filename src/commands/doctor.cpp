@@ -1,5 +1,3 @@
-// Prints what a bug report should contain: program, libraries, processor, Python, and the file
-// system of results.
 #include "commands.hpp"
 #include "human_units.hpp"
 #include "output_lines.hpp"

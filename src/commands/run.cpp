@@ -6,7 +6,6 @@
 #include "human_units.hpp"
 #include "job_lines.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "remarks.hpp"
 

@@ -5,7 +5,6 @@
 #include "job_lines.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "verdict_ranges.hpp"
 

@@ -56,14 +56,6 @@ void add_quantity(hid_t file, const std::string& name, const SampleQuantity& qua
                         quantity.comment});
 }
 
-void add_samples(hid_t file, const std::vector<HistorySample>& samples)
-{
-    add_quantity(file, time_of_sample.name, time_of_sample, samples);
-    for (const SampleQuantity& quantity : quantities) {
-        add_quantity(file, quantity.name, quantity, samples);
-    }
-}
-
 void add_events(hid_t file, const std::vector<HistoryEvent>& events)
 {
     const std::vector<HistorySample> before = mapped(events, &HistoryEvent::before);
@@ -249,7 +241,10 @@ void write_history_file(const std::string& path, const Job& job, const History& 
     expect_room_for(path, FileKind::history);
     make_file(path, job, FileKind::history, [&](hid_t file, const std::string&) {
         add_outcome(file, job, history);
-        add_samples(file, history.samples);
+        add_quantity(file, time_of_sample.name, time_of_sample, history.samples);
+        for (const SampleQuantity& quantity : quantities) {
+            add_quantity(file, quantity.name, quantity, history.samples);
+        }
         add_events(file, history.events);
     });
 }
