@@ -22,7 +22,6 @@
 #include <limits>
 #include <random>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace overturn {
@@ -361,8 +360,8 @@ struct SpectrumFile::Open {
         // MPI-IO does not report the reason of a failed write: the last system error is the best
         // guess, and a full disk can be detected.
         int reason = errno;
-        struct statvfs disk = {};
-        if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
+        std::error_code unknown; // then it is the largest number
+        if (std::filesystem::space(path, unknown).available == 0) {
             reason = ENOSPC;
         }
         return Error(exit_code::output,
