@@ -17,7 +17,6 @@
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -127,7 +126,7 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
         return {};
     }
-    std::vector<double> accelerations = mapped(toppling, &std::pair<double, double>::first);
+    std::vector<double> accelerations = mapped(toppling, &VerdictRange::first);
     if (const double highest = accelerations.back(); ranges.lifting < highest) {
         const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
         accelerations.insert(accelerations.end(), scan.begin(), scan.end());
@@ -338,11 +337,11 @@ std::string json_of(double value)
 }
 
 /// A list of [first, last].
-std::string json_of(const std::vector<std::pair<double, double>>& ranges)
+std::string json_of(const std::vector<VerdictRange>& ranges)
 {
-    const auto list = ranges | std::views::transform([](const auto& range) {
-                          return fmt::format("[{}, {}]", range.first, json_of(range.second));
-                      });
+    const auto list = mapped(ranges, [](const VerdictRange& range) {
+        return fmt::format("[{}, {}]", range.first, json_of(range.last));
+    });
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
@@ -351,8 +350,8 @@ std::string json_of(const RestitutionAnswer& answer)
     const VerdictRanges& ranges = answer.ranges;
     const double end = ranges.end_of_search();
     auto toppling = ranges.with(Verdict::topples);
-    if (!toppling.empty() && toppling.back().second == end) {
-        toppling.back().second = std::numeric_limits<double>::infinity(); // it may go on
+    if (!toppling.empty() && toppling.back().last == end) {
+        toppling.back().last = std::numeric_limits<double>::infinity(); // it may go on
     }
     const std::string coarse =
         ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",

@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -42,8 +41,7 @@ struct VerdictRanges {
 
     double end_of_search() const { return all.back().last; }
 
-    /// The ends of the ranges with this verdict.
-    std::vector<std::pair<double, double>> with(Verdict verdict) const;
+    std::vector<VerdictRange> with(Verdict verdict) const;
 
     /// The share of the search above the acceleration that lifts the block in which verdicts could
     /// not be settled [1].
