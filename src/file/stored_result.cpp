@@ -11,7 +11,6 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -213,8 +212,8 @@ struct StoredResult::Open {
 
     /// Calls use(tile, values) with every computed tile and its values of the given fields.
     template <class Use>
-    void for_each_computed_tile(const std::vector<Field>& fields,
-                                const std::function<void()>& between_tiles, const Use& use) const
+    void for_each_computed_tile(const std::vector<Field>& fields, const BetweenTiles& between_tiles,
+                                const Use& use) const
     {
         const Tiling all = tiling();
         const std::vector<StoredField> stored = mapped(fields, [&](Field field) {
@@ -275,8 +274,7 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
     });
 }
 
-std::vector<std::int64_t>
-StoredResult::damaged_tiles(const std::function<void()>& between_tiles) const
+std::vector<std::int64_t> StoredResult::damaged_tiles(const BetweenTiles& between_tiles) const
 {
     std::vector<std::int64_t> damaged;
     const auto check_tile = [&](const Tile& tile, const std::vector<FieldValues>& values) {

@@ -185,8 +185,6 @@ void add_study(hid_t file, const AccuracySample& sample, const std::vector<Accur
              "number of points of the class");
 }
 
-} // namespace
-
 /// Whether a file of a kind has all groups that overturn writes, and a history no further
 /// variables: a data set that was derived from one has its attributes, too.
 bool is_as_written(hid_t file, FileKind kind)
@@ -200,6 +198,8 @@ bool is_as_written(hid_t file, FileKind kind)
     return has("run") && (kind != FileKind::history ||
                           (has("events") && root.nlinks <= std::size(quantities) + others));
 }
+
+} // namespace
 
 void expect_room_for(const std::string& path, FileKind kind)
 {
