@@ -8,8 +8,6 @@
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>

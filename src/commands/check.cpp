@@ -9,8 +9,6 @@
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -7,8 +7,6 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

@@ -5,8 +5,6 @@
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <csignal>

@@ -11,8 +11,6 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>

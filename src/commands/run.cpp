@@ -21,7 +21,6 @@
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/chrono.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>

@@ -5,7 +5,6 @@
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <ranges>

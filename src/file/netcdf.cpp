@@ -9,7 +9,6 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "program_identity.hpp"
 #include "working_file.hpp"
 
-#include <fmt/format.h>
 #include <hdf5.h>
 #include <mpi.h>
 

@@ -11,7 +11,6 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>

@@ -6,8 +6,6 @@
 
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <optional>

@@ -4,7 +4,6 @@
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
 #include <glob.h>
 #include <xxhash.h>
 

@@ -3,8 +3,6 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
-
 #include <span>
 
 namespace overturn {

@@ -4,8 +4,6 @@
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/job/schema.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
