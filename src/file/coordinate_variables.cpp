@@ -19,15 +19,7 @@ using netcdf::Dimensions;
 
 /// The measures of a record as coordinates. If it has two horizontal components, they are those of
 /// the first one; Coordinates::of("record_pga") is that in the direction of a point.
-struct Measure {
-    const char* name;
-    const char* long_name;
-    const char* units;
-    double IntensityMeasures::*value;
-    const char* comment = "";
-};
-
-constexpr Measure measures[] = {
+constexpr netcdf::MemberVariable<IntensityMeasures> measures[] = {
     {"record_pga", "peak acceleration of the record, over g", "1", &IntensityMeasures::pga},
     {"pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv},
     {"arias_intensity", "Arias intensity of the record", "m s-1",
@@ -182,7 +174,7 @@ private:
                    [&](double number) { return &job_.motions[Scene::record_index(number)]; });
         add_texts("motion_name", along, mapped(motions, [](auto* motion) { return motion->name; }),
                   "file of the recorded ground motion");
-        for (const Measure& measure : measures) {
+        for (const auto& measure : measures) {
             add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
                 return mapped(motions, [&](auto* each) { return each->measures.*measure.value; });
             });

@@ -20,13 +20,7 @@ namespace {
 using hdf5::write_attribute;
 using namespace netcdf;
 
-struct SampleQuantity {
-    const char* name;
-    const char* long_name;
-    const char* units;
-    double HistorySample::*value;
-    const char* comment = "";
-};
+using SampleQuantity = MemberVariable<HistorySample>;
 
 constexpr SampleQuantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
                                         "from the beginning of the ground motion"};
