@@ -1,5 +1,4 @@
 #include "commands.hpp"
-#include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 

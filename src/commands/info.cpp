@@ -1,6 +1,5 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
-#include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 #include "remarks.hpp"

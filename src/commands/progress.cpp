@@ -1,6 +1,6 @@
 #include "progress.hpp"
 
-#include "human_units.hpp"
+#include "output_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "guarded_reading.hpp"
-#include "human_units.hpp"
 #include "job_lines.hpp"
 #include "output_lines.hpp"
 #include "progress.hpp"

@@ -1,4 +1,4 @@
-#include "human_units.hpp"
+#include "output_lines.hpp"
 
 #include <fmt/format.h>
 
