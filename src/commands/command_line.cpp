@@ -209,14 +209,12 @@ void add_folder(CLI::App& command, std::string& folder)
 }
 
 /// The parser of the command line, and the subcommand that it finds.
-class Parser {
-public:
-    Parser();
-
+struct Parser {
     CLI::App app{"Overturning spectra of rocking blocks."};
     Command chosen;
 
-private:
+    Parser();
+
     template <class Options>
     void add(const char* name, const char* description, const char* footer,
              int (*execute)(const Options&), void (*add_arguments)(CLI::App&, Options&))

@@ -54,8 +54,6 @@ public:
     SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
                  bool durable = false);
     ~SpectrumFile();
-    SpectrumFile(const SpectrumFile&) = delete;
-    SpectrumFile& operator=(const SpectrumFile&) = delete;
 
     /// Numbers of the tiles that are not computed yet, ascending. Not collective.
     std::vector<std::int64_t> missing_tiles();
