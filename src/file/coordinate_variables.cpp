@@ -140,16 +140,12 @@ private:
         }
     }
 
-    bool has(std::string_view name) const
-    {
-        return std::ranges::any_of(
-            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
-    }
-
     /// A boundary has flips instead of strengths, and nothing that follows from these.
     void add_derived(std::string_view name)
     {
-        if (has(name) || grid_.find(name) != nullptr || !derived_->has(name)) {
+        const bool is_column = std::ranges::any_of(
+            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
+        if (is_column || grid_.find(name) != nullptr || !derived_->has(name)) {
             return;
         }
         Dimensions along;
