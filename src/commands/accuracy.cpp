@@ -1,15 +1,12 @@
-// Measures error and computing time on a sample of a job's plane.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
+#include "job_lines.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,17 +1,12 @@
-// Prints what a job would compute and store, and its estimated time. Writes nothing.
 #include "commands.hpp"
-#include "human_units.hpp"
 #include "job_lines.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
-#include "probable_mistakes.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>

@@ -11,7 +11,7 @@
 #include "overturn/text/error.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include <concepts>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -64,11 +65,12 @@ void add_job_arguments(CLI::App& command, JobSource& job)
         ->allow_extra_args(false);
 }
 
-void add_run_arguments(CLI::App& command, RunOptions& options, const char* output)
+void add_run_arguments(CLI::App& command, RunOptions& options)
 {
     add_job_arguments(command, options.job);
     add_text(command, "-o,--output", options.output, "OUT.h5",
-             fmt::format("Result file; default: {} in the working directory", output));
+             fmt::format("Result file; default: JOB{}.h5 in the working directory",
+                         options.boundary ? "_boundary" : ""));
     command
         .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
         ->check(CLI::IsMember({"auto", "double", "neon", "avx2", "avx512"}))
@@ -77,6 +79,12 @@ void add_run_arguments(CLI::App& command, RunOptions& options, const char* outpu
                      "Sync each tile to disk, so that it survives a power failure; slower");
     add_count(command, "--patience", options.patience, CLI::Range(1, 1000000),
               "Stop the run if a rank is silent for this long [s]; rerun to resume");
+}
+
+void add_boundary_arguments(CLI::App& command, RunOptions& options)
+{
+    options.boundary = true;
+    add_run_arguments(command, options);
 }
 
 void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
@@ -189,37 +197,38 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
              "Write the motion at --pga or --scale, as overturn history does");
 }
 
-/// The parser of the command line, the options that it reads, and the subcommand that it finds.
-class Parser {
-public:
-    Parser();
+void add_result_file(CLI::App& command, std::string& path)
+{
+    command.add_option("FILE", path, "Result file")->required();
+}
 
+void add_folder(CLI::App& command, std::string& folder)
+{
+    folder = ".";
+    command.add_option("FOLDER", folder, "Folder of the result files")->capture_default_str();
+}
+
+/// The parser of the command line, and the subcommand that it finds.
+struct Parser {
     CLI::App app{"Overturning spectra of rocking blocks."};
     Command chosen;
 
-private:
+    Parser();
+
     template <class Options>
-    CLI::App& add(const char* name, const char* description, const char* footer,
-                  int (*execute)(const Options&), const Options& options)
+    void add(const char* name, const char* description, const char* footer,
+             int (*execute)(const Options&), void (*add_arguments)(CLI::App&, Options&))
     {
         CLI::App* const command = app.add_subcommand(name, description);
+        const auto options = std::make_shared<Options>();
+        add_arguments(*command, *options);
         command->footer(footer);
-        command->callback([this, execute, &options] {
-            chosen = {.execute = [execute, given = options] { return execute(given); },
+        command->callback([this, execute, options] {
+            chosen = {.execute = [execute, options] { return execute(*options); },
                       // Only `run` and `boundary`, which have these options, use MPI.
                       .on_every_rank = std::same_as<Options, RunOptions>};
         });
-        return *command;
     }
-
-    RunOptions run_;
-    RunOptions boundary_;
-    JobSource check_;
-    AccuracyOptions accuracy_;
-    HistoryOptions history_;
-    ToppleOptions topple_;
-    std::string result_file_;
-    std::string folder_ = ".";
 };
 
 Parser::Parser()
@@ -227,39 +236,22 @@ Parser::Parser()
     app.require_subcommand(1);
     app.footer(help::overview);
     app.set_version_flag("--version", version_text);
-    add_run_arguments(
-        add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run, run_),
-        run_, "JOB.h5");
-    boundary_.boundary = true;
-    add_run_arguments(add("boundary",
-                          "Find the amplitudes at which verdicts flip, with or without mpirun",
-                          help::boundary, run, boundary_),
-                      boundary_, "JOB_boundary.h5");
-    add_job_arguments(add("check",
-                          "Validate a job; print its points, bytes and time; write nothing",
-                          help::check, check, check_),
-                      check_);
-    add_accuracy_arguments(add("accuracy",
-                               "Measure error and computing time on a sample of a job's plane",
-                               help::accuracy, accuracy, accuracy_),
-                           accuracy_);
-    add_history_arguments(
-        add("history", "Compute the motion of one block: angle, velocity and events over time",
-            help::history, history, history_),
-        history_);
-    add_topple_arguments(add("topple", "Answer whether one block topples, and at which PGA",
-                             help::topple, topple, topple_),
-                         topple_);
-    add("info", "Print a summary of a result file", help::info, info, result_file_)
-        .add_option("FILE", result_file_, "Result file")
-        ->required();
-    add("verify", "Check a result file for damage", help::verify, verify, result_file_)
-        .add_option("FILE", result_file_, "Result file")
-        ->required();
+    add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run,
+        add_run_arguments);
+    add("boundary", "Find the amplitudes at which verdicts flip, with or without mpirun",
+        help::boundary, run, add_boundary_arguments);
+    add("check", "Validate a job; print its points, bytes and time; write nothing", help::check,
+        check, add_job_arguments);
+    add("accuracy", "Measure error and computing time on a sample of a job's plane", help::accuracy,
+        accuracy, add_accuracy_arguments);
+    add("history", "Compute the motion of one block: angle, velocity and events over time",
+        help::history, history, add_history_arguments);
+    add("topple", "Answer whether one block topples, and at which PGA", help::topple, topple,
+        add_topple_arguments);
+    add("info", "Print a summary of a result file", help::info, info, add_result_file);
+    add("verify", "Check a result file for damage", help::verify, verify, add_result_file);
     add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
-        folder_)
-        .add_option("FOLDER", folder_, "Folder of the result files")
-        ->capture_default_str();
+        add_folder);
 }
 
 /// "OUT.h5", "{auto,double}"; JOB for a positional argument; empty for a flag.
@@ -276,17 +268,12 @@ std::string value_of(const CLI::Option& option)
 /// Escapes the characters that roff interprets or replaces.
 std::string escaped(std::string_view text)
 {
-    std::string result;
-    for (const char letter : text) {
-        switch (letter) {
-        case '\\': result += "\\e"; break;
-        case '-': result += "\\-"; break;
-        case '\'': result += "\\(aq"; break;
-        case '`': result += "\\(ga"; break;
-        case '^': result += "\\(ha"; break;
-        case '~': result += "\\(ti"; break;
-        default: result += letter;
-        }
+    constexpr std::pair<const char*, const char*> escapes[] = {{"\\", "\\e"},  {"-", "\\-"},
+                                                               {"'", "\\(aq"}, {"`", "\\(ga"},
+                                                               {"^", "\\(ha"}, {"~", "\\(ti"}};
+    std::string result(text);
+    for (const auto& [letter, escape] : escapes) {
+        boost::algorithm::replace_all(result, letter, escape);
     }
     return result;
 }

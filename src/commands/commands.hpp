@@ -66,11 +66,11 @@ struct ToppleOptions {
 };
 int topple(const ToppleOptions& options);
 
-/// Prints the versions, processor and file system that a bug report should contain. folder: of the
-/// result files.
+/// Prints what a bug report should contain: program, libraries, processor, Python, and the file
+/// system of the folder, that of the result files.
 int doctor(const std::string& folder);
 
-/// Prints a summary of a result file.
+/// Prints a summary of a result file, and how to resume it if it is unfinished.
 int info(const std::string& path);
 
 /// Checks the coordinates and all tiles of a result file, and reports what is damaged.

@@ -22,12 +22,6 @@ std::string message_of(const std::exception& error)
     return printable(error.what());
 }
 
-Error stopped_by_signal(const std::string& when)
-{
-    return {exit_code::stopped,
-            "stopped by a signal" + when + ". Run the same command again to resume."};
-}
-
 int complain(const std::exception& error)
 {
     std::fflush(stdout);

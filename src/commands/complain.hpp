@@ -14,9 +14,6 @@ int exit_code_of(const std::exception& error);
 /// The message of an error, safe to print on a terminal.
 std::string message_of(const std::exception& error);
 
-/// The error of a run that a signal has stopped; `when` is appended to "stopped by a signal".
-Error stopped_by_signal(const std::string& when);
-
 /// Prints `overturn: message` to stderr and returns the exit code.
 int complain(const std::exception& error);
 

@@ -1,15 +1,10 @@
-// Prints what a bug report should contain: program, libraries, processor, Python, and the file
-// system of results.
 #include "commands.hpp"
-#include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
-
-#include <fmt/format.h>
 
 #include <cstdio>
 #include <cstdlib>

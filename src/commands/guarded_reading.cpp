@@ -5,8 +5,6 @@
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -29,6 +27,16 @@ struct LastWords {
     std::string lock;
 };
 LastWords last_words;
+
+/// What the destructor restores.
+struct Replaced {
+    std::array<struct sigaction, ends.size()> actions;
+    stack_t stack;
+    rlimit data;
+};
+Replaced replaced;
+
+std::array<char, std::size_t(1) << 18> stack_of_handler; // for stack overflows
 
 extern "C" void end_process(int signal)
 {
@@ -58,15 +66,7 @@ void limit_processor_time(rlim_t seconds)
 
 } // namespace
 
-struct GuardedReading::Replaced {
-    std::array<struct sigaction, ends.size()> actions{};
-    stack_t stack{};
-    rlimit data{};
-    std::array<char, std::size_t(1) << 18> new_stack{}; ///< of the handler, for stack overflows
-};
-
 GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
-    : replaced_(std::make_unique<Replaced>())
 {
     for (std::size_t i = 0; i < ends.size(); ++i) {
         last_words.messages[i] = fmt::format(
@@ -75,37 +75,36 @@ GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
                                : fmt::format("crashes while reading it ({})", strsignal(ends[i])));
     }
     last_words.lock = lock;
-    const stack_t stack{.ss_sp = replaced_->new_stack.data(),
-                        .ss_flags = 0,
-                        .ss_size = replaced_->new_stack.size()};
-    sigaltstack(&stack, &replaced_->stack);
+    const stack_t stack{
+        .ss_sp = stack_of_handler.data(), .ss_flags = 0, .ss_size = stack_of_handler.size()};
+    sigaltstack(&stack, &replaced.stack);
     struct sigaction action = {};
     action.sa_handler = end_process;
     action.sa_flags = SA_ONSTACK | SA_NODEFER; // MPI may crash in the handler
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        sigaction(ends[i], &action, &replaced_->actions[i]);
+        sigaction(ends[i], &action, &replaced.actions[i]);
     }
 
     std::error_code none;
     const std::uintmax_t found = std::filesystem::file_size(path, none);
     const rlim_t bytes = none ? 0 : rlim_t(found);
     limit_processor_time(60 + 60 * (bytes >> 30));
-    getrlimit(RLIMIT_DATA, &replaced_->data);
+    getrlimit(RLIMIT_DATA, &replaced.data);
 #ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of address space at the start
     const rlim_t most = data_in_use() + (rlim_t(1) << 29) + 2 * bytes;
-    const rlimit data{std::min(most, replaced_->data.rlim_cur), replaced_->data.rlim_max};
+    const rlimit data{std::min(most, replaced.data.rlim_cur), replaced.data.rlim_max};
     setrlimit(RLIMIT_DATA, &data);
 #endif
 }
 
 GuardedReading::~GuardedReading()
 {
-    setrlimit(RLIMIT_DATA, &replaced_->data);
+    setrlimit(RLIMIT_DATA, &replaced.data);
     limit_processor_time(0);
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        sigaction(ends[i], &replaced_->actions[i], nullptr);
+        sigaction(ends[i], &replaced.actions[i], nullptr);
     }
-    sigaltstack(&replaced_->stack, nullptr);
+    sigaltstack(&replaced.stack, nullptr);
 }
 
 } // namespace overturn

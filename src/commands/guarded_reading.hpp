@@ -2,7 +2,6 @@
 // others.
 #pragma once
 
-#include <memory>
 #include <string>
 
 namespace overturn {
@@ -18,10 +17,6 @@ public:
     ~GuardedReading();
     GuardedReading(const GuardedReading&) = delete;
     GuardedReading& operator=(const GuardedReading&) = delete;
-
-private:
-    struct Replaced;
-    std::unique_ptr<Replaced> replaced_; ///< what the destructor restores
 };
 
 } // namespace overturn

@@ -1,10 +1,8 @@
-// The motion of one block: the forced stage, then the analytical free stage.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "job_lines.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
@@ -12,8 +10,6 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>

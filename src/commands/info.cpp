@@ -1,7 +1,5 @@
-// Prints a summary of a result file, and how to resume it if it is unfinished.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
-#include "human_units.hpp"
 #include "output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 #include "remarks.hpp"
@@ -9,7 +7,6 @@
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -70,21 +67,17 @@ void print_axes_and_tiles(const StoredResult& stored)
     }
 }
 
-void print_summary(const StoredResult& stored)
-{
-    print_origin(stored.path(), stored.origin());
-    if (stored.origin().has_tiles()) {
-        print_axes_and_tiles(stored);
-    }
-    fmt::print("\nThe job with all defaults:\n\n{}", printable(stored.origin().resolved_job));
-}
-
 } // namespace
 
 int info(const std::string& path)
 {
     const GuardedReading guarded(path);
-    print_summary(StoredResult(path));
+    const StoredResult stored(path);
+    print_origin(path, stored.origin());
+    if (stored.origin().has_tiles()) {
+        print_axes_and_tiles(stored);
+    }
+    fmt::print("\nThe job with all defaults:\n\n{}", printable(stored.origin().resolved_job));
     return exit_code::complete;
 }
 

@@ -1,5 +1,5 @@
 // What a job contains, in lines for people: coordinates in degrees, metres, seconds and g; recorded
-// ground motions; columns of tables.
+// ground motions; columns of tables. Warnings of what is allowed, but probably not what was meant.
 #pragma once
 
 #include "overturn/job/job.hpp"
@@ -44,5 +44,8 @@ std::string unused_columns(const Job& job);
 
 /// What a reader of the log of a run must know of its records and columns.
 std::vector<std::string> notes_on(const Job& job);
+
+/// Prints to stderr what looks like a mistake in the units, and misspelt columns of a table.
+void warn_of_probable_mistakes(const Job& job);
 
 } // namespace overturn

@@ -1,4 +1,5 @@
-// The lines that commands print: messages, and rows of a name and a text.
+// The lines that commands print: messages, rows of a name and a text, and numbers in readable
+// units.
 #pragma once
 
 #include "overturn/problem/quantity.hpp"
@@ -46,5 +47,14 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                                     : fmt::format("{} values from {} to {}", size, first, last),
                           unit, is_share ? ", of the maximum" : ""));
 }
+
+/// Three digits and a prefix: "640", "1.20 k", "3.00 M", "1.00 G".
+std::string human_count(double count);
+
+/// "310 ms", "1.25 s", "12 s", "2 min 05 s", "3 h 07 min", "2 d 04 h"; seconds [s] >= 0.
+std::string human_duration(double seconds);
+
+/// "640 bytes", "12.0 kB", "3.60 GB": powers of 1000.
+std::string human_bytes(double bytes);
 
 } // namespace overturn

@@ -1,6 +1,6 @@
 #include "progress.hpp"
 
-#include "human_units.hpp"
+#include "output_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -17,11 +17,6 @@ constexpr double redraw_interval = 0.2; // [s]
 constexpr double first_log_line = 2; // [s]
 constexpr double shortest_log_interval = 10;
 constexpr double longest_log_interval = 600;
-
-double log_interval(double seconds)
-{
-    return std::clamp(seconds / 10, shortest_log_interval, longest_log_interval);
-}
 
 } // namespace
 
@@ -67,7 +62,9 @@ void Progress::update(std::int64_t done)
     if (moment_.seconds < next_ && !last_redraw) {
         return;
     }
-    next_ = moment_.seconds + (terminal_ ? redraw_interval : log_interval(moment_.seconds));
+    next_ = moment_.seconds + (terminal_ ? redraw_interval
+                                         : std::clamp(moment_.seconds / 10, shortest_log_interval,
+                                                      longest_log_interval));
     // On a terminal: return to the first column, and erase the rest of a longer line.
     std::fprintf(stream_, terminal_ ? "\r%s\x1b[K" : "%s\n", progress_text(moment_).c_str());
     std::fflush(stream_); // failure ignored: the reader may have ended

@@ -2,11 +2,9 @@
 // compute and write each of them.
 #include "commands.hpp"
 #include "complain.hpp"
-#include "human_units.hpp"
+#include "guarded_reading.hpp"
 #include "job_lines.hpp"
 #include "output_lines.hpp"
-#include "prepare_output.hpp"
-#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "remarks.hpp"
 
@@ -21,7 +19,7 @@
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
 #include <algorithm>
 #include <chrono>
@@ -60,6 +58,67 @@ std::string output_path(const RunOptions& options)
     const std::string ending = options.boundary ? "_boundary.h5" : ".h5";
     return options.output.empty() ? fs::path(options.job.path).stem().string() + ending
                                   : options.output;
+}
+
+/// `when` is appended to "stopped by a signal".
+Error stopped_by_signal(const std::string& when)
+{
+    return {exit_code::stopped,
+            "stopped by a signal" + when + ". Run the same command again to resume."};
+}
+
+void expect_no_stop(const char* when)
+{
+    if (StopSignals::requested()) {
+        throw stopped_by_signal(when);
+    }
+}
+
+/// Checks all finished tiles: after a power failure, the checksum of a tile may be on the disk but
+/// not its values.
+std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
+{
+    const auto start = std::chrono::steady_clock::now();
+    bool announced = false;
+    return stored.damaged_tiles([&] {
+        if (!announced && std::chrono::steady_clock::now() - start > std::chrono::seconds(2)) {
+            say(stored.path() + ": verifying finished tiles");
+            announced = true;
+        }
+        expect_no_stop(" before the computation started");
+    });
+}
+
+/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns the
+/// numbers of its damaged tiles; nullopt if it is complete. Throws Error.
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+                                                        const SoleWriter& writer)
+{
+    std::optional<std::vector<std::int64_t>> damaged;
+    bool is_complete = false;
+    {
+        const GuardedReading guarded(path, writer.lock());
+        if (const auto stored = existing_result(path, job)) {
+            damaged = find_damaged_tiles(*stored);
+            is_complete = damaged->empty() && stored->tiles().tiles_done == stored->tiles().tiles;
+        }
+    }
+    if (is_complete) {
+        clear_open_mark(path);
+        say(path + " is already complete.");
+        return std::nullopt;
+    }
+    demand_place_for_sidecar(path);
+    if (!damaged) {
+        const auto bytes = double(spectrum_file_bytes(job));
+        constexpr double made_at_once = 1e8;
+        if (bytes > made_at_once) {
+            say(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
+        }
+        create_spectrum_file(path, job, [] { expect_no_stop(" before the file was created"); });
+        damaged.emplace();
+    }
+    return damaged;
 }
 
 std::string start_line(const Task& task, std::int64_t tiles_before)
@@ -115,21 +174,38 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
                     std::chrono::seconds(task.options.patience));
 }
 
-/// On rank 0.
-void write_run_info(const Task& task, const FarmReport& report, double seconds)
+/// The sidecar: what varies from run to run. On rank 0.
+std::string sidecar_of(const Task& task, const FarmReport& report, double seconds)
 {
-    RunInfo run{.start = task.start,
-                .wall_seconds = seconds,
-                .kernel = std::string(name_of(task.kernel)),
-                .requests = report.dealing.requests,
-                .dealing_seconds = report.dealing.seconds,
-                .ranks = {}};
+    std::vector<std::string> ranks;
     for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
         const RankShare& share = report.ranks[rank];
-        run.ranks.push_back(
-            {task.session.hosts()[rank], share.tiles, share.compute_seconds, share.write_seconds});
+        ranks.push_back(fmt::format(
+            R"(    {{"host": {}, "tiles": {}, "compute_seconds": {}, "write_seconds": {}}})",
+            in_quotes(task.session.hosts()[rank]), share.tiles, share.compute_seconds,
+            share.write_seconds));
     }
-    write_sidecar(task.path, run);
+    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(task.start);
+    return fmt::format(R"({}{},
+  "program_commit": {},
+  "start": "{:%Y-%m-%dT%H:%M:%SZ}",
+  "wall_seconds": {},
+  "kernel": {},
+  "compiler": {},
+  "hdf5": {},
+  "mpi": {},
+  "requests": {},
+  "dealing_seconds": {},
+  "ranks": [
+{}
+  ]
+}}
+)",
+                       sidecar_beginning, in_quotes(program_version()), in_quotes(program_commit()),
+                       fmt::gmtime(start), seconds, in_quotes(name_of(task.kernel)),
+                       in_quotes(compiler_version()), in_quotes(hdf5_version()),
+                       in_quotes(mpi_version()), report.dealing.requests, report.dealing.seconds,
+                       fmt::join(ranks, ",\n"));
 }
 
 /// Says how the run ended, and what a reader of the result must know. On rank 0.
@@ -182,7 +258,7 @@ int compute_missing_tiles(const Task& task)
     int code = exit_code::complete;
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        write_run_info(task, report, seconds);
+        write_sidecar(task.path, sidecar_of(task, report, seconds));
         code = report_end(task, report, seconds);
     }
     return task.session.from_rank_0(code);

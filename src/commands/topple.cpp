@@ -5,7 +5,6 @@
 #include "job_lines.hpp"
 #include "one_point.hpp"
 #include "output_lines.hpp"
-#include "probable_mistakes.hpp"
 #include "progress.hpp"
 #include "verdict_ranges.hpp"
 
@@ -14,10 +13,10 @@
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -127,10 +126,7 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
         return {};
     }
-    std::vector<double> accelerations;
-    for (const auto& [first, last] : toppling) {
-        accelerations.push_back(first);
-    }
+    std::vector<double> accelerations = mapped(toppling, &VerdictRange::first);
     if (const double highest = accelerations.back(); ranges.lifting < highest) {
         const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
         accelerations.insert(accelerations.end(), scan.begin(), scan.end());
@@ -138,10 +134,9 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     std::ranges::sort(accelerations);
     const auto [begin, end] = std::ranges::unique(accelerations);
     accelerations.erase(begin, end);
-    std::vector<double> strengths = accelerations;
-    for (double& strength : strengths) {
-        strength /= scene.is_recorded() ? unit : 1;
-    }
+    const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
+        return scene.is_recorded() ? acceleration / unit : acceleration;
+    });
     const Job job = read_job_text(job_text(options, strengths), command_line, options.overrides);
     const std::vector<double> friction = accurate_values(job.problem, Field::friction);
     std::vector<double> needed;
@@ -213,12 +208,6 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
     return answer;
 }
 
-/// With two decimals.
-std::string rounded_up(double friction)
-{
-    return fmt::format("{:.2f}", -rounded_down(-friction, 2));
-}
-
 /// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
 std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
 {
@@ -228,9 +217,10 @@ std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
     for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
         const double friction = answer.friction_to_topple[i];
         list.push_back(fmt::format("{} at {:.{}f} g",
-                                   std::isnan(friction)   ? "unknown"
-                                   : std::isinf(friction) ? "infinite"
-                                                          : rounded_up(friction),
+                                   std::isnan(friction) ? "unknown"
+                                   : std::isinf(friction)
+                                       ? "infinite"
+                                       : fmt::format("{:.2f}", rounded_up(friction, 2)),
                                    rounded_down(toppling[i].first, decimals), decimals));
     }
     return fmt::format("{}{}", fmt::join(list, ", "),
@@ -242,7 +232,8 @@ std::string friction_text(double friction)
     return std::isnan(friction) ? "unknown"
            : std::isinf(friction)
                ? "the block would leave the ground, so that the verdict is doubtful"
-               : "the verdict holds if the coefficient is at least " + rounded_up(friction);
+               : fmt::format("the verdict holds if the coefficient is at least {:.2f}",
+                             rounded_up(friction, 2));
 }
 
 /// The numbers that complete a pulse, each with its name in this format.
@@ -346,11 +337,11 @@ std::string json_of(double value)
 }
 
 /// A list of [first, last].
-std::string json_of(const std::vector<std::pair<double, double>>& ranges)
+std::string json_of(const std::vector<VerdictRange>& ranges)
 {
-    const auto list = ranges | std::views::transform([](const auto& range) {
-                          return fmt::format("[{}, {}]", range.first, json_of(range.second));
-                      });
+    const auto list = mapped(ranges, [](const VerdictRange& range) {
+        return fmt::format("[{}, {}]", range.first, json_of(range.last));
+    });
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
@@ -359,8 +350,8 @@ std::string json_of(const RestitutionAnswer& answer)
     const VerdictRanges& ranges = answer.ranges;
     const double end = ranges.end_of_search();
     auto toppling = ranges.with(Verdict::topples);
-    if (!toppling.empty() && toppling.back().second == end) {
-        toppling.back().second = std::numeric_limits<double>::infinity(); // it may go on
+    if (!toppling.empty() && toppling.back().last == end) {
+        toppling.back().last = std::numeric_limits<double>::infinity(); // it may go on
     }
     const std::string coarse =
         ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",

@@ -32,18 +32,17 @@ FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
     return search;
 }
 
-using Ends = std::pair<double, double>;
-
 /// Rounded outwards; ranges that touch or overlap then are one.
-std::vector<Ends> rounded(const std::vector<Ends>& ranges, int decimals)
+std::vector<VerdictRange> rounded(const std::vector<VerdictRange>& ranges, int decimals)
 {
-    std::vector<Ends> all;
-    for (const auto& [first, last] : ranges) {
-        const Ends next{rounded_down(first, decimals), -rounded_down(-last, decimals)};
-        if (!all.empty() && next.first <= all.back().second) {
-            all.back().second = next.second;
+    std::vector<VerdictRange> all;
+    for (VerdictRange range : ranges) {
+        range.first = rounded_down(range.first, decimals);
+        range.last = rounded_up(range.last, decimals);
+        if (!all.empty() && range.first <= all.back().last) {
+            all.back().last = range.last;
         } else {
-            all.push_back(next);
+            all.push_back(range);
         }
     }
     return all;
@@ -51,11 +50,11 @@ std::vector<Ends> rounded(const std::vector<Ends>& ranges, int decimals)
 
 /// "1.1110 to 1.6440 g" for each range, and "above 2.1300 g" if the last one reaches the end of the
 /// search; at most this many, including the last.
-std::string list_of(const std::vector<Ends>& ranges, int decimals, std::size_t most,
+std::string list_of(const std::vector<VerdictRange>& ranges, int decimals, std::size_t most,
                     double end_of_search)
 {
     std::string list;
-    const std::vector<Ends> shown = rounded(ranges, decimals);
+    const std::vector<VerdictRange> shown = rounded(ranges, decimals);
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const bool is_last = i + 1 == shown.size();
         if (i + 1 >= most && !is_last) {
@@ -65,7 +64,7 @@ std::string list_of(const std::vector<Ends>& ranges, int decimals, std::size_t m
         if (is_last && i >= most) {
             list += fmt::format("{} more (see --json), ", shown.size() - most);
         }
-        const auto& [first, last] = shown[i];
+        const auto& [first, last, verdict] = shown[i];
         list += last >= end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
                 : first == last
                     ? fmt::format("{:.{}f} g", first, decimals)
@@ -163,22 +162,18 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
     return ranges;
 }
 
-std::vector<std::pair<double, double>> VerdictRanges::with(Verdict verdict) const
+std::vector<VerdictRange> VerdictRanges::with(Verdict verdict) const
 {
-    std::vector<std::pair<double, double>> ends;
-    for (const VerdictRange& range : all) {
-        if (range.verdict == verdict) {
-            ends.emplace_back(range.first, range.last);
-        }
-    }
-    return ends;
+    std::vector<VerdictRange> ranges = all;
+    std::erase_if(ranges, [&](const VerdictRange& each) { return each.verdict != verdict; });
+    return ranges;
 }
 
 double VerdictRanges::undecided_share() const
 {
     double undecided = 0;
-    for (const auto& [first, last] : with(Verdict::undecided)) {
-        undecided += last - first;
+    for (const VerdictRange& range : with(Verdict::undecided)) {
+        undecided += range.last - range.first;
     }
     return undecided > 0 ? undecided / (end_of_search() - lifting) : 0;
 }
@@ -194,7 +189,7 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
     if (coarse) {
         text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
                             rounded_down(coarse->first, decimals), decimals,
-                            -rounded_down(-coarse->last, decimals), decimals, 100 * coarse->step);
+                            rounded_up(coarse->last, decimals), decimals, 100 * coarse->step);
     }
     return text;
 }

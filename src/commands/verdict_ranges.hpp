@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -18,6 +17,10 @@ enum class Verdict { safe, topples, undecided };
 /// The largest number of this many decimals that is at most the value; the printed number is never
 /// above the value.
 double rounded_down(double value, int decimals);
+inline double rounded_up(double value, int decimals)
+{
+    return -rounded_down(-value, decimals);
+}
 
 /// The verdict of the region of a block at rest after the motion.
 Verdict verdict_of(Region region);
@@ -38,8 +41,7 @@ struct VerdictRanges {
 
     double end_of_search() const { return all.back().last; }
 
-    /// The ends of the ranges with this verdict.
-    std::vector<std::pair<double, double>> with(Verdict verdict) const;
+    std::vector<VerdictRange> with(Verdict verdict) const;
 
     /// The share of the search above the acceleration that lifts the block in which verdicts could
     /// not be settled [1].

@@ -1,4 +1,3 @@
-// Checks the coordinates of a result file against its job, and its tiles against their checksums.
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "remarks.hpp"
@@ -6,18 +5,16 @@
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <ranges>
 
 namespace overturn {
 
-namespace {
-
-void check_file(const StoredResult& stored)
+int verify(const std::string& path)
 {
-    const std::string& path = stored.path();
+    const GuardedReading guarded(path);
+    const StoredResult stored(path);
     const TilesSummary& tiles = stored.tiles();
     if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
         throw Error(exit_code::output,
@@ -39,14 +36,6 @@ void check_file(const StoredResult& stored)
                stored.has_coordinate_checksums()
                    ? "coordinates and checksums"
                    : "checksums of tiles (this format has none of coordinates)");
-}
-
-} // namespace
-
-int verify(const std::string& path)
-{
-    const GuardedReading guarded(path);
-    check_file(StoredResult(path));
     return exit_code::complete;
 }
 

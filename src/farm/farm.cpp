@@ -32,22 +32,18 @@ struct WorkerMessage {
 constexpr TileRange end_of_work{-1, -1};
 
 /// Limits how often something is done in a loop.
-class Occasionally {
-public:
-    explicit Occasionally(Clock::duration interval) : interval_(interval) {}
+struct Occasionally {
+    Clock::duration interval;
+    Clock::time_point last = Clock::now();
 
     /// True at most once per interval.
     bool is_due()
     {
         const auto now = Clock::now();
-        const bool due = now - last_ >= interval_;
-        last_ = due ? now : last_;
+        const bool due = now - last >= interval;
+        last = due ? now : last;
         return due;
     }
-
-private:
-    Clock::duration interval_;
-    Clock::time_point last_ = Clock::now();
 };
 
 double busy_seconds(const RankShare& share)
@@ -151,7 +147,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
         return message;
     };
     LinkToRank0 rank_0(session.communicator(), patience);
-    Occasionally regular_report(std::chrono::milliseconds(patience) / messages_in_patience);
+    Occasionally regular_report{std::chrono::milliseconds(patience) / messages_in_patience};
     // The computation of a tile calls it regularly, so messages are sent there, too.
     const DropRequested drop_requested = [&] {
         if (regular_report.is_due()) {
@@ -196,7 +192,7 @@ public:
     /// worker is silent.
     FarmReport lead()
     {
-        Occasionally communication(answer_interval);
+        Occasionally communication{answer_interval};
         // The computation of a tile calls it regularly, so messages are handled there, too.
         const DropRequested drop_requested = [&] {
             if (communication.is_due()) {

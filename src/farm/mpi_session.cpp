@@ -1,6 +1,7 @@
 #include "overturn/farm/mpi_session.hpp"
 
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <algorithm>
 #include <array>
@@ -123,9 +124,8 @@ MpiSession::MpiSession()
     Name own{}; // its zeros end the name
     int length = 0;
     MPI_Get_processor_name(own.data(), &length);
-    for (const Name& name : gather_on_rank_0(own)) {
-        hosts_.emplace_back(name.data());
-    }
+    hosts_ =
+        mapped(gather_on_rank_0(own), [](const Name& name) { return std::string(name.data()); });
 }
 
 void MpiSession::leave()

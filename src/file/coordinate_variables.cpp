@@ -3,6 +3,7 @@
 #include "layout.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 
@@ -18,15 +19,7 @@ using netcdf::Dimensions;
 
 /// The measures of a record as coordinates. If it has two horizontal components, they are those of
 /// the first one; Coordinates::of("record_pga") is that in the direction of a point.
-struct Measure {
-    const char* name;
-    const char* long_name;
-    const char* units;
-    double IntensityMeasures::*value;
-    const char* comment = "";
-};
-
-constexpr Measure measures[] = {
+constexpr netcdf::MemberVariable<IntensityMeasures> measures[] = {
     {"record_pga", "peak acceleration of the record, over g", "1", &IntensityMeasures::pga},
     {"pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv},
     {"arias_intensity", "Arias intensity of the record", "m s-1",
@@ -147,16 +140,12 @@ private:
         }
     }
 
-    bool has(std::string_view name) const
-    {
-        return std::ranges::any_of(
-            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
-    }
-
     /// A boundary has flips instead of strengths, and nothing that follows from these.
     void add_derived(std::string_view name)
     {
-        if (has(name) || grid_.find(name) != nullptr || !derived_->has(name)) {
+        const bool is_column = std::ranges::any_of(
+            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
+        if (is_column || grid_.find(name) != nullptr || !derived_->has(name)) {
             return;
         }
         Dimensions along;
@@ -176,22 +165,14 @@ private:
     {
         const std::optional<std::size_t> place = grid_.dimension_of("motion");
         const Dimensions along = place ? Dimensions{dimensions_[*place]} : Dimensions();
-        std::vector<const Motion*> motions;
-        for (const double number : grid_.find("motion")->values.values()) {
-            motions.push_back(&job_.motions[Scene::record_index(number)]);
-        }
-        std::vector<std::string> names;
-        for (const Motion* motion : motions) {
-            names.push_back(motion->name);
-        }
-        add_texts("motion_name", along, std::move(names), "file of the recorded ground motion");
-        for (const Measure& measure : measures) {
+        const std::vector<const Motion*> motions =
+            mapped(grid_.find("motion")->values.values(),
+                   [&](double number) { return &job_.motions[Scene::record_index(number)]; });
+        add_texts("motion_name", along, mapped(motions, [](auto* motion) { return motion->name; }),
+                  "file of the recorded ground motion");
+        for (const auto& measure : measures) {
             add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
-                std::vector<double> values;
-                for (const Motion* motion : motions) {
-                    values.push_back(motion->measures.*measure.value);
-                }
-                return values;
+                return mapped(motions, [&](auto* each) { return each->measures.*measure.value; });
             });
             std::string& comment = all_.back().variable.comment;
             comment = measure.comment;

@@ -6,14 +6,6 @@ namespace overturn::hdf5 {
 
 namespace {
 
-herr_t take_first(unsigned position, const H5E_error2_t* error, void* description)
-{
-    if (position == 0 && error->desc != nullptr) {
-        *static_cast<std::string*>(description) = error->desc;
-    }
-    return 0;
-}
-
 /// The text between `mark` and the next quote; the whole description if it does not contain `mark`.
 std::string quoted_after(const std::string& mark, const std::string& description)
 {
@@ -30,6 +22,12 @@ std::string quoted_after(const std::string& mark, const std::string& description
 std::string innermost_cause()
 {
     std::string description;
+    const auto take_first = [](unsigned position, const H5E_error2_t* error, void* taken) {
+        if (position == 0 && error->desc != nullptr) {
+            *static_cast<std::string*>(taken) = error->desc;
+        }
+        return herr_t(0);
+    };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &description);
     // HDF5 quotes messages of the system, "error message = 'No space left on device'", and of MPI.
     const std::string cause =

@@ -7,8 +7,8 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -89,10 +89,8 @@ void add_job(hid_t file, const Job& job)
 Handle create_values(hid_t file, const std::string& name, hid_t type, const Dimensions& dimensions,
                      hid_t creation)
 {
-    hdf5::Extents shape;
-    for (const StoredDimension& dimension : dimensions) {
-        shape.push_back(hsize_t(dimension.size));
-    }
+    const hdf5::Extents shape =
+        mapped(dimensions, [](const StoredDimension& each) { return hsize_t(each.size); });
     return Handle(H5Dcreate2(file, name.c_str(), type, hdf5::space_of(shape), H5P_DEFAULT, creation,
                              H5P_DEFAULT),
                   H5Dclose);

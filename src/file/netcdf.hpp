@@ -35,6 +35,16 @@ struct Variable {
     bool is_dimension() const { return !dimensions.empty() && dimensions.front().name == name; }
 };
 
+/// A variable that contains a member of each item of a list.
+template <class Item>
+struct MemberVariable {
+    const char* name;
+    const char* long_name;
+    const char* units;
+    double Item::*value;
+    const char* comment = "";
+};
+
 /// Adds a variable. Its dimensions must exist in the file, except its own one and NAME_length.
 void add_variable(hid_t file, const Variable& variable);
 

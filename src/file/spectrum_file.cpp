@@ -9,8 +9,8 @@
 
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -21,7 +21,6 @@
 #include <limits>
 #include <random>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace overturn {
@@ -70,23 +69,14 @@ void write_not_computed(const StoredField& stored, const Problem& problem, const
 void write_flags(hid_t dataset, Field field)
 {
     const FieldTraits& traits = traits_of(field);
-    if (traits.flags.empty()) {
-        return;
+    const std::vector<std::uint32_t> values = mapped(traits.flags, &FieldFlag::value);
+    const std::vector<std::string_view> meanings = mapped(traits.flags, &FieldFlag::meaning);
+    if (!values.empty()) {
+        write_attribute(dataset, traits.has_bits ? "flag_masks" : "flag_values",
+                        {layout::type_of(field).file, H5T_NATIVE_UINT32}, {values.size()},
+                        values.data());
+        write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
     }
-    std::visit(
-        [&]<class Value>(Value) {
-            std::vector<Value> values;
-            for (const FieldFlag& flag : traits.flags) {
-                values.push_back(Value(flag.value));
-            }
-            write_attribute(dataset, traits.has_bits ? "flag_masks" : "flag_values", values);
-        },
-        layout::fill_value(field));
-    std::vector<std::string_view> meanings;
-    for (const FieldFlag& flag : traits.flags) {
-        meanings.push_back(flag.meaning);
-    }
-    write_attribute(dataset, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
 }
 
 void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
@@ -159,10 +149,7 @@ void add_checksums(hid_t file, const Problem& problem)
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the last varies fastest");
     if (!tiling.shape().empty()) {
-        std::vector<std::string> names;
-        for (const StoredDimension& dimension : stored_dimensions(problem)) {
-            names.push_back(dimension.name);
-        }
+        const auto names = mapped(stored_dimensions(problem), &StoredDimension::name);
         write_attribute(dataset, layout::dimensions, fmt::format("{}", fmt::join(names, " ")));
         write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
     }
@@ -372,8 +359,8 @@ struct SpectrumFile::Open {
         // MPI-IO does not report the reason of a failed write: the last system error is the best
         // guess, and a full disk can be detected.
         int reason = errno;
-        struct statvfs disk = {};
-        if (statvfs(path.c_str(), &disk) == 0 && disk.f_bavail == 0) {
+        std::error_code unknown; // then it is the largest number
+        if (std::filesystem::space(path, unknown).available == 0) {
             reason = ENOSPC;
         }
         return Error(exit_code::output,
@@ -520,11 +507,10 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
 
 void SpectrumFile::forget(const Tile& tile)
 {
-    TileFields nothing;
-    for (const StoredField& stored : open_->fields) {
-        nothing.values.push_back(not_computed(stored.field, stored.part_of(tile).points()));
-    }
-    open_->store(tile, nothing, not_computed_checksum);
+    const auto nothing_in = [&](const StoredField& stored) {
+        return not_computed(stored.field, stored.part_of(tile).points());
+    };
+    open_->store(tile, {.values = mapped(open_->fields, nothing_in)}, not_computed_checksum);
 }
 
 void SpectrumFile::write(const Tile& tile, const TileFields& fields)

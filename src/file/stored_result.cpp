@@ -9,8 +9,8 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -153,14 +153,7 @@ struct StoredResult::Open {
     std::vector<std::uint64_t> checksums; ///< by tile number
     std::vector<AuditCount> audits;       ///< the same, if the spectrum is filled
 
-    Tiling tiling() const
-    {
-        Shape shape;
-        for (const AxisSummary& axis : tiles.axes) {
-            shape.push_back(axis.size);
-        }
-        return {std::move(shape), tiles.tile_shape};
-    }
+    Tiling tiling() const { return {mapped(tiles.axes, &AxisSummary::size), tiles.tile_shape}; }
 
     /// The place of `crossing` among the axes; any place if there is none.
     std::size_t crossing() const
@@ -219,25 +212,20 @@ struct StoredResult::Open {
 
     /// Calls use(tile, values) with every computed tile and its values of the given fields.
     template <class Use>
-    void for_each_computed_tile(const std::vector<Field>& fields,
-                                const std::function<void()>& between_tiles, const Use& use) const
+    void for_each_computed_tile(const std::vector<Field>& fields, const BetweenTiles& between_tiles,
+                                const Use& use) const
     {
         const Tiling all = tiling();
-        std::vector<StoredField> stored;
-        for (const Field field : fields) {
-            stored.push_back({field, hdf5::open_dataset(file, name_of(field)), crossing()});
-        }
+        const std::vector<StoredField> stored = mapped(fields, [&](Field field) {
+            return StoredField{field, hdf5::open_dataset(file, name_of(field)), crossing()};
+        });
         for (std::int64_t number = 0; number < all.size(); ++number) {
             between_tiles();
             if (checksums[std::size_t(number)] == not_computed_checksum) {
                 continue;
             }
             const Tile tile = all[number];
-            std::vector<FieldValues> values;
-            for (const StoredField& field : stored) {
-                values.push_back(read_tile(field, tile));
-            }
-            use(tile, values);
+            use(tile, mapped(stored, [&](const StoredField& f) { return read_tile(f, tile); }));
         }
     }
 };
@@ -286,8 +274,7 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
     });
 }
 
-std::vector<std::int64_t>
-StoredResult::damaged_tiles(const std::function<void()>& between_tiles) const
+std::vector<std::int64_t> StoredResult::damaged_tiles(const BetweenTiles& between_tiles) const
 {
     std::vector<std::int64_t> damaged;
     const auto check_tile = [&](const Tile& tile, const std::vector<FieldValues>& values) {

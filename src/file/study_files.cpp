@@ -7,6 +7,7 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -19,13 +20,7 @@ namespace {
 using hdf5::write_attribute;
 using namespace netcdf;
 
-struct SampleQuantity {
-    const char* name;
-    const char* long_name;
-    const char* units;
-    double HistorySample::*value;
-    const char* comment = "";
-};
+using SampleQuantity = MemberVariable<HistorySample>;
 
 constexpr SampleQuantity time_of_sample{"time", "time p t", "1", &HistorySample::time,
                                         "from the beginning of the ground motion"};
@@ -47,43 +42,26 @@ void add_quantity(hid_t file, const std::string& name, const SampleQuantity& qua
                   const std::vector<HistorySample>& samples, const std::string& when = "")
 {
     const bool is_of_events = name.starts_with("events/");
-    std::vector<double> values;
-    for (const HistorySample& sample : samples) {
-        values.push_back(sample.*quantity.value);
-    }
     add_variable(file, {name,
                         {{is_of_events ? "events/event" : "time", std::int64_t(samples.size())}},
-                        values,
+                        mapped(samples, quantity.value),
                         quantity.long_name + when,
                         quantity.units,
                         quantity.comment});
 }
 
-void add_samples(hid_t file, const std::vector<HistorySample>& samples)
-{
-    add_quantity(file, time_of_sample.name, time_of_sample, samples);
-    for (const SampleQuantity& quantity : quantities) {
-        add_quantity(file, quantity.name, quantity, samples);
-    }
-}
-
 void add_events(hid_t file, const std::vector<HistoryEvent>& events)
 {
-    std::vector<HistorySample> before;
-    std::vector<HistorySample> after;
-    std::vector<std::uint8_t> kinds;
-    for (const HistoryEvent& event : events) {
-        before.push_back(event.before);
-        after.push_back(event.after);
-        kinds.push_back(std::uint8_t(event.kind));
-    }
+    const std::vector<HistorySample> before = mapped(events, &HistoryEvent::before);
+    const std::vector<HistorySample> after = mapped(events, &HistoryEvent::after);
+    const auto code_of = [](const HistoryEvent& event) { return std::uint8_t(event.kind); };
     const StoredDimension dimension{"events/event", std::int64_t(events.size())};
     add_group(file, "events"); // of a different length from the samples
     add_bare_dimension(file, dimension);
     add_quantity(file, "events/time", time_of_sample, after);
     add_variable(file, {.name = "events/kind",
                         .dimensions = {dimension},
-                        .values = kinds,
+                        .values = mapped(events, code_of),
                         .long_name = "kind of the event",
                         .code_names = event_names});
     for (const SampleQuantity& quantity : quantities) {
@@ -134,67 +112,49 @@ void add_list(hid_t file, const char* name, const char* dimension, const List& l
                         "1"});
 }
 
-/// A table with one row per setting.
-class Rows {
-public:
-    Rows(hid_t file, const std::vector<AccuracyRow>& rows) : file_(file), rows_(rows) {}
-
-    /// A column: a member of each row, or the result of a function of it.
-    template <class Value>
-    void add(const char* name, const char* long_name, const char* units, const Value& value) const
-    {
-        std::vector<double> values;
-        for (const AccuracyRow& row : rows_) {
-            values.push_back(double(std::invoke(value, row)));
-        }
-        add_variable(file_, {name, {settings()}, values, long_name, units});
-    }
-
-    /// Columns along a further dimension.
-    template <class Number, std::size_t columns>
-    void add(const char* name, const char* dimension, const char* long_name, const char* units,
-             std::array<Number, columns> AccuracyRow::*member) const
-    {
-        std::vector<double> values;
-        for (const AccuracyRow& row : rows_) {
-            values.insert(values.end(), (row.*member).begin(), (row.*member).end());
-        }
-        add_variable(file_, {name, {settings(), {dimension, columns}}, values, long_name, units});
-    }
-
-    StoredDimension settings() const { return {"setting", std::int64_t(rows_.size())}; }
-
-private:
-    hid_t file_;
-    const std::vector<AccuracyRow>& rows_;
-};
-
-void add_columns(const Rows& table)
+/// The table with one row per setting.
+void add_rows(hid_t file, const std::vector<AccuracyRow>& rows)
 {
     using Row = AccuracyRow;
-    table.add("method", "0 rk45, 1 taylor", "1",
-              [](const Row& row) { return int(row.numerics.method); });
-    table.add("tolerance", "tolerance of the local error", "1",
-              [](const Row& row) { return row.numerics.tolerance; });
-    table.add("resolve", "1 if verdicts were resolved", "1",
-              [](const Row& row) { return row.numerics.resolve; });
-    table.add("seconds_per_point", "time per point on one core", "s", &Row::seconds_per_point);
-    table.add("steps", "steps tried per point", "1", &Row::steps);
-    table.add("evaluations", "evaluations of the equation, per point", "1", &Row::evaluations);
-    table.add("angle_error", "quantile", "error of the angle against 50 digits", "rad",
-              &Row::angle);
-    table.add("velocity_error", "quantile", "error of the velocity against 50 digits", "rad",
+    const StoredDimension settings{"setting", std::int64_t(rows.size())};
+    // A column: a member of each row, or the result of a function of it.
+    const auto add = [&](const char* name, const char* long_name, const char* units,
+                         const auto& value) {
+        const auto number_of = [&](const Row& row) { return double(std::invoke(value, row)); };
+        add_variable(file, {name, {settings}, mapped(rows, number_of), long_name, units});
+    };
+    // Columns along a further dimension.
+    const auto add_along = [&](const StoredDimension& dimension, const char* name,
+                               const char* long_name, const char* units, auto member) {
+        std::vector<double> values;
+        for (const Row& row : rows) {
+            values.insert(values.end(), (row.*member).begin(), (row.*member).end());
+        }
+        add_variable(file, {name, {settings, dimension}, values, long_name, units});
+    };
+    const StoredDimension quantile{"quantile", error_quantiles.size()};
+    const StoredDimension region{"region", region_names.size()};
+    const StoredDimension distance{"distance", distance_limits.size()};
+    add("method", "0 rk45, 1 taylor", "1", [](const Row& row) { return int(row.numerics.method); });
+    add("tolerance", "tolerance of the local error", "1",
+        [](const Row& row) { return row.numerics.tolerance; });
+    add("resolve", "1 if verdicts were resolved", "1",
+        [](const Row& row) { return row.numerics.resolve; });
+    add("seconds_per_point", "time per point on one core", "s", &Row::seconds_per_point);
+    add("steps", "steps tried per point", "1", &Row::steps);
+    add("evaluations", "evaluations of the equation, per point", "1", &Row::evaluations);
+    add_along(quantile, "angle_error", "error of the angle against 50 digits", "rad", &Row::angle);
+    add_along(quantile, "velocity_error", "error of the velocity against 50 digits", "rad",
               &Row::velocity);
-    table.add("margin_error", "quantile", "error of the margin against 50 digits", "1",
-              &Row::margin);
-    table.add("wrong_verdicts", "wrong verdicts", "1", &Row::wrong_verdicts);
-    table.add("wrong_verdicts_by_region", "region", "wrong verdicts in the region", "1",
+    add_along(quantile, "margin_error", "error of the margin against 50 digits", "1", &Row::margin);
+    add("wrong_verdicts", "wrong verdicts", "1", &Row::wrong_verdicts);
+    add_along(region, "wrong_verdicts_by_region", "wrong verdicts in the region", "1",
               &Row::wrong_verdicts_by_region);
-    table.add("wrong_verdicts_by_distance", "distance", "wrong verdicts in the class", "1",
+    add_along(distance, "wrong_verdicts_by_distance", "wrong verdicts in the class", "1",
               &Row::wrong_verdicts_by_distance);
-    table.add("undecided", "points without a verdict", "1", &Row::undecided);
-    table.add("bound_exceeded", "share of errors above their bound", "1", &Row::bound_exceeded);
-    table.add("bound_over_error", "median of bound over error", "1", &Row::bound_over_error);
+    add("undecided", "points without a verdict", "1", &Row::undecided);
+    add("bound_exceeded", "share of errors above their bound", "1", &Row::bound_exceeded);
+    add("bound_over_error", "median of bound over error", "1", &Row::bound_over_error);
 }
 
 void add_study(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
@@ -202,8 +162,7 @@ void add_study(hid_t file, const AccuracySample& sample, const std::vector<Accur
     write_attribute(file, "points", sample.grid.points());
     write_attribute(file, "points_settled", sample.settled);
     write_attribute(file, "points_in_50_digits", sample.in_digits);
-    const Rows table(file, rows);
-    add_bare_dimension(file, table.settings());
+    add_bare_dimension(file, {"setting", std::int64_t(rows.size())});
     add_list(file, "quantile", "quantile", error_quantiles, "share of points with smaller errors");
     std::vector<std::uint8_t> regions(region_names.size());
     std::iota(regions.begin(), regions.end(), std::uint8_t(0));
@@ -213,14 +172,12 @@ void add_study(hid_t file, const AccuracySample& sample, const std::vector<Accur
                         .long_name = "region at the end of the ground motion",
                         .code_names = region_names});
     add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
-    add_columns(table);
+    add_rows(file, rows);
     add_list(file, "points_by_region", "region", sample.by_region,
              "number of points of the region");
     add_list(file, "points_by_distance", "distance", sample.by_distance,
              "number of points of the class");
 }
-
-} // namespace
 
 /// Whether a file of a kind has all groups that overturn writes, and a history no further
 /// variables: a data set that was derived from one has its attributes, too.
@@ -235,6 +192,8 @@ bool is_as_written(hid_t file, FileKind kind)
     return has("run") && (kind != FileKind::history ||
                           (has("events") && root.nlinks <= std::size(quantities) + others));
 }
+
+} // namespace
 
 void expect_room_for(const std::string& path, FileKind kind)
 {
@@ -276,7 +235,10 @@ void write_history_file(const std::string& path, const Job& job, const History& 
     expect_room_for(path, FileKind::history);
     make_file(path, job, FileKind::history, [&](hid_t file, const std::string&) {
         add_outcome(file, job, history);
-        add_samples(file, history.samples);
+        add_quantity(file, time_of_sample.name, time_of_sample, history.samples);
+        for (const SampleQuantity& quantity : quantities) {
+            add_quantity(file, quantity.name, quantity, history.samples);
+        }
         add_events(file, history.events);
     });
 }

@@ -3,12 +3,11 @@
 #include "overturn/record/text_file.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -69,10 +68,7 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
                                     other.name));
         }
     }
-    std::string lower_case = name;
-    std::ranges::transform(name, lower_case.begin(),
-                           [](unsigned char letter) { return char(std::tolower(letter)); });
-    const Quantity* const meant = find_quantity(lower_case);
+    const Quantity* const meant = find_quantity(boost::algorithm::to_lower_copy(name));
     if (meant != nullptr && meant != same && applies_to(*meant, is_recorded)) {
         refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct the "
                                 "name, or choose another one.",

@@ -4,11 +4,10 @@
 
 #include "read_steps.hpp"
 
-#include <fmt/format.h>
+#include "overturn/text/mapped.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <optional>
 
 namespace overturn {
@@ -202,8 +201,7 @@ Job read_job_text(std::string text, const std::string& name,
     problem.scene = read_scene(entry);
     if (const Entry scene = *find(entry, "scene"); find(scene, "record")) {
         job.motions = read_motions(scene, folder, problem.scene.gravity);
-        std::ranges::transform(job.motions, std::back_inserter(problem.scene.records),
-                               &Motion::record);
+        problem.scene.records = mapped(job.motions, &Motion::record);
     }
     problem.numerics = read_numerics(entry, problem.scene.is_recorded());
     problem.fields = read_fields(entry);

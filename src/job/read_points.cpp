@@ -1,7 +1,5 @@
 #include "read_steps.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace overturn {

@@ -1,9 +1,9 @@
 #include "read_steps.hpp"
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
 #include <glob.h>
 #include <xxhash.h>
 
@@ -217,7 +217,7 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
         refuse(*choice_of_second, " = {} is also the vertical component. Correct one of them.",
                component_text(*choice_of_second));
     }
-    Motion motion{
+    const Motion motion{
         .file = given.file,
         .name = fmt::format("{}:{}", given.file, label_of(content, horizontal)),
         .component = horizontal.name,
@@ -225,11 +225,10 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
         .second = choice_of_second ? component_text(*choice_of_second) : "",
         .is_uncorrected =
             horizontal.is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
-        .header = {},
+        .header = mapped(horizontal.header, as_utf8),
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
         .checksum = checksum_of(*record),
         .record = record};
-    std::ranges::transform(horizontal.header, std::back_inserter(motion.header), as_utf8);
     if (!(motion.measures.pga > 0)) {
         refuse(given.entry, " = {} is zero at all times. Remove it.", in_quotes(given.file));
     }

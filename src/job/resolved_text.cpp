@@ -1,11 +1,8 @@
 #include "read_steps.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
 #include <span>
 
 namespace overturn {
@@ -16,9 +13,7 @@ namespace {
 template <class Values, class TextOf>
 std::string list_text(const Values& values, const TextOf& text_of)
 {
-    std::vector<std::string> texts;
-    std::transform(values.begin(), values.end(), std::back_inserter(texts), text_of);
-    return fmt::format("[{}]", fmt::join(texts, ", "));
+    return fmt::format("[{}]", fmt::join(mapped(values, text_of), ", "));
 }
 
 std::string axis_text(const Axis& axis)
@@ -53,8 +48,7 @@ std::string scene_text(const Job& job)
     const Scene& scene = job.problem.scene;
     std::string text = "[scene]\n";
     if (scene.is_recorded()) {
-        std::vector<std::string> motions;
-        std::ranges::transform(job.motions, std::back_inserter(motions), motion_text);
+        const std::vector<std::string> motions = mapped(job.motions, motion_text);
         const bool is_suite = job.problem.grid.dimension_of(Role::motion).has_value();
         text += is_suite ? fmt::format("record = [\n    {},\n]\n", fmt::join(motions, ",\n    "))
                          : fmt::format("record = {}\n", motions.front());

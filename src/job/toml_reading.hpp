@@ -31,6 +31,13 @@ using Names = std::span<const std::string_view>;
 /// Precedes a --set argument in messages, in place of the name of a file.
 inline constexpr std::string_view override_prefix = "--set ";
 
+/// Maximum number of parts of a dotted key; those of a job have at most three.
+inline constexpr std::size_t most_key_parts = 16;
+
+/// The position of a key with more parts in a TOML text; npos if there is none. toml++ creates
+/// nested tables for the parts, and destroys them recursively, which would overflow the stack.
+std::size_t find_deep_key(std::string_view text);
+
 /// The tree of a text; path: of its file, or override_prefix and an argument. `advice` says what to
 /// do if it is not TOML.
 toml::table parse_toml(const std::string& text, const std::string& path, std::string_view advice);

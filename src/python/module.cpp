@@ -7,7 +7,6 @@
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -114,26 +113,21 @@ Numerics numerics_of(const Scene& scene, const std::string& method, std::optiona
 
 /// Lets Python handle signals, at most ten times a second. Throws py::error_already_set, such as
 /// KeyboardInterrupt.
-class SignalCheck {
-public:
-    bool operator()()
-    {
-        const auto now = std::chrono::steady_clock::now();
-        if (now < next_) {
-            return false;
-        }
-        next_ = now + std::chrono::milliseconds(100);
-        const py::gil_scoped_acquire locked;
-        if (PyErr_CheckSignals() != 0) {
-            throw py::error_already_set();
+DropRequested signal_check()
+{
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds interval{100};
+    return [next = Clock::now() + interval]() mutable {
+        if (const auto now = Clock::now(); now >= next) {
+            next = now + interval;
+            const py::gil_scoped_acquire locked;
+            if (PyErr_CheckSignals() != 0) {
+                throw py::error_already_set();
+            }
         }
         return false;
-    }
-
-private:
-    std::chrono::steady_clock::time_point next_ =
-        std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
-};
+    };
+}
 
 /// Named columns of equal length: quantities of the blocks and their motions.
 using Columns = std::map<std::string, Values>;
@@ -173,7 +167,7 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
         };
         const py::gil_scoped_release released;
         const Kernel kernel = widest_kernel();
-        const DropRequested signal_check = SignalCheck();
+        const DropRequested handle_signals = signal_check();
         const Problem problem{scene,
                               grid_of_columns(scene, columns),
                               numerics,
@@ -182,7 +176,7 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
         const Tiling tiling = tiling_of(problem);
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
             const Tile tile = tiling[number];
-            const TileFields computed = compute_tile(problem, tile, kernel, signal_check);
+            const TileFields computed = compute_tile(problem, tile, kernel, handle_signals);
             const std::int64_t first = tile.begin[0];
             copy(computed.values[0], region.mutable_data() + first);
             copy(computed.values[1], status.mutable_data() + first);

@@ -78,18 +78,16 @@ std::string_view unit_of_word(std::string_view word)
 }
 
 /// The words of a comment around one that may be a unit.
-class Place {
-public:
-    /// The words are parts of the text.
-    Place(std::string_view text, const std::vector<std::string_view>& words, std::size_t i)
-        : text_(text), words_(words), i_(i)
-    {}
+struct Place {
+    std::string_view text;
+    const std::vector<std::string_view>& words; ///< parts of the text
+    std::size_t index;                          ///< of the word that may be a unit
 
     /// A word before or after this one; empty if there is none.
     std::string_view word(int offset = 0) const
     {
-        const std::size_t i = i_ + std::size_t(offset);
-        return i < words_.size() ? words_[i] : "";
+        const std::size_t i = index + std::size_t(offset);
+        return i < words.size() ? words[i] : "";
     }
 
     /// The text between such a word and the previous one.
@@ -99,19 +97,19 @@ public:
         const std::string_view previous = word(offset - 1);
         const char* const end = previous.data() + previous.size();
         return next.empty() ? next
-                            : std::string_view(previous.empty() ? text_.data() : end, next.data());
+                            : std::string_view(previous.empty() ? text.data() : end, next.data());
     }
 
     /// Whether a unit is expected here: as the whole comment, in brackets, after "in", and in the
     /// name of a column, such as acc_x_cm.
     bool is_labelled() const
     {
-        const auto begin = words_.begin();
-        return words_.size() == 1 || gap_before().find_first_of("([{<") != std::string_view::npos ||
+        const auto begin = words.begin();
+        return words.size() == 1 || gap_before().find_first_of("([{<") != std::string_view::npos ||
                is_acceleration(word(-1)) || introduces_unit(word(-1)) ||
                is_one_of(word(-1), {"t", "time"}) ||
                (gap_before() == "_" &&
-                std::any_of(begin, begin + std::ptrdiff_t(i_), is_acceleration));
+                std::any_of(begin, begin + std::ptrdiff_t(index), is_acceleration));
     }
 
     /// Whether the word is a unit that must be the given one, also one that is not known, as in
@@ -151,17 +149,12 @@ public:
                is_factor(word(1)) || (word(1) == "x" && begins_with_number(word(2)));
     }
 
-private:
     /// Whether a number precedes the unit, or touches it.
     bool has_number() const
     {
         return begins_with_number(word()) ||
                (begins_with_number(word(-1)) && trimmed(gap_before()).empty());
     }
-
-    std::string_view text_;
-    const std::vector<std::string_view>& words_;
-    std::size_t i_;
 };
 
 } // namespace
@@ -177,7 +170,7 @@ void expect_unit(const Lines& comment, AccelerationUnit unit)
     const std::string text = text_of_comment(comment.line());
     const std::vector<std::string_view> words = words_of(text, " ,;:=()[]{}<>|\"_-#");
     for (std::size_t i = 0; i < words.size(); ++i) {
-        const Place place(text, words, i);
+        const Place place{text, words, i};
         if (place.is_labelled() &&
             is_one_of(place.word(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
             comment.refuse("the comment {} states times in {}. Give times in seconds.",

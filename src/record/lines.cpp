@@ -1,6 +1,9 @@
 #include "lines.hpp"
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
+#include <locale>
 
 namespace overturn {
 
@@ -72,11 +75,7 @@ std::string_view first_word(std::string_view text)
 
 std::string lower(std::string_view text)
 {
-    std::string result(text);
-    for (char& letter : result) {
-        letter = 'A' <= letter && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
-    }
-    return result;
+    return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
 }
 
 bool contains(std::string_view text, std::string_view words)

@@ -2,8 +2,6 @@
 
 #include "overturn/record/read_record.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>

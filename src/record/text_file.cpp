@@ -2,8 +2,6 @@
 
 #include "overturn/text/error.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cerrno>
 #include <cstdio>

@@ -4,8 +4,6 @@
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <limits>

@@ -4,7 +4,6 @@ Requires WRITE_SAMPLE (the program write_sample) and MPIEXEC (mpirun) in the env
 Every warning is an error.
 """
 
-import json
 import os
 import signal
 import subprocess
@@ -201,15 +200,6 @@ class TestOtherReaders(Sample):
         self.assertIn("double angle(slenderness, restitution_of_maximum, amplitude, frequency) ;", run.stdout)
         self.assertIn('frequency:units = "1" ;', run.stdout)
         self.assertIn("tile = 36 ;", run.stdout)
-
-    def test_the_sidecar_is_json(self):
-        with open(self.finished + ".json", encoding="utf-8") as stream:
-            record = json.load(stream)
-        self.assertEqual([rank["host"] for rank in record["ranks"]], ['a "host"'] * 2)
-        self.assertRegex(record["start"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
-        self.assertRegex(record["hdf5"], r"^\d+\.\d+\.\d+$")
-        for key in ("compiler", "mpi", "program_commit"):
-            self.assertTrue(record[key])
 
 
 class TestAKilledRun(Sample):

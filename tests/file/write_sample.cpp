@@ -1,9 +1,8 @@
-// write_sample OUT.h5 [TILES [kill]]: writes the sample spectrum and its sidecar on all ranks, or
-// resumes an unfinished one. Each rank stops after TILES tiles; with `kill` it ends there by
+// write_sample OUT.h5 [TILES [kill]]: writes the sample spectrum on all ranks, or resumes an
+// unfinished one. Each rank stops after TILES tiles; with `kill` it ends there by
 // SIGKILL.
 #include "file/sample_job.hpp"
 
-#include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/text/error.hpp"
 
@@ -60,17 +59,6 @@ void write_sample(const std::string& path, Stop stop)
         std::raise(SIGKILL);
     }
     file.close();
-    if (rank == 0) {
-        RunInfo run;
-        run.start = std::chrono::system_clock::now();
-        run.wall_seconds = 1.5;
-        run.kernel = "double";
-        run.ranks.resize(std::size_t(ranks), {.host = "a \"host\"",
-                                              .tiles = written,
-                                              .compute_seconds = 1.25,
-                                              .write_seconds = 0.25});
-        write_sidecar(path, run);
-    }
 }
 
 } // namespace

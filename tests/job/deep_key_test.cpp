@@ -1,4 +1,4 @@
-#include "deep_key.hpp"
+#include "toml_reading.hpp"
 
 #include "job_file.hpp"
 

@@ -2,11 +2,8 @@
 // the result file; what varies from run to run is stored next to it, in the sidecar OUT.h5.json.
 #pragma once
 
-#include <chrono>
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace overturn {
 
@@ -23,32 +20,18 @@ std::string compiler_version();
 /// The version of the HDF5 library in use, such as "1.10.8".
 std::string hdf5_version();
 
-/// The MPI library's name and version, such as "Open MPI v4.1.4".
+/// What the MPI library says of itself; the second: its name and version, "Open MPI v4.1.4".
+std::string mpi_version();
 std::string mpi_library();
 
-struct RankInfo {
-    std::string host;
-    std::int64_t tiles = 0; ///< computed in this run
-    double compute_seconds = 0;
-    double write_seconds = 0;
-};
-
-/// One run, since it was started or resumed.
-struct RunInfo {
-    std::chrono::system_clock::time_point start;
-    double wall_seconds = 0; ///< from the program's start
-    std::string kernel;
-    std::int64_t requests = 0;   ///< for tiles, from the other ranks to rank 0
-    double dealing_seconds = 0;  ///< spent by rank 0 on the answers
-    std::vector<RankInfo> ranks; ///< by rank number
-};
+/// The beginning of every sidecar, which tells it from other files called OUT.h5.json.
+inline constexpr std::string_view sidecar_beginning = "{\n  \"program_version\": ";
 
 /// Throws Error if the sidecar cannot be written, because another kind of file has its name or
 /// the name is too long. To be called before the computation.
 void demand_place_for_sidecar(const std::string& spectrum_path);
 
-/// Writes the sidecar file spectrum_path + ".json", together with the compiler and the versions of
-/// HDF5 and MPI. Replaces an older sidecar atomically. Throws Error.
-void write_sidecar(const std::string& spectrum_path, const RunInfo& run);
+/// Writes the sidecar file spectrum_path + ".json". Replaces an older one atomically. Throws Error.
+void write_sidecar(const std::string& spectrum_path, std::string_view text);
 
 } // namespace overturn

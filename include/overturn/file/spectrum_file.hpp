@@ -11,7 +11,6 @@
 #include <mpi.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,9 +26,6 @@ void start_hdf5();
 /// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
 /// smaller. In floating point, which cannot overflow here.
 long double spectrum_file_bytes(const Job& job);
-
-/// Called between tiles; an exception from it stops the work.
-using BetweenTiles = std::function<void()>;
 
 /// Creates the file, with no tile computed, under a temporary name, and renames it once it is
 /// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if the
@@ -58,8 +54,6 @@ public:
     SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
                  bool durable = false);
     ~SpectrumFile();
-    SpectrumFile(const SpectrumFile&) = delete;
-    SpectrumFile& operator=(const SpectrumFile&) = delete;
 
     /// Numbers of the tiles that are not computed yet, ascending. Not collective.
     std::vector<std::int64_t> missing_tiles();

@@ -58,6 +58,9 @@ struct BoundaryLines {
     double undecided_share = 0;       ///< mean of the computed lines [1]
 };
 
+/// Called between tiles; an exception from it stops the work.
+using BetweenTiles = std::function<void()>;
+
 /// Structure and metadata are checked when the file is opened; the values of its tiles are not.
 class StoredResult {
 public:
@@ -77,9 +80,8 @@ public:
     std::vector<std::string> damaged_coordinates() const;
 
     /// Numbers of the computed tiles whose values do not match their checksum, ascending. Reads all
-    /// data, and calls `between_tiles`, which may throw to stop it.
-    std::vector<std::int64_t> damaged_tiles(const std::function<void()>& between_tiles = [] {
-    }) const;
+    /// data.
+    std::vector<std::int64_t> damaged_tiles(const BetweenTiles& between_tiles = [] {}) const;
 
     /// Of a boundary.
     BoundaryLines count_lines() const;

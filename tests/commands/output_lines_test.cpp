@@ -1,4 +1,4 @@
-#include "commands/human_units.hpp"
+#include "commands/output_lines.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <gtest/gtest.h>

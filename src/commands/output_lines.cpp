@@ -1,10 +1,11 @@
-#include "human_units.hpp"
+#include "output_lines.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace overturn {
 
@@ -36,20 +37,18 @@ std::string human_duration(double seconds)
     if (seconds < 9.995) {
         return fmt::format("{:.2f} s", seconds);
     }
-    constexpr std::int64_t minute = 60;
-    constexpr std::int64_t hour = 60 * minute;
-    constexpr std::int64_t day = 24 * hour;
+    constexpr std::pair<std::int64_t, const char*> units[] = {
+        {86400, "d"}, {3600, "h"}, {60, "min"}, {1, "s"}};
     const auto whole = std::int64_t(std::llround(seconds));
-    if (whole < minute) {
-        return fmt::format("{} s", whole);
+    for (std::size_t i = 0; units[i].first > 1; ++i) {
+        const auto& [unit, name] = units[i];
+        const auto& [part, part_name] = units[i + 1];
+        if (whole >= unit) {
+            return fmt::format("{} {} {:02} {}", whole / unit, name, whole % unit / part,
+                               part_name);
+        }
     }
-    if (whole < hour) {
-        return fmt::format("{} min {:02} s", whole / minute, whole % minute);
-    }
-    if (whole < day) {
-        return fmt::format("{} h {:02} min", whole / hour, whole % hour / minute);
-    }
-    return fmt::format("{} d {:02} h", whole / day, whole % day / hour);
+    return fmt::format("{} s", whole);
 }
 
 std::string human_bytes(double bytes)
