@@ -126,7 +126,11 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
         return {};
     }
-    std::vector<double> accelerations = mapped(toppling, &VerdictRange::first);
+    // At the end itself, whether the block topples, and with it the friction, may be unknown.
+    const std::vector<double> ends = mapped(toppling, [](const VerdictRange& range) {
+        return range.first + std::min(1e-6 * range.first, (range.last - range.first) / 2);
+    });
+    std::vector<double> accelerations = ends;
     if (const double highest = accelerations.back(); ranges.lifting < highest) {
         const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
         accelerations.insert(accelerations.end(), scan.begin(), scan.end());
@@ -143,7 +147,7 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
         largest = std::isnan(largest) || friction[i] <= largest ? largest : friction[i];
-        if (needed.size() < toppling.size() && accelerations[i] == toppling[needed.size()].first) {
+        if (needed.size() < ends.size() && accelerations[i] == ends[needed.size()]) {
             needed.push_back(largest);
         }
     }
