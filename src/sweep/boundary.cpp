@@ -127,8 +127,8 @@ public:
         left_in_50_digits_ -= outcomes.in_50_digits;
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back({amplitudes[i], Region(outcomes.region[i]), outcomes.margin[i],
-                              outcomes.impacts[i]});
+            probes.push_back(
+                {amplitudes[i], outcomes[i].region, outcomes[i].margin, outcomes[i].impacts});
             if (!probes.back().is_settled()) {
                 undecided_.push_back(probes.back());
             }
