@@ -76,14 +76,12 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
     run.run_in_31_digits(outcomes, chosen);
     std::erase_if(in_doubt, [&](int point) { return is_settled(outcomes[point]); });
     for (const int point : in_doubt) {
-        bool settled = false;
         if (outcomes.in_50_digits < most_in_50_digits &&
             is_short(run, point, MoreDigits<Digits50>::most_steps, outcomes)) {
             ++outcomes.in_50_digits;
             run.run_in_more_digits<Digits50>(point, outcomes);
-            settled = is_settled(outcomes[point]);
         }
-        if (!settled) {
+        if (!is_settled(outcomes[point])) {
             give_up(outcomes[point]);
         }
     }
