@@ -24,7 +24,8 @@ class HistoryBuilder {
 public:
     HistoryBuilder(const Point& point, const Excitation& excitation, const HistoryView& view)
         : block_(point.block), sides_(block_, point.gyration), excitation_(excitation),
-          path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
+          path_(forced_path<theory>(block_, excitation_)),
+          block_at_end_(seen_from(path_.end.state.side, block_)), end_of_path_(end_of_path()),
           samples_(view.samples)
     {
         history_.end_of_pulse = time_at(excitation_.motion.end);
@@ -35,9 +36,8 @@ public:
 
     History build()
     {
-        const Block<double> seen = seen_from(path_.end.state.side, block_);
-        history_.region = region_of<theory>(path_.end, seen);
-        history_.margin = margin_of<theory>(path_.end, seen);
+        history_.region = region_of<theory>(path_.end, block_at_end_);
+        history_.margin = margin_of<theory>(path_.end, block_at_end_);
         history_.error = path_.end.error;
         history_.shortened = path_.end.is_stopped();
         record_forced_stage();
@@ -77,8 +77,7 @@ private:
         if (path_.events.empty() || path_.events.back().kind == EventKind::rest) {
             return path_.events.empty() ? 0 : time_at(path_.events.back().rocking.phase);
         }
-        return after_path(overturn::time_of_rest<theory>(path_.end.state,
-                                                         seen_from(path_.end.state.side, block_)));
+        return after_path(overturn::time_of_rest<theory>(path_.end.state, block_at_end_));
     }
 
     double time_of_fall() const
@@ -88,7 +87,7 @@ private:
         }
         // A symmetric block can fall only before or after the first impact, others also after the
         // second one.
-        FreeRocking<theory, double> rocking = free_rocking();
+        FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
         for (int impacts = block_.is_symmetric() ? 1 : 2; impacts > 0; --impacts) {
             if (std::isfinite(rocking.impact_time())) {
                 rocking.strike();
@@ -104,11 +103,6 @@ private:
         }
         return std::min({history_.time_of_fall, std::max(history_.time_of_rest, end_of_path_),
                          end_of_path_ + free_time_shown});
-    }
-
-    FreeRocking<theory, double> free_rocking() const
-    {
-        return {path_.end.state, seen_from(path_.end.state.side, block_)};
     }
 
     /// ground: of the excitation, or 0.0 after it.
@@ -206,7 +200,7 @@ private:
     /// Returns whether all impacts could be recorded.
     bool record_free_stage()
     {
-        FreeRocking<theory, double> rocking = free_rocking();
+        FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
         // The remainder of a series that is shorter than this is not visible.
         const double last_impact = history_.time_of_rest - 1e-3 * (until_ / samples_);
         while (after_path(rocking.begin()) < last_impact) {
@@ -245,7 +239,8 @@ private:
     ContactSides<double> sides_;
     Excitation excitation_;
     ForcedPath path_;
-    double end_of_path_; // time [1/p]
+    Block<double> block_at_end_; // as seen from the side on which it rocks at the end of the path
+    double end_of_path_;         // time [1/p]
     double until_;
     int samples_;
     int next_ = 0;         // sample
