@@ -321,12 +321,9 @@ class Filler {
 public:
     Filler(const Problem& problem, const Tile& tile, Kernel kernel, DropRequested drop_requested,
            const FillRule& rule)
-        : numerics_(problem.numerics), rule_(rule),
-          of_row_(points_along(problem, tile, Role::strength)),
+        : problem_(problem), kernel_(kernel), drop_requested_(std::move(drop_requested)),
+          rule_(rule), of_row_(points_along(problem, tile, Role::strength)),
           of_column_(points_along(problem, tile, Role::rate)),
-          longest_{longest_cell(problem.grid, Role::strength),
-                   longest_cell(problem.grid, Role::rate)},
-          run_(problem.scene, {}, kernel, std::move(drop_requested), !problem.grid.has_two_sides()),
           node_at_(new int[std::size_t(tile.points())])
     {
         const bool with_impacts = std::ranges::count(problem.fields, Field::impacts) > 0;
@@ -388,8 +385,8 @@ private:
     {
         std::vector<int> places;
         for (int row = 0; row < rows(); ++row) {
-            for_each_audited(numerics_.audit, first[0] + row, first[1], first[1] + columns(),
-                             [&](std::int64_t column) {
+            for_each_audited(problem_.numerics.audit, first[0] + row, first[1],
+                             first[1] + columns(), [&](std::int64_t column) {
                                  const int at = place(row, int(column - first[1]));
                                  if (!is_integrated(at)) {
                                      places.push_back(at);
@@ -401,11 +398,12 @@ private:
 
     std::vector<Cell> largest_cells() const
     {
-        const auto parts = [](int points, int longest) {
+        const auto parts = [&](int points, Role role) {
+            const int longest = longest_cell(problem_.grid, role);
             return std::max(1, (points - 2 + longest) / longest);
         };
         return parts_of({{0, 0}, {rows() - 1, columns() - 1}},
-                        {parts(rows(), longest_[0]), parts(columns(), longest_[1])});
+                        {parts(rows(), Role::strength), parts(columns(), Role::rate)});
     }
 
     /// Integrates the nodes of the cells, fills the uniform cells and returns the parts of the
@@ -456,8 +454,9 @@ private:
         for (const int place : places) {
             points.push_back(point(place));
         }
-        PointRun run = run_.with_points(std::move(points));
-        Outcomes outcomes = outcomes_of(run, numerics_, outputs);
+        PointRun run(problem_.scene, std::move(points), kernel_, drop_requested_,
+                     !problem_.grid.has_two_sides());
+        Outcomes outcomes = outcomes_of(run, problem_.numerics, outputs);
         return {std::move(run), std::move(outcomes)};
     }
 
@@ -531,12 +530,12 @@ private:
         }
     }
 
-    const Numerics numerics_;
+    const Problem& problem_;
+    const Kernel kernel_;
+    const DropRequested drop_requested_;
     const FillRule rule_;
     const std::vector<Point> of_row_;    // at the first column
     const std::vector<Point> of_column_; // in the first row
-    const std::array<int, 2> longest_;   // side of a cell along rows and columns [points]
-    const PointRun run_;                 // a template without points: see with_points()
     FilledTile filled_;
     std::vector<Node> nodes_;
     std::unique_ptr<int[]> node_at_; // index into nodes_; set only where a node is

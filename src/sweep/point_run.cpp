@@ -113,14 +113,6 @@ PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
     }
 }
 
-PointRun PointRun::with_points(std::vector<Point> points) const
-{
-    PointRun run = *this;
-    run.points_ = std::move(points);
-    run.pulses_ = ScaledPulses(pulse_, scene_.theory, run.points_);
-    return run;
-}
-
 std::vector<int> PointRun::all() const
 {
     std::vector<int> all(points_.size());

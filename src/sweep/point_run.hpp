@@ -53,9 +53,6 @@ public:
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr, bool are_symmetric = false);
 
-    /// The same scene and kernel with other points; only under a pulse.
-    PointRun with_points(std::vector<Point> points) const;
-
     const Scene& scene() const { return scene_; }
     int size() const { return int(points_.size()); }
     const Point& point(int i) const { return points_[std::size_t(i)]; }
