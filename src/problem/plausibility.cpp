@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace overturn {
