@@ -49,4 +49,16 @@ std::vector<double> Axis::values(std::int64_t begin, std::int64_t end) const
     return result;
 }
 
+Axis Axis::thinned(std::int64_t count) const
+{
+    if (size() <= count) {
+        return *this;
+    }
+    AxisList chosen;
+    for (std::int64_t i = 0; i < count; ++i) {
+        chosen.push_back((*this)[count == 1 ? size() / 2 : i * (size() - 1) / (count - 1)]);
+    }
+    return Axis(chosen);
+}
+
 } // namespace overturn

@@ -364,30 +364,24 @@ std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimension
 
 namespace {
 
-/// Fills in the sides of blocks. fill(name, assign): calls assign(point, value) for every point
-/// with its value of a coordinate.
-template <class Fill>
-void fill_blocks(const Fill& fill, bool has_two_sides)
-{
-    if (!has_two_sides) {
-        fill("slenderness", [](Point& point, double value) {
-            point.block.slenderness = value;
-            point.block.other.slenderness = value;
-        });
-        return;
-    }
-    using B = Block<double>;
-    using Side = BlockSide<double>;
-    const auto fill_both = [&](double B::*of_plus, std::string_view plus, double Side::*of_minus,
-                               std::string_view minus) {
-        fill(plus, [&](Point& point, double value) { point.block.*of_plus = value; });
-        fill(minus, [&](Point& point, double value) { point.block.other.*of_minus = value; });
-    };
-    fill_both(&B::slenderness, "slenderness_plus", &Side::slenderness, "slenderness_minus");
-    fill_both(&B::size, "size_plus", &Side::size, "size_minus");
-    fill_both(&B::pace, "frequency_parameter", &Side::pace, "frequency_parameter_minus");
-    fill("gyration_over_size", [](Point& point, double value) { point.gyration = value; });
-}
+/// A number of a point that is a coordinate.
+struct PointNumber {
+    std::string_view coordinate;
+    double& (*of)(Point& point);
+};
+
+constexpr PointNumber of_symmetric_point[]{
+    {"slenderness", [](Point& point) -> double& { return point.block.slenderness; }},
+    {"slenderness", [](Point& point) -> double& { return point.block.other.slenderness; }}};
+
+constexpr PointNumber of_two_sided_point[]{
+    {"slenderness_plus", [](Point& point) -> double& { return point.block.slenderness; }},
+    {"slenderness_minus", [](Point& point) -> double& { return point.block.other.slenderness; }},
+    {"size_plus", [](Point& point) -> double& { return point.block.size; }},
+    {"size_minus", [](Point& point) -> double& { return point.block.other.size; }},
+    {"frequency_parameter", [](Point& point) -> double& { return point.block.pace; }},
+    {"frequency_parameter_minus", [](Point& point) -> double& { return point.block.other.pace; }},
+    {"gyration_over_size", [](Point& point) -> double& { return point.gyration; }}};
 
 /// Converts blocks with equal sides to symmetric ones.
 void make_symmetric(std::vector<Point>& points)
@@ -422,7 +416,11 @@ std::vector<Point> Coordinates::points() const
     };
     const bool is_recorded = scene_.is_recorded();
     const bool has_two_sides = grid_.has_two_sides();
-    fill_blocks(fill, has_two_sides);
+    using Numbers = std::span<const PointNumber>;
+    for (const PointNumber& number :
+         has_two_sides ? Numbers(of_two_sided_point) : Numbers(of_symmetric_point)) {
+        fill(number.coordinate, [&](Point& point, double value) { number.of(point) = value; });
+    }
     fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
     fill(is_recorded ? "scale" : "amplitude",
          [](Point& point, double value) { point.amplitude = value; });

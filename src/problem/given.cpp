@@ -329,13 +329,7 @@ Grid corners_of(const Grid& grid)
         constexpr std::int64_t most_of_shape = 17;
         const std::int64_t most =
             grid.has_two_sides() && column.quantity->role == Role::block ? most_of_shape : 2;
-        if (column.values.size() > most) {
-            AxisList values;
-            for (std::int64_t i = 0; i < most; ++i) {
-                values.push_back(column.values[i * (column.values.size() - 1) / (most - 1)]);
-            }
-            column.values = Axis(values);
-        }
+        column.values = column.values.thinned(most);
     }
     return corners;
 }

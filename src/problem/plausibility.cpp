@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -124,20 +123,19 @@ bool have_different_sides(const Coordinates& coordinates)
     return differ("slenderness_plus", "slenderness_minus") || differ("size_plus", "size_minus");
 }
 
+using Findings = std::vector<std::string>;
+
 /// Different findings, in their order. R of both sides may be the same.
-class Findings {
-public:
-    void add(std::string finding)
-    {
-        if (!finding.empty() && std::ranges::count(findings_, finding) == 0) {
-            findings_.push_back(std::move(finding));
+std::string text_of(const Findings& findings)
+{
+    Findings different;
+    for (const std::string& finding : findings) {
+        if (!finding.empty() && std::ranges::count(different, finding) == 0) {
+            different.push_back(finding);
         }
     }
-    std::string text() const { return fmt::format("{}", fmt::join(findings_, "; ")); }
-
-private:
-    std::vector<std::string> findings_;
-};
+    return fmt::format("{}", fmt::join(different, "; "));
+}
 
 void judge_records(const Scene& scene, Findings& findings)
 {
@@ -148,39 +146,41 @@ void judge_records(const Scene& scene, Findings& findings)
             if (!component->empty()) {
                 const auto [least, most] = std::ranges::minmax(*component);
                 peaks.values.push_back(std::max(-least, most));
-                findings.add(finding_about_spikes(*component, record->time_step()));
+                findings.push_back(finding_about_spikes(*component, record->time_step()));
             }
         }
         means.values.push_back(record->upwards_mean());
         time_steps.values.push_back(record->time_step());
     }
-    findings.add(finding_about(vertical_mean, extent_of(means)));
-    findings.add(finding_about(peak, extent_of(peaks)));
-    findings.add(finding_about(time_step, extent_of(time_steps)));
+    findings.push_back(finding_about(vertical_mean, extent_of(means)));
+    findings.push_back(finding_about(peak, extent_of(peaks)));
+    findings.push_back(finding_about(time_step, extent_of(time_steps)));
 }
 
 void judge_directions(const Grid& grid, const Coordinates& coordinates, Findings& findings)
 {
     const bool differ = grid.has_two_sides() && have_different_sides(coordinates);
     if (!coordinates.has("direction")) {
-        findings.add(differ ? "the mirror image of the motion, direction 180, is not computed; it "
-                              "may be worse for blocks with two different sides (give the "
-                              "direction, 0, 180 or both)"
-                            : "");
+        findings.push_back(
+            differ ? "the mirror image of the motion, direction 180, is not computed; it "
+                     "may be worse for blocks with two different sides (give the "
+                     "direction, 0, 180 or both)"
+                   : "");
         return;
     }
     const Extent direction = extent_of(coordinates.of("direction"));
     const std::string text = direction.text(" degrees");
     const double largest = std::max(std::abs(direction.first), std::abs(direction.last));
     if (0 < largest && largest < 2 * std::numbers::pi + 0.01) {
-        findings.add(fmt::format("direction = {} (directions are in degrees)", text));
+        findings.push_back(fmt::format("direction = {} (directions are in degrees)", text));
     }
     const double range = direction.last - direction.first;
     if (differ && 0 < range && range < 180 * (1 - 1e-9)) {
-        findings.add(fmt::format("direction = {} leaves out the mirror images of these motions, "
-                                 "which may be worse for blocks with two different sides (give a "
-                                 "full circle)",
-                                 text));
+        findings.push_back(
+            fmt::format("direction = {} leaves out the mirror images of these motions, "
+                        "which may be worse for blocks with two different sides (give a "
+                        "full circle)",
+                        text));
     }
 }
 
@@ -191,15 +191,15 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
     Findings findings;
-    findings.add(finding_about(gravity, {scene.gravity, scene.gravity}));
+    findings.push_back(finding_about(gravity, {scene.gravity, scene.gravity}));
     // Values that follow from a dimensionless axis may be implausible in part.
     const auto judge = [&](const PlausibleRange& range, std::string_view name,
                            std::string_view dimensionless = "", double unit = 1) {
         if (coordinates.has(name)) {
             const Extent extent = extent_of(coordinates.of(name));
-            findings.add(finding_about(range, {extent.first / unit, extent.last / unit},
-                                       grid.find(dimensionless) != nullptr &&
-                                           !grid.has_table_column(dimensionless)));
+            findings.push_back(finding_about(range, {extent.first / unit, extent.last / unit},
+                                             grid.find(dimensionless) != nullptr &&
+                                                 !grid.has_table_column(dimensionless)));
         }
     };
     for (const std::string_view name : {"slenderness", "slenderness_plus", "slenderness_minus"}) {
@@ -213,20 +213,21 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     const bool has_metres = coordinates.has("size") || coordinates.has("size_plus");
     if (has_metres && grid.find("amplitude") != nullptr) {
         const Extent amplitude = extent_of(coordinates.of("amplitude"));
-        findings.add(amplitude.last > 1
-                         ? ""
-                         : fmt::format("amplitude = {} lifts no block (amplitudes are multiples "
-                                       "of the acceleration that lifts the block; accelerations "
-                                       "in g are given as pga)",
-                                       amplitude.text("")));
+        findings.push_back(
+            amplitude.last > 1
+                ? ""
+                : fmt::format("amplitude = {} lifts no block (amplitudes are multiples "
+                              "of the acceleration that lifts the block; accelerations "
+                              "in g are given as pga)",
+                              amplitude.text("")));
     }
     judge(acceleration, "pga", scene.is_recorded() ? "scale" : "amplitude");
     if (scene.is_recorded()) {
         judge_records(scene, findings);
     }
-    findings.add(finding_about_restitution(coordinates, grid.table() != nullptr));
+    findings.push_back(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);
-    return findings.text();
+    return text_of(findings);
 }
 
 } // namespace overturn

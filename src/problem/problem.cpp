@@ -71,17 +71,16 @@ Shape tile_of(const Grid& grid, std::int64_t side)
 /// regions of fine spectra.
 Shape filled_tile_of(const Grid& grid)
 {
-    std::vector<std::size_t> sides;
-    for (const Role role : {Role::strength, Role::rate}) {
-        if (const auto side = grid.dimension_of(role)) {
-            sides.push_back(*side);
-        }
-    }
-    const bool is_fine = std::ranges::any_of(
-        sides, [&](std::size_t side) { return grid.dimensions[side].size() >= 1024; });
-    Shape tile(grid.dimensions.size(), 1);
-    for (const std::size_t side : sides) {
-        tile[side] = is_fine ? 256 : 128;
+    const auto is_side = [](const Dimension& dimension) {
+        const Role role = dimension.columns.front().quantity->role;
+        return role == Role::strength || role == Role::rate;
+    };
+    const bool is_fine = std::ranges::any_of(grid.dimensions, [&](const Dimension& dimension) {
+        return is_side(dimension) && dimension.size() >= 1024;
+    });
+    Shape tile;
+    for (const Dimension& dimension : grid.dimensions) {
+        tile.push_back(!is_side(dimension) ? 1 : is_fine ? 256 : 128);
     }
     return tile;
 }

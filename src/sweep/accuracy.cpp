@@ -2,19 +2,14 @@
 
 #include "overturn/number/digits50.hpp"
 #include "point_run.hpp"
-#include "sample.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace overturn {
 
 namespace {
-
-bool fell(std::uint8_t region)
-{
-    return region == std::uint8_t(Region::F_plus) || region == std::uint8_t(Region::F_minus);
-}
 
 std::size_t distance_class(double margin)
 {
@@ -35,13 +30,85 @@ ErrorDistribution distribution(std::vector<double> errors)
     return result;
 }
 
-template <class T>
-const std::vector<T>& values_of(const TileFields& fields, std::size_t i)
+/// Whether the block fell during the ground motion, as far as the verdict could be settled.
+bool is_forced_fall(Region region)
 {
-    return std::get<std::vector<T>>(fields.values[i]);
+    return region == Region::F_plus || region == Region::F_minus;
+}
+
+bool is_decided(Region region)
+{
+    return std::size_t(region) < decided_regions;
+}
+
+/// All points of a problem, tile by tile.
+std::vector<Point> points_of(const Problem& problem)
+{
+    const Tiling tiling = tiling_of(problem);
+    std::vector<Point> points;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        std::ranges::copy(Coordinates(problem.scene, problem.grid, tiling[i]).points(),
+                          std::back_inserter(points));
+    }
+    return points;
 }
 
 } // namespace
+
+Grid sample_of(const Grid& grid, std::int64_t points)
+{
+    constexpr std::int64_t most_of_others = 3;
+    Grid sample = grid;
+    Axis number; // instead of an axis that the grid lacks
+    Axis* amplitude = &number;
+    Axis* frequency = &number;
+    auto left = double(points);
+    for (Dimension& dimension : sample.dimensions) {
+        Column& column = dimension.columns.front();
+        const bool is_last = &dimension == &sample.dimensions.back();
+        if (column.quantity->role == Role::motion) {
+            left /= double(dimension.size());
+        } else if (column.quantity->role == Role::strength) {
+            amplitude = &column.values;
+        } else if (is_last) {
+            frequency = &column.values;
+        } else {
+            column.values = column.values.thinned(most_of_others);
+            left /= double(dimension.size());
+        }
+    }
+    const std::int64_t side = std::max<std::int64_t>(1, std::int64_t(std::sqrt(left)));
+    const std::int64_t amplitudes = std::clamp<std::int64_t>(
+        std::int64_t(left / double(std::min(side, frequency->size()))), 1, amplitude->size());
+    *amplitude = amplitude->thinned(amplitudes);
+    *frequency =
+        frequency->thinned(std::max<std::int64_t>(1, std::int64_t(left / double(amplitudes))));
+    return sample;
+}
+
+std::vector<int> evenly_chosen(const Tiling& tiling, std::int64_t wanted)
+{
+    const std::int64_t points = count_points(tiling.shape());
+    const double stride = std::max(1.0, double(points) / double(wanted));
+    const bool all = stride < 2;
+    std::set<int> chosen;
+    std::int64_t before = 0;
+    double next = all ? 0 : 0.5 * stride;
+    // Rows are visited in order. The golden ratio selects the column, so that none is left out.
+    double share = 0.5;
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        const Tile tile = tiling[i];
+        const auto columns = tile.count.empty() ? 1 : int(tile.count.back());
+        for (; next < double(before + tile.points()); next += all ? 1 : stride) {
+            const auto point = int(std::int64_t(next) - before);
+            share = std::fmod(share + 0.6180339887498949, 1.0);
+            const int column = all ? point % columns : int(share * columns);
+            chosen.insert(int(before) + point - point % columns + column);
+        }
+        before += tile.points();
+    }
+    return {chosen.begin(), chosen.end()};
+}
 
 std::vector<Numerics> accuracy_ladder(const Scene& scene)
 {
@@ -65,121 +132,94 @@ std::vector<Numerics> accuracy_ladder(const Scene& scene)
 
 AccuracyStudy::AccuracyStudy(const Scene& scene, const Grid& grid, std::int64_t points,
                              std::int64_t in_digits, Kernel kernel)
-    : scene_(scene), kernel_(kernel)
+    : problem_{.scene = scene, .grid = sample_of(grid, points)}, kernel_(kernel),
+      sample_{.grid = problem_.grid},
+      run_(std::make_shared<PointRun>(scene, points_of(problem_), kernel)),
+      truth_(std::make_shared<Outcomes>(
+          outcomes_of(*run_, most_accurate, {.region = true, .margin = true})))
 {
-    sample_.grid = sample_of(grid, points);
-    truth_ = computed(most_accurate, {Field::region, Field::margin});
-    for (const TileFields& tile : truth_) {
-        const auto& regions = values_of<std::uint8_t>(tile, 0);
-        for (std::size_t point = 0; point < regions.size(); ++point) {
-            if (regions[point] < decided_regions) {
-                ++sample_.settled;
-                ++sample_.by_region[regions[point]];
-                ++sample_.by_distance[distance_class(values_of<double>(tile, 1)[point])];
-            }
+    for (int i = 0; i < truth_->size(); ++i) {
+        const Outcome& truth = (*truth_)[i];
+        if (is_decided(truth.region)) {
+            ++sample_.settled;
+            ++sample_.by_region[std::size_t(truth.region)];
+            ++sample_.by_distance[distance_class(truth.margin)];
         }
     }
-    compute_in_digits(in_digits);
-}
-
-std::vector<TileFields> AccuracyStudy::computed(const Numerics& numerics,
-                                                std::vector<Field> fields) const
-{
-    const Problem problem{scene_, sample_.grid, numerics, Product::spectrum, std::move(fields)};
-    const Tiling tiling = tiling_of(problem);
-    std::vector<TileFields> tiles;
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        tiles.push_back(compute_tile(problem, tiling[i], kernel_));
+    chosen_ = evenly_chosen(tiling_of(problem_), in_digits);
+    Outcomes exact(truth_->size(), {.margin = true});
+    for (const int point : chosen_) {
+        run_->run_in_more_digits<Digits50>(point, exact);
     }
-    return tiles;
-}
-
-void AccuracyStudy::compute_in_digits(std::int64_t wanted)
-{
-    const Tiling tiling = tiling_of({.scene = scene_, .grid = sample_.grid});
-    const std::vector<std::vector<int>> chosen = evenly_chosen(tiling, wanted);
-    for (std::int64_t i = 0; i < tiling.size(); ++i) {
-        const PointRun run(scene_, Coordinates(scene_, sample_.grid, tiling[i]).points(), kernel_);
-        Outcomes outcomes(std::size_t(run.size()), {.margin = true});
-        for (const int point : chosen[std::size_t(i)]) {
-            run.run_in_more_digits<Digits50>(point, outcomes);
-            if (!(outcomes.flags[point] & outcome_flag::without_end)) {
-                in_digits_.push_back({std::size_t(i), std::size_t(point),
-                                      (outcomes.flags[point] & outcome_flag::fell) != 0,
-                                      outcomes.side[point] * outcomes.tilt[point],
-                                      outcomes.side[point] * outcomes.rate[point],
-                                      outcomes.margin[point]});
-            }
-        }
-    }
-    sample_.in_digits = std::int64_t(in_digits_.size());
+    std::erase_if(chosen_, [&](int point) { return exact[point].has(outcome_flag::without_end); });
+    sample_.in_digits = std::int64_t(chosen_.size());
+    in_50_digits_ = std::make_shared<Outcomes>(std::move(exact));
 }
 
 void AccuracyStudy::compute_regions(const Numerics& numerics) const
 {
-    computed(numerics, {Field::region});
+    Problem problem = problem_;
+    problem.numerics = numerics;
+    problem.fields = {Field::region};
+    const Tiling tiling = tiling_of(problem);
+    for (std::int64_t i = 0; i < tiling.size(); ++i) {
+        compute_tile(problem, tiling[i], kernel_);
+    }
 }
 
 AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
 {
-    std::vector<Field> fields{Field::region, Field::angle, Field::velocity, Field::margin,
-                              Field::steps};
-    if (knows_errors(numerics)) {
-        fields.push_back(Field::error);
-    }
-    const std::vector<TileFields> tiles = computed(numerics, fields);
+    const Outcomes outcomes = outcomes_of(
+        *run_, numerics,
+        {.error = knows_errors(numerics), .region = true, .margin = true, .steps = true});
     AccuracyRow row;
     row.numerics = numerics;
-    count_verdicts(tiles, row);
-    measure_errors(tiles, row);
+    count_verdicts(outcomes, row);
+    measure_errors(outcomes, row);
     return row;
 }
 
-void AccuracyStudy::count_verdicts(const std::vector<TileFields>& tiles, AccuracyRow& row) const
+void AccuracyStudy::count_verdicts(const Outcomes& outcomes, AccuracyRow& row) const
 {
     double steps = 0;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const auto& region = values_of<std::uint8_t>(tiles[i], 0);
-        const auto& true_region = values_of<std::uint8_t>(truth_[i], 0);
-        const auto& true_margin = values_of<double>(truth_[i], 1);
-        for (std::size_t point = 0; point < region.size(); ++point) {
-            steps += values_of<std::uint32_t>(tiles[i], 4)[point];
-            if (region[point] >= decided_regions) {
-                ++row.undecided;
-            } else if (true_region[point] < decided_regions &&
-                       is_safe(Region(region[point])) != is_safe(Region(true_region[point]))) {
-                ++row.wrong_verdicts;
-                ++row.wrong_verdicts_by_region[true_region[point]];
-                ++row.wrong_verdicts_by_distance[distance_class(true_margin[point])];
-            }
+    for (int point = 0; point < outcomes.size(); ++point) {
+        const Outcome& found = outcomes[point];
+        const Outcome& truth = (*truth_)[point];
+        steps += found.steps;
+        if (!is_decided(found.region)) {
+            ++row.undecided;
+        } else if (is_decided(truth.region) && is_safe(found.region) != is_safe(truth.region)) {
+            ++row.wrong_verdicts;
+            ++row.wrong_verdicts_by_region[std::size_t(truth.region)];
+            ++row.wrong_verdicts_by_distance[distance_class(truth.margin)];
         }
     }
     row.steps = steps / double(sample_.grid.points());
     row.evaluations = row.steps * (row.numerics.method == Method::rk45 ? 6 : 1);
 }
 
-void AccuracyStudy::measure_errors(const std::vector<TileFields>& tiles, AccuracyRow& row) const
+void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) const
 {
     const bool with_bounds = knows_errors(row.numerics);
     std::vector<double> angle, velocity, margin, ratios;
     std::int64_t exceeded = 0;
-    for (const DigitsTruth& exact : in_digits_) {
-        const TileFields& tile = tiles[exact.tile];
-        // Only one of the two blocks fell, so their ends cannot be compared.
-        const bool differs = fell(values_of<std::uint8_t>(tile, 0)[exact.point]) != exact.fell;
-        const auto error = [&](std::size_t field, double true_value) {
-            const double found = std::abs(values_of<double>(tile, field)[exact.point] - true_value);
-            return differs || !std::isfinite(found) ? std::numeric_limits<double>::infinity()
-                                                    : found;
+    for (const int point : chosen_) {
+        const Outcome& found = outcomes[point];
+        const Outcome& exact = (*in_50_digits_)[point];
+        // If only one of the two blocks fell, their ends cannot be compared.
+        const bool differ = is_forced_fall(found.region) != exact.has(outcome_flag::fell);
+        const auto error = [&](double value, double true_value) {
+            const double apart = std::abs(value - true_value);
+            return differ || !std::isfinite(apart) ? std::numeric_limits<double>::infinity()
+                                                   : apart;
         };
-        angle.push_back(error(1, exact.angle));
-        velocity.push_back(error(2, exact.velocity));
-        margin.push_back(error(3, exact.margin));
+        angle.push_back(error(found.with_sign(found.tilt), exact.with_sign(exact.tilt)));
+        velocity.push_back(error(run_->velocity(point, found), run_->velocity(point, exact)));
+        margin.push_back(error(found.margin, exact.margin));
         if (with_bounds) {
-            const double bound = values_of<double>(tile, 5)[exact.point];
-            exceeded += margin.back() > bound;
-            if (margin.back() > 0 && std::isfinite(bound)) {
-                ratios.push_back(bound / margin.back());
+            exceeded += margin.back() > found.error;
+            if (margin.back() > 0 && std::isfinite(found.error)) {
+                ratios.push_back(found.error / margin.back());
             }
         }
     }
@@ -188,7 +228,7 @@ void AccuracyStudy::measure_errors(const std::vector<TileFields>& tiles, Accurac
     row.margin = distribution(margin);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     static_assert(error_quantiles[0] == 0.5); // the median
-    row.bound_exceeded = with_bounds ? double(exceeded) / double(in_digits_.size()) : unknown;
+    row.bound_exceeded = with_bounds ? double(exceeded) / double(chosen_.size()) : unknown;
     row.bound_over_error = with_bounds ? distribution(ratios)[0] : unknown;
 }
 

@@ -106,6 +106,8 @@ public:
     {}
 
     const FlipSearch search;
+    std::vector<Probe> undecided; ///< whose verdict could not be settled, in this order
+    std::optional<CoarseSearch> coarse;
 
     /// Whether the two amplitudes are within the flip width, or adjacent doubles.
     bool is_narrow(double below, double above) const
@@ -127,10 +129,10 @@ public:
         left_in_50_digits_ -= outcomes.in_50_digits;
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back({amplitudes[i], Region(outcomes.region[i]), outcomes.margin[i],
-                              outcomes.impacts[i]});
+            probes.push_back(
+                {amplitudes[i], outcomes[i].region, outcomes[i].margin, outcomes[i].impacts});
             if (!probes.back().is_settled()) {
-                undecided_.push_back(probes.back());
+                undecided.push_back(probes.back());
             }
         }
         return probes;
@@ -166,22 +168,18 @@ public:
     void leave_coarse(const Probe& below, const Probe& above)
     {
         const double step = (above.amplitude - below.amplitude) / above.amplitude;
-        coarse_ = coarse_ ? CoarseSearch{std::min(coarse_->first, below.amplitude),
-                                         std::max(coarse_->last, above.amplitude),
-                                         std::max(coarse_->step, step)}
-                          : CoarseSearch{below.amplitude, above.amplitude, step};
+        coarse = coarse ? CoarseSearch{std::min(coarse->first, below.amplitude),
+                                       std::max(coarse->last, above.amplitude),
+                                       std::max(coarse->step, step)}
+                        : CoarseSearch{below.amplitude, above.amplitude, step};
     }
-    const std::optional<CoarseSearch>& coarse() const { return coarse_; }
 
-    /// The amplitudes below that at which the vertical motion of the record cancels gravity; all
+    /// Under a record, the amplitudes below that at which its vertical motion cancels gravity; all
     /// others are undecided.
     std::vector<double> without_free_fall(std::vector<double> amplitudes)
     {
-        const double free_fall =
-            scene_.is_recorded()
-                ? scene_.records[std::size_t(line_.point.record)]->free_fall_scale() *
-                      std::abs(line_.unit)
-                : std::numeric_limits<double>::infinity();
+        const Accelerogram& record = *scene_.records[std::size_t(line_.point.record)];
+        const double free_fall = record.free_fall_scale() * std::abs(line_.unit);
         const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
         if (first != amplitudes.end()) {
             add_undecided(*first);
@@ -196,21 +194,17 @@ public:
         return amplitudes;
     }
 
-    /// Amplitudes whose verdict could not be settled, in the order of computation.
-    const std::vector<Probe>& undecided() const { return undecided_; }
     void add_undecided(double amplitude)
     {
-        undecided_.push_back({amplitude, Region::undecided, 0, 0});
+        undecided.push_back({amplitude, Region::undecided, 0, 0});
     }
 
 private:
     Scene scene_;
     BoundaryLine line_;
     Kernel kernel_;
-    std::vector<Probe> undecided_;
     std::size_t computed_ = 0;
     int left_in_50_digits_ = search.most_in_50_digits;
-    std::optional<CoarseSearch> coarse_;
 };
 
 /// Narrows the bracket of a flip to the flip width, or until a verdict within it cannot be settled.
@@ -315,7 +309,7 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes)
     for (int time = 0;; ++time) {
         std::vector<double> middles;
         for (const std::size_t end : steps_to_halve(line, probes, time)) {
-            if (line.is_exhausted() || line.undecided().size() > most_undecided) {
+            if (line.is_exhausted() || line.undecided.size() > most_undecided) {
                 line.leave_coarse(probes[end - 1], probes[end]);
             } else {
                 middles.push_back(middle_of(probes[end - 1], probes[end]));
@@ -363,16 +357,6 @@ std::vector<double> divided(const std::vector<double>& amplitudes, double widest
         all.push_back(halved[i]);
     }
     return all;
-}
-
-/// Divides all steps of the scan down to the finest step. Under a record, a margin says nothing
-/// about the verdicts next to it: the block has often come to rest long before the end.
-std::vector<Probe> at_equal_steps(Line& line, const std::vector<double>& amplitudes)
-{
-    std::vector<Probe> probes =
-        line.at(divided(amplitudes, line.search.finest_step, line.lifting()), scanning);
-    forget_the_useless(probes, std::numeric_limits<std::size_t>::max());
-    return probes;
 }
 
 /// Adds amplitudes with another verdict between two neighbours with the same verdict.
@@ -431,7 +415,11 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     const std::size_t most_flips = line.search.most_flips;
     std::vector<Probe> probes;
     if (scene.is_recorded()) {
-        probes = at_equal_steps(line, line.without_free_fall(amplitudes));
+        // A margin says nothing about the verdicts next to it: the block has often come to rest
+        // long before the end.
+        const std::vector<double> scanned = line.without_free_fall(amplitudes);
+        probes = line.at(divided(scanned, line.search.finest_step, line.lifting()), scanning);
+        forget_the_useless(probes, std::numeric_limits<std::size_t>::max());
     } else {
         probes = refined(line, line.at(divided(amplitudes, widest_step, line.lifting()), scanning));
         add_hidden_verdicts(line, probes);
@@ -444,15 +432,15 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
     }
     add(closer, probes);
-    add(line.undecided(), probes);
+    add(line.undecided, probes);
     // Of undecided amplitudes that were settled later, the settled ones remain.
     const auto repeated = std::ranges::unique(probes, {}, &Probe::amplitude);
     probes.erase(repeated.begin(), repeated.end());
 
     Boundary boundary;
     boundary.region_at_first = probes.front().region;
-    boundary.complete = line.undecided().empty();
-    boundary.coarse = line.coarse();
+    boundary.complete = line.undecided.empty();
+    boundary.coarse = line.coarse;
     if (scene.is_recorded()) {
         add_shares(probes, boundary);
     }

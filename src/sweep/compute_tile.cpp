@@ -7,6 +7,7 @@
 #include "overturn/sweep/fill.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -19,81 +20,49 @@ namespace overturn {
 
 namespace {
 
-/// The values of of_point(i) for all points.
+/// The values of of_point(i, outcome) for all points.
 template <class Value, class OfPoint>
-std::vector<Value> for_each_of(const Outcomes& outcomes, const OfPoint& of_point)
+FieldValues values_of(const Outcomes& outcomes, const OfPoint& of_point)
 {
-    std::vector<Value> result(std::size_t(outcomes.size()));
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        result[i] = Value(of_point(i));
+    std::vector<Value> values(std::size_t(outcomes.size()));
+    for (int i = 0; i < outcomes.size(); ++i) {
+        values[std::size_t(i)] = Value(of_point(i, outcomes[i]));
     }
-    return result;
+    return values;
 }
 
-/// An angle or a velocity with its sign; NaN if the integration did not reach the end.
-std::vector<double> with_sign(const std::vector<double>& values, const Outcomes& outcomes)
+/// A field of a spectrum that is not filled.
+FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
-    return for_each_of<double>(outcomes, [&](std::size_t i) {
-        const double value = outcomes.side[i] > 0 ? values[i] : 0.0 - values[i]; // 0 - 0 is +0
-        return outcomes.flags[i] & outcome_flag::without_end
-                   ? std::numeric_limits<double>::quiet_NaN()
-                   : value;
-    });
-}
-
-/// The rates in units of p of the side plus.
-std::vector<double> rates_of(const PointRun& points, const Outcomes& outcomes)
-{
-    std::vector<double> rates = outcomes.rate;
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-        const Block<double>& block = points.point(int(i)).block;
-        if (!block.is_symmetric()) {
-            rates[i] *= points.block_at_end(i, outcomes).pace / block.pace;
-        }
-    }
-    return rates;
-}
-
-/// A field of a spectrum that is not filled. `region`, `margin` and `error` are not computed here:
-/// spectrum_tile() moves them from the outcomes. A filled spectrum has its own values, see
-/// filled_tile().
-FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes,
-                      const std::vector<ContactDemand<double>>& demands)
-{
+    const auto numbers = [&](const auto& of_point) {
+        return values_of<double>(outcomes, of_point);
+    };
     switch (field) {
-    case Field::angle: return with_sign(outcomes.tilt, outcomes);
+    case Field::region:
+        return values_of<std::uint8_t>(outcomes, [](int, const Outcome& at) { return at.region; });
+    case Field::angle: return numbers([](int, const Outcome& at) { return at.with_sign(at.tilt); });
     case Field::velocity:
-        return points.are_symmetric() ? with_sign(outcomes.rate, outcomes)
-                                      : with_sign(rates_of(points, outcomes), outcomes);
-    case Field::peak: return points.peaks(outcomes);
-    case Field::fall_time: return points.fall_times(outcomes);
-    case Field::friction:
-    case Field::normal:
-        return for_each_of<double>(outcomes, [&](std::size_t i) {
-            return field == Field::friction ? demands[i].friction : demands[i].normal;
-        });
+        return numbers([&](int i, const Outcome& at) { return points.velocity(i, at); });
+    case Field::margin: return numbers([](int, const Outcome& at) { return at.margin; });
+    case Field::error: return numbers([](int, const Outcome& at) { return at.error; });
+    case Field::peak: return numbers([&](int i, const Outcome& at) { return points.peak(i, at); });
+    case Field::fall_time:
+        return numbers([&](int i, const Outcome& at) { return points.fall_time(i, at); });
+    case Field::friction: return numbers([](int, const Outcome& at) { return at.friction; });
+    case Field::normal: return numbers([](int, const Outcome& at) { return at.normal; });
     case Field::impacts:
-        return for_each_of<std::uint16_t>(outcomes, [&](std::size_t i) {
-            return outcomes.stored_impacts(i, points.scene().is_recorded());
+        return values_of<std::uint16_t>(outcomes, [&](int, const Outcome& at) {
+            return at.stored_impacts(points.scene().is_recorded());
         });
     case Field::steps:
-        return std::vector<std::uint32_t>(outcomes.steps.begin(), outcomes.steps.end());
-    case Field::status:
-        return for_each_of<std::uint8_t>(outcomes, [&](std::size_t i) {
-            const auto flag = [&](std::uint8_t in, std::uint8_t out) {
-                return outcomes.flags[i] & in ? out : 0;
-            };
-            return flag(outcome_flag::rested, status::came_to_rest) |
-                   flag(outcome_flag::capped, status::cap_was_hit) |
-                   flag(outcome_flag::not_finite, status::not_finite) |
-                   flag(outcome_flag::unresolved, status::unresolved) |
-                   flag(outcome_flag::free_fall, status::free_fall) |
-                   (!demands.empty() && demands[i].normal <= 0 ? status::lifts_off : 0);
-        });
-    default:
-        return {}; // moved from the outcomes later, because `peak` and `fall_time` read the
-                   // regions; or fields of other products
+        return values_of<std::uint32_t>(outcomes, [](int, const Outcome& at) { return at.steps; });
+    default: break;
     }
+    assert(field == Field::status);
+    return values_of<std::uint8_t>(outcomes, [&](int, const Outcome& at) {
+        const bool lifts_off = outcomes.outputs.contact && at.normal <= 0;
+        return (at.flags & outcome_flag::of_status) | (lifts_off ? status::lifts_off : 0);
+    });
 }
 
 TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
@@ -119,32 +88,22 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
     const auto wanted = [&fields = fields](Field field) {
         return std::find(fields.begin(), fields.end(), field) != fields.end();
     };
-    const bool watches = wanted(Field::friction) || wanted(Field::normal);
+    const bool has_contact = wanted(Field::friction) || wanted(Field::normal);
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
                           !grid.has_two_sides());
-    Outcomes outcomes = outcomes_of(points, numerics,
-                                    {.impacts = wanted(Field::impacts),
-                                     .error = wanted(Field::error),
-                                     .peak = wanted(Field::peak),
-                                     .region = wanted(Field::region) || wanted(Field::peak) ||
-                                               wanted(Field::fall_time) || watches,
-                                     .margin = wanted(Field::margin),
-                                     .steps = wanted(Field::steps),
-                                     .phase = wanted(Field::fall_time)});
-    const auto demands = watches ? points.contact_demands(numerics, outcomes.region)
-                                 : std::vector<ContactDemand<double>>();
+    const Outcomes outcomes = outcomes_of(
+        points, numerics,
+        {.impacts = wanted(Field::impacts),
+         .error = wanted(Field::error),
+         .peak = wanted(Field::peak),
+         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
+         .margin = wanted(Field::margin),
+         .steps = wanted(Field::steps),
+         .phase = wanted(Field::fall_time),
+         .contact = has_contact});
     TileFields result;
     for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, outcomes, demands));
-    }
-    for (std::size_t i = 0; i < fields.size(); ++i) { // these arrays are no longer used
-        if (fields[i] == Field::region) {
-            result.values[i] = std::move(outcomes.region);
-        } else if (fields[i] == Field::margin) {
-            result.values[i] = std::move(outcomes.margin);
-        } else if (fields[i] == Field::error) {
-            result.values[i] = std::move(outcomes.error);
-        }
+        result.values.push_back(values_of(field, points, outcomes));
     }
     return result;
 }

@@ -19,77 +19,32 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Records the state of a block up to the last time shown: at evenly spaced times, and before and
 /// after each event.
-class Recorder {
-public:
-    Recorder(double until, int samples) : until_(until), samples_(samples) {}
-
-    bool is_over(double time) const { return time > until_; }
-
-    /// Records the motion until `end`; at(time) returns a sample.
-    template <class At>
-    void follow(double end, const At& at)
-    {
-        for (; next_ < samples_; ++next_) {
-            const double time = until_ * next_ / std::max(1, samples_ - 1);
-            if (time >= end) {
-                break;
-            }
-            history_.samples.push_back(at(time));
-        }
-        if (end < infinity) {
-            last_ = at(end);
-        }
-    }
-
-    /// Records an event at the last time passed to follow().
-    void record_event(EventKind event, const HistorySample& after)
-    {
-        if (!is_over(last_.time)) {
-            history_.samples.push_back(last_);
-            history_.samples.push_back(after);
-            history_.events.push_back({event, last_, after});
-        }
-    }
-    void ends_with(EventKind event) { record_event(event, last_); }
-
-    History& history() { return history_; }
-
-private:
-    double until_;
-    int samples_;
-    int next_ = 0;
-    HistorySample last_{};
-    History history_{};
-};
-
 template <Theory theory, class Excitation>
 class HistoryBuilder {
 public:
-    HistoryBuilder(const Point& point, const Excitation& excitation)
+    HistoryBuilder(const Point& point, const Excitation& excitation, const HistoryView& view)
         : block_(point.block), sides_(block_, point.gyration), excitation_(excitation),
-          path_(forced_path<theory>(block_, excitation_)), end_of_path_(end_of_path()),
-          time_of_rest_(time_of_rest()), time_of_fall_(time_of_fall())
-    {}
-
-    History build(const HistoryView& view) const
+          path_(forced_path<theory>(block_, excitation_)),
+          block_at_end_(seen_from(path_.end.state.side, block_)), end_of_path_(end_of_path()),
+          samples_(view.samples)
     {
-        const double until = std::isnan(view.until) ? time_worth_showing() : view.until;
-        Recorder recorder(until, view.samples);
-        record_forced_stage(recorder);
-        bool shortened = path_.end.is_stopped();
-        if (is_free() && !recorder.is_over(end_of_path_)) {
-            shortened = !record_free_stage(recorder, until / view.samples);
+        history_.end_of_pulse = time_at(excitation_.motion.end);
+        history_.time_of_rest = time_of_rest();
+        history_.time_of_fall = time_of_fall();
+        until_ = std::isnan(view.until) ? time_worth_showing() : view.until;
+    }
+
+    History build()
+    {
+        history_.region = region_of<theory>(path_.end, block_at_end_);
+        history_.margin = margin_of<theory>(path_.end, block_at_end_);
+        history_.error = path_.end.error;
+        history_.shortened = path_.end.is_stopped();
+        record_forced_stage();
+        if (is_free() && !is_over(end_of_path_)) {
+            history_.shortened = !record_free_stage();
         }
-        History& history = recorder.history();
-        history.end_of_pulse = time_at(excitation_.motion.end);
-        history.time_of_rest = time_of_rest_;
-        history.time_of_fall = time_of_fall_;
-        const Block<double> seen = seen_from(path_.end.state.side, block_);
-        history.region = region_of<theory>(path_.end, seen);
-        history.margin = margin_of<theory>(path_.end, seen);
-        history.error = path_.end.error;
-        history.shortened = shortened;
-        return std::move(history);
+        return std::move(history_);
     }
 
 private:
@@ -103,14 +58,7 @@ private:
     {
         return excitation_.motion.begin + time / block_.pace * excitation_.frequency;
     }
-    double impact_time(const FreeRocking<theory, double>& rocking) const
-    {
-        return end_of_path_ + rocking.impact_time() * block_.pace;
-    }
-    double fall_time(const FreeRocking<theory, double>& rocking) const
-    {
-        return end_of_path_ + rocking.fall_time() * block_.pace;
-    }
+    double after_path(double time) const { return end_of_path_ + time * block_.pace; }
 
     /// Whether there is a free stage.
     bool is_free() const { return !(path_.end.fell || path_.end.is_stopped()); }
@@ -129,9 +77,7 @@ private:
         if (path_.events.empty() || path_.events.back().kind == EventKind::rest) {
             return path_.events.empty() ? 0 : time_at(path_.events.back().rocking.phase);
         }
-        return end_of_path_ + overturn::time_of_rest<theory>(
-                                  path_.end.state, seen_from(path_.end.state.side, block_)) *
-                                  block_.pace;
+        return after_path(overturn::time_of_rest<theory>(path_.end.state, block_at_end_));
     }
 
     double time_of_fall() const
@@ -141,27 +87,22 @@ private:
         }
         // A symmetric block can fall only before or after the first impact, others also after the
         // second one.
-        FreeRocking<theory, double> rocking = free_rocking();
+        FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
         for (int impacts = block_.is_symmetric() ? 1 : 2; impacts > 0; --impacts) {
             if (std::isfinite(rocking.impact_time())) {
                 rocking.strike();
             }
         }
-        return fall_time(rocking);
+        return after_path(rocking.fall_time());
     }
 
     double time_worth_showing() const
     {
-        if (std::isnan(time_of_rest_)) {
+        if (std::isnan(history_.time_of_rest)) {
             return end_of_path_;
         }
-        return std::min(
-            {time_of_fall_, std::max(time_of_rest_, end_of_path_), end_of_path_ + free_time_shown});
-    }
-
-    FreeRocking<theory, double> free_rocking() const
-    {
-        return {path_.end.state, seen_from(path_.end.state.side, block_)};
+        return std::min({history_.time_of_fall, std::max(history_.time_of_rest, end_of_path_),
+                         end_of_path_ + free_time_shown});
     }
 
     /// ground: of the excitation, or 0.0 after it.
@@ -197,7 +138,35 @@ private:
         return theory == Theory::linear ? unknown : force.friction();
     }
 
-    void record_forced_stage(Recorder& recorder) const
+    bool is_over(double time) const { return time > until_; }
+
+    /// Records the motion until `end`; at(time) returns a sample.
+    template <class At>
+    void follow(double end, const At& at)
+    {
+        for (; next_ < samples_; ++next_) {
+            const double time = until_ * next_ / std::max(1, samples_ - 1);
+            if (time >= end) {
+                break;
+            }
+            history_.samples.push_back(at(time));
+        }
+        if (end < infinity) {
+            last_ = at(end);
+        }
+    }
+
+    /// Records an event at the last time passed to follow().
+    void record_event(EventKind event, const HistorySample& after)
+    {
+        if (!is_over(last_.time)) {
+            history_.samples.push_back(last_);
+            history_.samples.push_back(after);
+            history_.events.push_back({event, last_, after});
+        }
+    }
+
+    void record_forced_stage()
     {
         const Event<double>* latest = nullptr; // null: at rest
         const auto at = [&](double time) {
@@ -211,58 +180,58 @@ private:
         };
         for (const Event<double>& event : path_.events) {
             const double time = time_at(event.rocking.phase);
-            recorder.follow(time, at);
+            follow(time, at);
             latest = event.kind == EventKind::rest ? nullptr : &event;
             if (event.kind != EventKind::step) {
-                recorder.record_event(event.kind, at(time));
+                record_event(event.kind, at(time));
             }
         }
-        recorder.follow(end_of_path_, at);
+        follow(end_of_path_, at);
         if (path_.end.fell) {
-            recorder.ends_with(EventKind::fall);
+            record_event(EventKind::fall, last_);
         } else if (is_free()) {
             const bool rests = latest == nullptr;
-            recorder.record_event(EventKind::end_of_pulse,
-                                  rests ? resting(end_of_path_, 0.0)
-                                        : sample(end_of_path_, path_.end.state, 0.0));
+            record_event(EventKind::end_of_pulse, rests
+                                                      ? resting(end_of_path_, 0.0)
+                                                      : sample(end_of_path_, path_.end.state, 0.0));
         }
     }
 
     /// Returns whether all impacts could be recorded.
-    bool record_free_stage(Recorder& recorder, double spacing) const
+    bool record_free_stage()
     {
-        FreeRocking<theory, double> rocking = free_rocking();
+        FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
         // The remainder of a series that is shorter than this is not visible.
-        const double last_impact = time_of_rest_ - 1e-3 * spacing;
-        while (end_of_path_ + rocking.begin() * block_.pace < last_impact) {
+        const double last_impact = history_.time_of_rest - 1e-3 * (until_ / samples_);
+        while (after_path(rocking.begin()) < last_impact) {
             if (rocking.impacts() == most_impacts_shown) {
                 return false;
             }
-            const double impact = impact_time(rocking);
-            const double fall = fall_time(rocking);
+            const double impact = after_path(rocking.impact_time());
+            const double fall = after_path(rocking.fall_time());
             const RockingArc<theory, double>& arc = rocking.arc();
             const auto at = [&](double time) {
                 const State<double> striking{0, -arc.impact_speed(), arc.side()};
                 const double since = (time - end_of_path_) / block_.pace;
                 return sample(time, time == impact ? striking : rocking.at(since), 0.0);
             };
-            recorder.follow(std::min(impact, fall), at);
-            if (recorder.is_over(std::min(impact, fall))) {
+            follow(std::min(impact, fall), at);
+            if (is_over(std::min(impact, fall))) {
                 return true;
             }
             if (fall < impact) {
-                recorder.ends_with(EventKind::fall);
+                record_event(EventKind::fall, last_);
                 return true;
             }
             rocking.strike();
-            recorder.record_event(EventKind::impact, sample(impact, arc.at(0), 0.0));
+            record_event(EventKind::impact, sample(impact, arc.at(0), 0.0));
         }
         const auto at_rest = [&](double time) { return resting(time, 0.0); };
-        if (time_of_rest_ > end_of_path_) {
-            recorder.follow(time_of_rest_, at_rest);
-            recorder.ends_with(EventKind::rest);
+        if (history_.time_of_rest > end_of_path_) {
+            follow(history_.time_of_rest, at_rest);
+            record_event(EventKind::rest, last_);
         }
-        recorder.follow(infinity, at_rest);
+        follow(infinity, at_rest);
         return true;
     }
 
@@ -270,9 +239,13 @@ private:
     ContactSides<double> sides_;
     Excitation excitation_;
     ForcedPath path_;
-    double end_of_path_; // time [1/p]
-    double time_of_rest_;
-    double time_of_fall_;
+    Block<double> block_at_end_; // as seen from the side on which it rocks at the end of the path
+    double end_of_path_;         // time [1/p]
+    double until_;
+    int samples_;
+    int next_ = 0;         // sample
+    HistorySample last_{}; // at the end of follow()
+    History history_{};
 };
 
 } // namespace
@@ -281,9 +254,9 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
 {
     History history = with_theory(scene.theory, [&]<Theory theory>() {
         const auto build = [&](const auto& excitation) {
-            return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(point,
-                                                                                     excitation)
-                .build(view);
+            return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(
+                       point, excitation, view)
+                .build();
         };
         if (scene.is_recorded()) {
             const auto record = directed_record(scene, point);
@@ -296,7 +269,7 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
     history.is_curve_certain = history.error < std::abs(history.margin);
     if (!history.is_curve_certain) {
         const PointRun run(scene, {point}, widest_kernel());
-        history.region = Region(outcomes_of(run, most_accurate, {.region = true}).region.front());
+        history.region = outcomes_of(run, most_accurate, {.region = true})[0].region;
         history.margin = unknown;
         history.error = infinity;
         history.time_of_rest = unknown;

@@ -7,40 +7,31 @@
 
 namespace overturn {
 
-#define OVERTURN_DECLARE(isa)                                                                      \
-    SweepKernel kernel_##isa##_runge_kutta(Theory, const Outputs&, Directions);                    \
-    SweepKernel kernel_##isa##_taylor_14(Theory, const Outputs&, Directions);                      \
-    SweepKernel kernel_##isa##_taylor_20(Theory, const Outputs&, Directions);                      \
-    SweepKernel kernel_##isa##_recorded(Theory, const Outputs&, Directions);                       \
-    SweepKernel kernel_##isa##_recorded_31(Theory, const Outputs&, Directions);
-#define OVERTURN_LIST(isa)                                                                         \
-    {                                                                                              \
-        kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,            \
-            kernel_##isa##_recorded, kernel_##isa##_recorded_31                                    \
-    }
+/// In the order of Integrator.
+#define OVERTURN_KERNELS_FOR(isa)                                                                  \
+    kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,                \
+        kernel_##isa##_recorded, kernel_##isa##_recorded_31
 
-OVERTURN_DECLARE(double)
-OVERTURN_DECLARE(neon)
-OVERTURN_DECLARE(avx2)
-OVERTURN_DECLARE(avx512)
+SweepKernelChoice OVERTURN_KERNELS_FOR(double), OVERTURN_KERNELS_FOR(neon),
+    OVERTURN_KERNELS_FOR(avx2), OVERTURN_KERNELS_FOR(avx512);
 
 namespace {
 
 /// The compiled kernels, in the order of Integrator; null pointers for kernels not compiled.
-constexpr std::array<SweepKernelChoice, 5> compiled(Kernel kernel)
+constexpr std::array<SweepKernelChoice*, 5> compiled(Kernel kernel)
 {
     switch (kernel) {
 #ifdef OVERTURN_KERNEL_double
-    case Kernel::one_lane: return OVERTURN_LIST(double);
+    case Kernel::one_lane: return {OVERTURN_KERNELS_FOR(double)};
 #endif
 #ifdef OVERTURN_KERNEL_neon
-    case Kernel::neon: return OVERTURN_LIST(neon);
+    case Kernel::neon: return {OVERTURN_KERNELS_FOR(neon)};
 #endif
 #ifdef OVERTURN_KERNEL_avx2
-    case Kernel::avx2: return OVERTURN_LIST(avx2);
+    case Kernel::avx2: return {OVERTURN_KERNELS_FOR(avx2)};
 #endif
 #ifdef OVERTURN_KERNEL_avx512
-    case Kernel::avx512: return OVERTURN_LIST(avx512);
+    case Kernel::avx512: return {OVERTURN_KERNELS_FOR(avx512)};
 #endif
     default: return {};
     }

@@ -64,40 +64,17 @@ PulseExcitation<Digits31> in_31_digits(const PulseExcitation<Digits50>& exact)
             in_31_digits(exact.uplifts)};
 }
 
+/// The outcome of a point that cannot be integrated because gravity vanishes.
+constexpr Outcome free_fall = [] {
+    Outcome outcome{};
+    outcome.flags = outcome_flag::free_fall;
+    outcome.region = Region::undecided;
+    outcome.margin = unknown;
+    outcome.error = infinity;
+    return outcome;
+}();
+
 } // namespace
-
-Outcomes::Outcomes(std::size_t points, const Outputs& wanted)
-    : outputs(wanted), tilt(points), rate(points), side(points), flags(points),
-      region(outputs.region ? points : 0), margin(outputs.margin ? points : 0),
-      impacts(outputs.impacts ? points : 0), error(outputs.error ? points : 0),
-      steps(outputs.steps ? points : 0), phase(outputs.phase ? points : 0),
-      peak(outputs.peak ? points : 0), lowest_turn(outputs.grazes ? points : 0),
-      softest_impact(outputs.grazes ? points : 0), last_impact(outputs.grazes ? points : 0),
-      friction(outputs.contact ? points : 0), normal(outputs.contact ? points : 0)
-{}
-
-OutcomePointers Outcomes::pointers()
-{
-    return {tilt.data(),           rate.data(),        side.data(),     flags.data(),
-            region.data(),         margin.data(),      impacts.data(),  error.data(),
-            steps.data(),          phase.data(),       peak.data(),     lowest_turn.data(),
-            softest_impact.data(), last_impact.data(), friction.data(), normal.data()};
-}
-
-void Outcomes::set_free_fall(int point)
-{
-    put(flags, point, outcome_flag::free_fall);
-    put(region, point, std::uint8_t(Region::undecided));
-    put(margin, point, unknown);
-    put(error, point, infinity);
-}
-
-std::uint16_t Outcomes::stored_impacts(std::size_t point, bool recorded) const
-{
-    return !recorded && (flags[point] & outcome_flag::rested)
-               ? impact_count::bounce_series
-               : std::uint16_t(std::min(impacts[point], double(impact_count::largest)));
-}
 
 ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
                            const std::vector<Point>& points)
@@ -134,14 +111,6 @@ PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
     if (scene.is_recorded()) {
         records_ = records_of(scene_, points_);
     }
-}
-
-PointRun PointRun::with_points(std::vector<Point> points) const
-{
-    PointRun run = *this;
-    run.points_ = std::move(points);
-    run.pulses_ = ScaledPulses(pulse_, scene_.theory, run.points_);
-    return run;
 }
 
 std::vector<int> PointRun::all() const
@@ -195,15 +164,14 @@ void PointRun::throw_if_dropped() const
 void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
                    UncertainImpact uncertain_impact) const
 {
-    run_to({integrator_of(scene_, numerics), numerics.tolerance, uncertain_impact}, outcomes,
-           chosen);
+    run_by(integrator_of(scene_, numerics), numerics.tolerance, outcomes, chosen, uncertain_impact);
 }
 
 void PointRun::run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const
 {
     if (scene_.is_recorded()) {
-        run_to({Integrator::recorded_31, MoreDigits<Digits31>::tolerance, UncertainImpact::go_on},
-               outcomes, chosen);
+        run_by(Integrator::recorded_31, MoreDigits<Digits31>::tolerance, outcomes, chosen,
+               UncertainImpact::go_on);
         return;
     }
     for (const int point : chosen) {
@@ -211,8 +179,8 @@ void PointRun::run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chos
     }
 }
 
-void PointRun::run_to(const Accuracy& accuracy, Outcomes& outcomes,
-                      const std::vector<int>& chosen) const
+void PointRun::run_by(Integrator integrator, double tolerance, Outcomes& outcomes,
+                      const std::vector<int>& chosen, UncertainImpact uncertain_impact) const
 {
     const auto is_dropped = [](const void* requested) {
         const auto& drop_requested = *static_cast<const DropRequested*>(requested);
@@ -225,18 +193,18 @@ void PointRun::run_to(const Accuracy& accuracy, Outcomes& outcomes,
                               .are_symmetric = are_symmetric_,
                               .pulse_of_point = pulses_.of_point.data(),
                               .pulses = pulses_.pulses.data(),
-                              .tolerance = accuracy.tolerance,
+                              .tolerance = tolerance,
                               .outputs = outcomes.outputs,
-                              .uncertain_impact = accuracy.uncertain_impact,
+                              .uncertain_impact = uncertain_impact,
                               .chosen = points.data(),
                               .chosen_count = int(points.size()),
                               .drop_requested = is_dropped,
-                              .context = &drop_requested_};
+                              .context = &drop_requested_,
+                              .outcomes = outcomes.of_points.get()};
         const Directions directions = record != nullptr && !record->upwards().empty()
                                           ? Directions::both
                                           : Directions::horizontal;
-        sweep_kernel(kernel_, accuracy.integrator, scene_.theory, outcomes.outputs,
-                     directions)(task, outcomes.pointers());
+        sweep_kernel(kernel_, integrator, scene_.theory, outcomes.outputs, directions)(task);
         throw_if_dropped(); // if dropped, some outcomes may be missing
     };
     if (!scene_.is_recorded()) {
@@ -246,7 +214,7 @@ void PointRun::run_to(const Accuracy& accuracy, Outcomes& outcomes,
     std::map<const Accelerogram*, std::vector<int>> points_of;
     for (const int point : chosen) {
         if (falls_freely(point)) {
-            outcomes.set_free_fall(point);
+            outcomes[point] = free_fall;
         } else {
             points_of[record_of(point)].push_back(point);
         }
@@ -261,7 +229,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
 {
     throw_if_dropped();
     if (falls_freely(point)) {
-        outcomes.set_free_fall(point);
+        outcomes[point] = free_fall;
         return;
     }
     with_theory(scene_.theory, [&]<Theory theory>() {
@@ -276,23 +244,24 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
         const bool in_doubt = !(error < std::abs(margin));
-        put(outcomes.flags, point,
-            std::uint8_t((end.fell ? outcome_flag::fell : 0) |
-                         (end.rested ? outcome_flag::rested : 0) |
-                         (end.capped ? outcome_flag::capped : 0) |
-                         (end.not_finite ? outcome_flag::not_finite : 0) |
-                         (in_doubt ? outcome_flag::in_doubt : 0)));
-        put(outcomes.tilt, point, double(end.state.tilt));
-        put(outcomes.rate, point, double(end.state.rate));
-        put(outcomes.side, point, double(end.state.side));
-        put(outcomes.margin, point, margin);
-        put(outcomes.error, point, error);
-        put(outcomes.impacts, point, double(end.impacts));
-        put(outcomes.steps, point, double(end.steps));
-        put(outcomes.phase, point, double(end.phase));
-        put(outcomes.region, point, std::uint8_t(region_of<theory>(end, block)));
+        const auto flag = [](bool holds, std::uint8_t bit) { return holds ? bit : 0; };
+        const int flags =
+            flag(end.fell, outcome_flag::fell) | flag(end.rested, outcome_flag::rested) |
+            flag(end.capped, outcome_flag::capped) |
+            flag(end.not_finite, outcome_flag::not_finite) | flag(in_doubt, outcome_flag::in_doubt);
+        Outcome& outcome = outcomes[point];
+        outcome.tilt = double(end.state.tilt);
+        outcome.rate = double(end.state.rate);
+        outcome.side = double(end.state.side);
+        outcome.flags = std::uint8_t(flags);
+        outcome.region = region_of<theory>(end, block);
+        outcome.margin = margin;
+        outcome.error = error;
+        outcome.impacts = double(end.impacts);
+        outcome.steps = double(end.steps);
+        outcome.phase = double(end.phase);
         if (scene_.is_recorded()) {
-            put(outcomes.peak, point, double(end.peak));
+            outcome.peak = double(end.peak);
         }
     });
 }
@@ -330,10 +299,9 @@ MarginAndError margin_of_low_bounces(const Block<double>& block, const LowBounce
 
 } // namespace
 
-bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
+bool PointRun::settle_low_bounces(int point, Outcome& outcome) const
 {
-    const auto i = std::size_t(point);
-    const Block<double>& block = points_[i].block;
+    const Block<double>& block = this->point(point).block;
     // The margin is that of a block at rest, up to this error.
     const auto [margin, error] = with_theory(scene_.theory, [&]<Theory theory>() {
         const auto bounds = with_excitation<double, theory>(point, [&](const auto& excitation) {
@@ -344,100 +312,87 @@ bool PointRun::settle_low_bounces(int point, Outcomes& outcomes) const
     if (!(error < margin)) {
         return false;
     }
-    if (outcomes.flags[i] & outcome_flag::capped) {
-        outcomes.flags[i] = 0;
-        outcomes.tilt[i] = 0;
-        outcomes.rate[i] = 0;
+    if (outcome.has(outcome_flag::capped)) {
+        outcome.flags = 0;
+        outcome.tilt = 0;
+        outcome.rate = 0;
     }
-    outcomes.error[i] = error;
-    put(outcomes.region, point, std::uint8_t(Region::S));
-    if (!(outcomes.flags[i] & outcome_flag::without_end)) {
-        put(outcomes.margin, point, margin);
+    outcome.error = error;
+    outcome.region = Region::S;
+    if (!outcome.has(outcome_flag::without_end)) {
+        outcome.margin = margin;
     }
     return true;
 }
 
-template <class OfPoint>
-std::vector<double> PointRun::after_the_pulse(const Outcomes& outcomes,
-                                              const OfPoint& of_point) const
+double PointRun::velocity(int point, const Outcome& outcome) const
 {
-    std::vector<double> values(outcomes.tilt.size(), unknown);
-    with_theory(scene_.theory, [&]<Theory theory>() {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            if (Region(outcomes.region[i]) != Region::undecided) {
-                const State<double> end{outcomes.tilt[i], outcomes.rate[i], outcomes.side[i]};
-                values[i] = of_point.template operator()<theory>(i, end, block_at_end(i, outcomes));
-            }
-        }
+    const Block<double>& block = this->point(point).block;
+    const double rate = block.is_symmetric()
+                            ? outcome.rate
+                            : outcome.rate * (block_at_end(point, outcome).pace / block.pace);
+    return outcome.with_sign(rate);
+}
+
+double PointRun::peak(int point, const Outcome& outcome) const
+{
+    if (!is_safe(outcome.region)) {
+        return is_unsafe(outcome.region) ? infinity : unknown;
+    }
+    return with_theory(scene_.theory, [&]<Theory theory>() {
+        return std::max(outcome.peak / this->point(point).block.slenderness,
+                        largest_free_tilt<theory>(outcome.end(), block_at_end(point, outcome)));
     });
-    return values;
 }
 
-std::vector<double> PointRun::peaks(const Outcomes& outcomes) const
+double PointRun::fall_time(int point, const Outcome& outcome) const
 {
-    const auto peak = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
-        return is_unsafe(Region(outcomes.region[i]))
-                   ? infinity
-                   : std::max(outcomes.peak[i] / points_[i].block.slenderness,
-                              largest_free_tilt<theory>(end, block));
-    };
-    return after_the_pulse(outcomes, peak);
-}
-
-std::vector<ContactDemand<double>>
-PointRun::contact_demands(const Numerics& numerics, const std::vector<std::uint8_t>& regions) const
-{
-    const bool is_recorded = scene_.is_recorded();
-    Outcomes watched(points_.size(), {.error = is_recorded,
-                                      .peak = true,
-                                      .region = true,
-                                      .margin = is_recorded,
-                                      .contact = true});
-    run(numerics.resolve ? most_accurate : numerics, watched, all());
-    if (is_recorded && numerics.resolve) {
-        std::vector<int> in_doubt;
-        for (const int point : all()) {
-            if ((watched.flags[std::size_t(point)] & outcome_flag::in_doubt) != 0) {
-                in_doubt.push_back(point);
-            }
-        }
-        run_in_31_digits(watched, in_doubt);
+    if (!is_unsafe(outcome.region)) {
+        return is_safe(outcome.region) ? infinity : unknown;
     }
-    std::vector<ContactDemand<double>> demands(points_.size(), {unknown, unknown});
-    for (std::size_t i = 0; i < demands.size(); ++i) {
-        // The motion may be so sensitive that this run has another end than the one of the verdict.
-        if (watched.region[i] != regions[i] || Region(regions[i]) == Region::undecided) {
-            continue;
-        }
-        demands[i] = {watched.friction[i], watched.normal[i]};
-        if (!(watched.flags[i] & outcome_flag::fell)) {
-            const ContactSides<double> sides(points_[i].block, points_[i].gyration);
-            const State<double> end{watched.tilt[i], watched.rate[i], watched.side[i]};
-            ContactDemand<double> later = free_contact(end, block_at_end(i, watched), sides);
-            later.normal /= sides.plus.cosine;
-            demands[i].include(later, true);
-        }
-    }
-    return demands;
-}
-
-std::vector<double> PointRun::fall_times(const Outcomes& outcomes) const
-{
-    const auto fall_time = [&]<Theory theory>(std::size_t i, const auto& end, const auto& block) {
-        if (is_safe(Region(outcomes.region[i]))) {
-            return infinity;
-        }
+    return with_theory(scene_.theory, [&]<Theory theory>() {
         const double first_uplift =
-            with_excitation<double, theory>(int(i), [](const auto& excitation) {
+            with_excitation<double, theory>(point, [](const auto& excitation) {
                 return excitation.next_uplift(true, excitation.motion.begin, -infinity);
             });
-        const double forced = (outcomes.phase[i] - first_uplift) / points_[i].frequency;
-        const double time = outcomes.flags[i] & outcome_flag::fell
-                                ? forced
-                                : forced + time_to_lie_flat<theory>(end, block);
-        return time * points_[i].block.pace;
-    };
-    return after_the_pulse(outcomes, fall_time);
+        const Point& at = this->point(point);
+        const double forced = (outcome.phase - first_uplift) / at.frequency;
+        const double time =
+            outcome.has(outcome_flag::fell)
+                ? forced
+                : forced + time_to_lie_flat<theory>(outcome.end(), block_at_end(point, outcome));
+        return time * at.block.pace;
+    });
+}
+
+void PointRun::add_contact(const Numerics& numerics, Outcomes& outcomes) const
+{
+    const bool is_recorded = scene_.is_recorded();
+    Outcomes watched(size(), {.error = is_recorded,
+                              .peak = true,
+                              .region = true,
+                              .margin = is_recorded,
+                              .contact = true});
+    run(numerics.resolve ? most_accurate : numerics, watched, all());
+    if (is_recorded && numerics.resolve) {
+        std::vector<int> in_doubt = all();
+        std::erase_if(in_doubt, [&](int i) { return !watched[i].has(outcome_flag::in_doubt); });
+        run_in_31_digits(watched, in_doubt);
+    }
+    for (int i = 0; i < size(); ++i) {
+        const Outcome& seen = watched[i];
+        // The motion may be so sensitive that this run has another end than the one of the verdict.
+        const bool is_known = seen.region == outcomes[i].region && seen.region != Region::undecided;
+        ContactDemand<double> demand{seen.friction, seen.normal};
+        if (is_known && !seen.has(outcome_flag::fell)) {
+            const ContactSides<double> sides(point(i).block, point(i).gyration);
+            ContactDemand<double> later = free_contact(seen.end(), block_at_end(i, seen), sides);
+            later.normal /= sides.plus.cosine;
+            demand.include(later, true);
+        }
+        outcomes[i].friction = is_known ? demand.friction : unknown;
+        outcomes[i].normal = is_known ? demand.normal : unknown;
+    }
 }
 
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
@@ -446,14 +401,15 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     Outputs computed = outputs;
     computed.error = outputs.error || numerics.resolve;
     computed.margin = outputs.margin || numerics.resolve;
-    computed.steps = outputs.steps || numerics.resolve; // see may_settle_in()
+    computed.steps = outputs.steps || numerics.resolve; // see is_short()
     computed.peak = outputs.peak && (points.scene().is_recorded() || !computed.error);
-    computed.contact = false; // see contact_demands()
+    computed.region = outputs.region || outputs.contact;
+    computed.contact = false; // by a run of its own
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;
     const Numerics& first_pass = numerics.resolve && stores_peaks ? most_accurate : numerics;
-    Outcomes outcomes(std::size_t(points.size()), computed);
+    Outcomes outcomes(points.size(), computed);
     points.run(first_pass, outcomes, points.all(),
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
@@ -461,12 +417,21 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     }
     if (outputs.peak && !computed.peak) {
         // Under a pulse, a kernel computes either errors or peaks.
-        Outcomes with_peaks(outcomes.tilt.size(), {.peak = true, .grazes = outputs.grazes});
+        Outcomes with_peaks(points.size(), {.peak = true, .grazes = outputs.grazes});
         points.run(first_pass, with_peaks, points.all());
-        outcomes.peak = std::move(with_peaks.peak);
-        outcomes.lowest_turn = std::move(with_peaks.lowest_turn);
-        outcomes.softest_impact = std::move(with_peaks.softest_impact);
-        outcomes.last_impact = std::move(with_peaks.last_impact);
+        for (int i = 0; i < points.size(); ++i) {
+            const Outcome& seen = with_peaks[i];
+            outcomes[i].peak = seen.peak;
+            if (outputs.grazes) {
+                outcomes[i].lowest_turn = seen.lowest_turn;
+                outcomes[i].softest_impact = seen.softest_impact;
+                outcomes[i].last_impact = seen.last_impact;
+            }
+        }
+    }
+    if (outputs.contact) {
+        points.add_contact(numerics, outcomes);
+        outcomes.outputs.contact = true;
     }
     return outcomes;
 }

@@ -9,41 +9,27 @@
 #include "overturn/problem/tile.hpp"
 
 #include <limits>
-#include <type_traits>
+#include <memory>
 #include <vector>
 
 namespace overturn {
 
-/// The arrays that OutcomePointers points to; those that are not requested are empty.
+/// The outcomes of points, in their order.
 struct Outcomes {
-    Outcomes(std::size_t points, const Outputs& wanted);
+    Outcomes(int points, const Outputs& wanted)
+        : outputs(wanted), count(points),
+          of_points(std::make_unique_for_overwrite<Outcome[]>(std::size_t(points)))
+    {}
 
-    OutcomePointers pointers();
-    int size() const { return int(tilt.size()); }
+    int size() const { return count; }
+    Outcome& operator[](std::size_t point) { return of_points[point]; }
+    const Outcome& operator[](std::size_t point) const { return of_points[point]; }
 
-    /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
-    /// which a block may be lifted again after a bounce series.
-    std::uint16_t stored_impacts(std::size_t point, bool recorded) const;
-
-    /// The outcome of a point that cannot be integrated because gravity vanishes.
-    void set_free_fall(int point);
-
-    Outputs outputs;
-    int in_50_digits = 0; ///< the number of points that were computed in 50 digits
-    std::vector<double> tilt, rate, side;
-    std::vector<std::uint8_t> flags, region;
-    std::vector<double> margin, impacts, error, steps, phase, peak, lowest_turn, softest_impact,
-        last_impact, friction, normal;
+    Outputs outputs; ///< the values of an outcome that are set
+    int count;
+    std::unique_ptr<Outcome[]> of_points; ///< not initialised, which would take 3 % of a run
+    int in_50_digits = 0;                 ///< the number of points that were computed in 50 digits
 };
-
-/// Sets the value of a point in an array of outcomes, unless it is no output.
-template <class Value>
-void put(std::vector<Value>& values, int point, std::type_identity_t<Value> value)
-{
-    if (!values.empty()) {
-        values[std::size_t(point)] = value;
-    }
-}
 
 /// The scaled pulses of points, in their order; successive points with the same one share it.
 struct ScaledPulses {
@@ -67,11 +53,7 @@ public:
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr, bool are_symmetric = false);
 
-    /// The same scene and kernel with other points; only under a pulse.
-    PointRun with_points(std::vector<Point> points) const;
-
     const Scene& scene() const { return scene_; }
-    bool are_symmetric() const { return are_symmetric_; }
     int size() const { return int(points_.size()); }
     const Point& point(int i) const { return points_[std::size_t(i)]; }
 
@@ -88,9 +70,9 @@ public:
     }
 
     /// The block of a point as seen from the side on which it ended.
-    Block<double> block_at_end(std::size_t point, const Outcomes& outcomes) const
+    Block<double> block_at_end(int point, const Outcome& outcome) const
     {
-        return seen_from(outcomes.side[point], points_[point].block);
+        return seen_from(outcome.side, this->point(point).block);
     }
 
     /// The scaled pulse of a point.
@@ -112,29 +94,27 @@ public:
 
     /// Settles a point whose bounces are provably low, by bound_of_low_bounces(): it is safe, and
     /// the bound is the error of its margin. If the point is capped, its end is set to rest.
-    bool settle_low_bounces(int point, Outcomes& outcomes) const;
+    bool settle_low_bounces(int point, Outcome& outcome) const;
+
+    /// d theta / d(p t) at the end, with the p of the side plus [rad].
+    double velocity(int point, const Outcome& outcome) const;
 
     /// The largest |theta| / alpha (infinite if the block overturns), and the time from the first
     /// uplift to |theta| = pi/2 [1/p] (infinite if it does not), both during the pulse and after
-    /// it. Require outcomes with regions, and with peaks or phases.
-    std::vector<double> peaks(const Outcomes& outcomes) const;
-    std::vector<double> fall_times(const Outcomes& outcomes) const;
+    /// it; NaN without a verdict. Require the region, and the peak or the phase.
+    double peak(int point, const Outcome& outcome) const;
+    double fall_time(int point, const Outcome& outcome) const;
 
-    /// What the contact must bear during the ground motion and after it, by a run of its own; the
-    /// normal force over that at rest. NaN for points without a verdict, and where this run has
-    /// another region than these. Only in the nonlinear theory.
-    std::vector<ContactDemand<double>>
-    contact_demands(const Numerics& numerics, const std::vector<std::uint8_t>& regions) const;
+    /// Sets what the contact must bear during the ground motion and after it, by a run of its own;
+    /// the normal force over that at rest. NaN for points without a verdict, and where this run has
+    /// another region than these outcomes. Only in the nonlinear theory.
+    void add_contact(const Numerics& numerics, Outcomes& outcomes) const;
 
 private:
     void throw_if_dropped() const;
 
-    struct Accuracy {
-        Integrator integrator;
-        double tolerance;
-        UncertainImpact uncertain_impact;
-    };
-    void run_to(const Accuracy& accuracy, Outcomes& outcomes, const std::vector<int>& chosen) const;
+    void run_by(Integrator integrator, double tolerance, Outcomes& outcomes,
+                const std::vector<int>& chosen, UncertainImpact uncertain_impact) const;
 
     /// Whether gravity vanishes or is reversed at some time of the record.
     bool falls_freely(int point) const;
@@ -142,11 +122,6 @@ private:
     /// Calls visit(excitation) for one point, in numbers of type T.
     template <class T, Theory theory, class Visitor>
     auto with_excitation(int point, const Visitor& visit) const;
-
-    /// The values of of_point.operator()<theory>(point, end, block), end: its state at the end of
-    /// the forced stage, for the points with a verdict; NaN for the others.
-    template <class OfPoint>
-    std::vector<double> after_the_pulse(const Outcomes& outcomes, const OfPoint& of_point) const;
 
     Scene scene_;
     PulseMotion<double> pulse_; // not used under records

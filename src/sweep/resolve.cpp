@@ -10,10 +10,10 @@ namespace overturn {
 
 namespace {
 
-void give_up(int point, Outcomes& outcomes)
+void give_up(Outcome& outcome)
 {
-    outcomes.flags[std::size_t(point)] |= outcome_flag::unresolved;
-    put(outcomes.region, point, std::uint8_t(Region::undecided));
+    outcome.flags |= outcome_flag::unresolved;
+    outcome.region = Region::undecided;
 }
 
 /// The bounds of errors are of first order: at a loose tolerance, the error of one point in a
@@ -28,14 +28,13 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
 {
     std::vector<int> in_doubt;
     for (const int point : points) {
-        const std::uint8_t flags = outcomes.flags[std::size_t(point)];
-        if (flags & outcome_flag::capped) {
-            if (!run.settle_low_bounces(point, outcomes)) {
-                give_up(point, outcomes);
+        Outcome& outcome = outcomes[point];
+        if (outcome.has(outcome_flag::capped)) {
+            if (!run.settle_low_bounces(point, outcome)) {
+                give_up(outcome);
             }
-        } else if (!(flags & outcome_flag::free_fall) &&
-                   !(safety * outcomes.error[std::size_t(point)] <
-                     std::abs(outcomes.margin[std::size_t(point)]))) {
+        } else if (!outcome.has(outcome_flag::free_fall) &&
+                   !(safety * outcome.error < std::abs(outcome.margin))) {
             in_doubt.push_back(point);
         }
     }
@@ -47,13 +46,12 @@ bool is_short(const PointRun& run, int point, int most_steps, const Outcomes& ou
 {
     const Accelerogram* record = run.record_of(point);
     const double intervals = record != nullptr ? double(record->samples() - 1) : 0;
-    return outcomes.steps[std::size_t(point)] <= most_steps + intervals;
+    return outcomes[point].steps <= most_steps + intervals;
 }
 
-bool is_settled(int point, const Outcomes& outcomes)
+bool is_settled(const Outcome& outcome)
 {
-    return !(outcomes.flags[std::size_t(point)] &
-             (outcome_flag::in_doubt | outcome_flag::without_end));
+    return !outcome.has(outcome_flag::in_doubt | outcome_flag::without_end);
 }
 
 } // namespace
@@ -68,24 +66,23 @@ void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes)
     // completes the runs that were stopped.
     run.run(most_accurate, outcomes, in_doubt);
     in_doubt = settle_capped(run, in_doubt, 1, outcomes);
-    std::erase_if(in_doubt, [&](int point) { return run.settle_low_bounces(point, outcomes); });
+    std::erase_if(in_doubt,
+                  [&](int point) { return run.settle_low_bounces(point, outcomes[point]); });
     // With more digits, a series of bounces takes as many steps as in double.
     std::vector<int> chosen;
     std::ranges::copy_if(in_doubt, std::back_inserter(chosen), [&](int point) {
         return is_short(run, point, MoreDigits<Digits31>::most_steps, outcomes);
     });
     run.run_in_31_digits(outcomes, chosen);
-    std::erase_if(in_doubt, [&](int point) { return is_settled(point, outcomes); });
+    std::erase_if(in_doubt, [&](int point) { return is_settled(outcomes[point]); });
     for (const int point : in_doubt) {
-        bool settled = false;
         if (outcomes.in_50_digits < most_in_50_digits &&
             is_short(run, point, MoreDigits<Digits50>::most_steps, outcomes)) {
             ++outcomes.in_50_digits;
             run.run_in_more_digits<Digits50>(point, outcomes);
-            settled = is_settled(point, outcomes);
         }
-        if (!settled) {
-            give_up(point, outcomes);
+        if (!is_settled(outcomes[point])) {
+            give_up(outcomes[point]);
         }
     }
 }

@@ -30,46 +30,29 @@ T flagged(const mask_t<T>& mask, std::uint8_t flag)
     return select<T>(mask, T(double(flag)), T(0.0));
 }
 
-/// put(number, array) stores the lanes.
-template <Theory theory>
-void store_peaks(const auto& stage, const ForcedEnd<T>& end, const Outputs& wanted,
-                 const OutcomePointers& to, const auto& put)
-{
-    if (wanted.peak) {
-        put(end.peak, to.peak);
-    }
-    if (wanted.grazes) {
-        put(end.lowest_turn, to.lowest_turn);
-        put(end.softest_impact, to.softest_impact);
-        put(end.last_impact, to.last_impact);
-    }
-    if constexpr (theory == Theory::nonlinear) {
-        if (wanted.contact) {
-            const auto demand = stage.contact_demand();
-            put(demand.friction, to.friction);
-            put(demand.normal, to.normal);
-        }
-    }
-}
-
 /// Stores the lanes of one pack, except those without a point. outputs: chosen at compile time, see
 /// Outputs; task.outputs: at run time.
 template <Theory theory, Outputs outputs>
-[[gnu::noinline]] void store(const auto& stage, const KernelTask& task, int first,
-                             const OutcomePointers& to)
+[[gnu::noinline]] void store(const auto& stage, const KernelTask& task, int first)
 {
     const ForcedEnd<T> end = stage.end();
     const Block<T>& block = stage.block();
     const int count = task.chosen_count - first < lanes ? task.chosen_count - first : lanes;
-    const auto put = [&](const auto& number, auto* array) {
+    const auto put = [&]<class Value>(const auto& number, Value Outcome::*member) {
         const auto values = lanes_of(number);
         for (int i = 0; i < count; ++i) {
-            array[task.chosen[first + i]] = std::remove_pointer_t<decltype(array)>(values[i]);
+            task.outcomes[task.chosen[first + i]].*member = Value(double(values[i]));
         }
     };
-    put(end.state.tilt, to.tilt);
-    put(end.state.rate, to.rate);
-    put(end.state.side, to.side);
+    const auto put_if = [&](bool is_wanted, const T& number, double Outcome::*member) {
+        if (is_wanted) {
+            put(number, member);
+        }
+    };
+    const Outputs& wanted = task.outputs;
+    put(end.state.tilt, &Outcome::tilt);
+    put(end.state.rate, &Outcome::rate);
+    put(end.state.side, &Outcome::side);
     T flags = flagged(end.fell, outcome_flag::fell) + flagged(end.rested, outcome_flag::rested) +
               flagged(end.capped, outcome_flag::capped) +
               flagged(end.not_finite, outcome_flag::not_finite);
@@ -80,29 +63,33 @@ template <Theory theory, Outputs outputs>
         const T error = select<T>(end.error < T(std::numeric_limits<double>::infinity()),
                                   end.error + margin * T(0x1p-53), end.error);
         flags = flags + flagged(!(error < margin), outcome_flag::in_doubt);
-        put(error, to.error);
+        put(error, &Outcome::error);
     } else if constexpr (outputs.error) {
         flags = flags + flagged(end.in_doubt, outcome_flag::in_doubt);
-        put(end.error, to.error);
+        put(end.error, &Outcome::error);
     }
-    put(flags, to.flags);
+    put(flags, &Outcome::flags);
+    put_if(wanted.impacts, end.impacts, &Outcome::impacts);
+    put_if(wanted.steps, end.steps, &Outcome::steps);
+    put_if(wanted.phase, end.phase, &Outcome::phase);
     if constexpr (outputs.peak) {
-        store_peaks<theory>(stage, end, task.outputs, to, put);
+        put_if(wanted.peak, end.peak, &Outcome::peak);
+        put_if(wanted.grazes, end.lowest_turn, &Outcome::lowest_turn);
+        put_if(wanted.grazes, end.softest_impact, &Outcome::softest_impact);
+        put_if(wanted.grazes, end.last_impact, &Outcome::last_impact);
     }
-    if (task.outputs.impacts) {
-        put(end.impacts, to.impacts);
+    if constexpr (outputs.peak && theory == Theory::nonlinear) {
+        if (wanted.contact) {
+            const auto demand = stage.contact_demand();
+            put(demand.friction, &Outcome::friction);
+            put(demand.normal, &Outcome::normal);
+        }
     }
-    if (task.outputs.region) {
-        put(region_code_of<theory>(end, block), to.region);
+    if (wanted.region) {
+        put(region_code_of<theory>(end, block), &Outcome::region);
     }
-    if (task.outputs.margin) {
-        put(margin_of<theory>(end, block), to.margin);
-    }
-    if (task.outputs.steps) {
-        put(end.steps, to.steps);
-    }
-    if (task.outputs.phase) {
-        put(end.phase, to.phase);
+    if (wanted.margin) {
+        put(margin_of<theory>(end, block), &Outcome::margin);
     }
 }
 
@@ -218,7 +205,7 @@ std::optional<ContactSides<estimate_t<T>>> contact_of([[maybe_unused]] const Pac
 constexpr int turns_between_checks = 4096;
 
 template <Theory theory, Outputs outputs, Directions directions = Directions::horizontal>
-void sweep(const KernelTask& task, const OutcomePointers& outcomes)
+void sweep(const KernelTask& task)
 {
     if (task.chosen_count == 0) {
         return;
@@ -257,7 +244,7 @@ void sweep(const KernelTask& task, const OutcomePointers& outcomes)
         with_points = 0;
         for (Pack& pack : packs) {
             while (!pack.stage->is_active() && pack.first < task.chosen_count) {
-                store<theory, outputs>(*pack.stage, task, pack.first, outcomes);
+                store<theory, outputs>(*pack.stage, task, pack.first);
                 fill(pack);
             }
             with_points += pack.stage->is_active();

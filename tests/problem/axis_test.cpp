@@ -36,6 +36,14 @@ TEST(Axis, OfAListGivesItsValues)
     EXPECT_EQ(axis.values(1, 3), (std::vector<double>{0.7, 2}));
 }
 
+TEST(Axis, IsThinnedToEvenlyChosenValues)
+{
+    const Axis axis(AxisRange{0, 8, 9, Spacing::linear});
+    EXPECT_EQ(axis.thinned(3).values(), (std::vector<double>{0, 4, 8}));
+    EXPECT_EQ(axis.thinned(1).values(), (std::vector<double>{4}));
+    EXPECT_EQ(axis.thinned(9).values(), axis.values());
+}
+
 TEST(Axis, CountsBeyondThirtyTwoBits)
 {
     const Axis axis(AxisRange{0, 1, std::int64_t(1) << 40, Spacing::linear});

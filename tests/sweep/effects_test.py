@@ -27,11 +27,10 @@ SIDE = 40  # one-time costs, such as those of the heap, are small beside those o
 # which the benchmark program uses when it calls the kernel directly.
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
 # Per point: the heap also holds the few numbers of a row, and lists of fields.
-BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1,
-                    "error": 8, "impacts": 8 + 2, "steps": 8 + 4,  # as computed and as stored
-                    "peak": 8 + 8, "fall_time": 8 + 8}
-# A run of its own: end states, flags and regions, peaks, points, demands as computed and completed, and the field.
-BYTES_OF_A_POINT["friction"] = BYTES_OF_A_POINT["normal"] = 3 * 8 + 2 + 8 + 4 + 2 * (8 + 8) + 8
+BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1, "error": 8, "impacts": 2,
+                    "steps": 4, "peak": 8, "fall_time": 8}
+# A run of its own: its outcomes, the list of its points, and the field.
+BYTES_OF_A_POINT["friction"] = BYTES_OF_A_POINT["normal"] = 15 * 8 + 4 + 8
 BYTES_BESIDE = 0.25
 # Friction and normal force have a run of their own. Impacts, errors and peaks have kernels of their
 # own. The compiler may make the one that counts impacts cheaper than the one without: it has no cost
@@ -98,7 +97,7 @@ class TheMinimalScene(unittest.TestCase):
         self.assertLess(overhead((), "nothing"), 0.5 * cheapest)
         self.assertLess(overhead(("region",), "region"), 0.5 * cheapest)
 
-    def test_allocates_only_end_states_and_regions(self):
+    def test_allocates_only_outcomes_and_regions(self):
         self.assertLess(difference(sweep(), by_hand("nothing"), "bytes"), BYTES_BESIDE)
         self.assertAlmostEqual(difference(heap("region"), heap(), "bytes"), 1, delta=BYTES_BESIDE)
 

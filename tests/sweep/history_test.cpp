@@ -57,7 +57,7 @@ TEST(History, ThatDoublesCannotFollowHasTheSettledRegionAndUnknownTimes)
         scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
         const auto region_at = [&](double scale, const Numerics& numerics) {
             const PointRun run(scene, {{drawn.block, scale, drawn.frequency}}, widest_kernel());
-            return Region(outcomes_of(run, numerics, {.region = true}).region[0]);
+            return outcomes_of(run, numerics, {.region = true})[0].region;
         };
         const Numerics doubles{Method::taylor, 1e-12};
         double safe = 0;
@@ -95,9 +95,7 @@ TEST(History, ThatDoublesCanFollowHasTheRegionOfTheSpectrum)
         const PointRun run(scene, {point}, widest_kernel());
         const History history = history_of(scene, point);
         EXPECT_TRUE(history.is_curve_certain) << i;
-        EXPECT_EQ(history.region,
-                  Region(outcomes_of(run, most_accurate, {.region = true}).region[0]))
-            << i;
+        EXPECT_EQ(history.region, outcomes_of(run, most_accurate, {.region = true})[0].region) << i;
     }
 }
 
@@ -160,8 +158,8 @@ TEST(History, HasTheFrictionOfTheSpectrum)
         point.gyration = 0.4 + 0.4 * uniform(generator);
         const PointRun run(scene, {point}, widest_kernel());
         const Numerics numerics{Method::taylor, 1e-11};
-        const Outcomes outcomes = outcomes_of(run, numerics, {.region = true});
-        const double found = run.contact_demands(numerics, outcomes.region).front().friction;
+        const Outcome outcome = outcomes_of(run, numerics, {.region = true, .contact = true})[0];
+        const double found = outcome.friction;
         const History history = history_of(scene, point, {.samples = 3000});
         // A record has kinks, so that peaks are narrow.
         const History forced =
@@ -169,7 +167,7 @@ TEST(History, HasTheFrictionOfTheSpectrum)
         const double seen =
             std::max(largest_friction(history, point.block), largest_friction(forced, point.block));
         if (std::isfinite(found) && std::isfinite(seen) &&
-            is_unsafe(history.region) == is_unsafe(Region(outcomes.region[0]))) {
+            is_unsafe(history.region) == is_unsafe(outcome.region)) {
             ++compared;
             EXPECT_LE(seen, found * (1 + 1e-7)) << i;
             EXPECT_GE(seen, found * 0.98) << i; // samples miss narrow peaks

@@ -144,8 +144,8 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
         for (int i = 0; i < run.size(); ++i) {
             const std::uint8_t flags =
                 i < most ? 0 : outcome_flag::unresolved | outcome_flag::in_doubt;
-            EXPECT_EQ(outcomes.flags[std::size_t(i)], flags) << i;
-            EXPECT_EQ(Region(outcomes.region[std::size_t(i)]) == Region::undecided, i >= most);
+            EXPECT_EQ(outcomes[std::size_t(i)].flags, flags) << i;
+            EXPECT_EQ(outcomes[std::size_t(i)].region == Region::undecided, i >= most);
         }
     }
 }
@@ -181,17 +181,18 @@ TEST(PointsIn31Digits, AreTheSameOnEveryKernel)
             Outcomes found(21, outputs);
             PointRun(scene, points, kernel).run_in_31_digits(found, chosen);
             if (!first) {
-                first = found;
+                first = std::move(found);
+                continue;
             }
             for (const int i : chosen) {
                 const auto k = std::size_t(i);
-                EXPECT_EQ(found.tilt[k], first->tilt[k]);
-                EXPECT_EQ(found.margin[k], first->margin[k]);
-                EXPECT_EQ(found.error[k], first->error[k]);
-                EXPECT_EQ(found.peak[k], first->peak[k]);
-                EXPECT_EQ(found.steps[k], first->steps[k]);
-                EXPECT_EQ(found.region[k], first->region[k]);
-                EXPECT_EQ(found.flags[k], first->flags[k]);
+                EXPECT_EQ(found[k].tilt, (*first)[k].tilt);
+                EXPECT_EQ(found[k].margin, (*first)[k].margin);
+                EXPECT_EQ(found[k].error, (*first)[k].error);
+                EXPECT_EQ(found[k].peak, (*first)[k].peak);
+                EXPECT_EQ(found[k].steps, (*first)[k].steps);
+                EXPECT_EQ(found[k].region, (*first)[k].region);
+                EXPECT_EQ(found[k].flags, (*first)[k].flags);
             }
         }
     }
@@ -209,20 +210,20 @@ TEST(ResolvedVerdicts, UnderARecordComeWithThePeakOfTheMotionThatSettledThem)
                            widest_kernel());
         constexpr Outputs outputs{.error = true, .peak = true, .region = true, .margin = true};
         const Outcomes in_doubles = outcomes_of(run, {Method::taylor, 1e-13}, outputs);
-        if (std::isfinite(in_doubles.error[0])) {
+        if (std::isfinite(in_doubles[0].error)) {
             continue; // it is not sensitive
         }
         Outcomes exact(1, outputs);
         run.run_in_more_digits<Digits50>(0, exact);
-        if (exact.flags[0] & outcome_flag::without_end) {
+        if (exact[0].flags & outcome_flag::without_end) {
             continue; // too many steps for 50 digits
         }
         ++sensitive;
         const Outcomes resolved = outcomes_of(run, resolved_taylor, outputs);
-        EXPECT_EQ(resolved.region, exact.region);
+        EXPECT_EQ(resolved[0].region, exact[0].region);
         // The error of the peak has no bound of its own; that of the end has been amplified more.
-        EXPECT_NEAR(resolved.peak[0], exact.peak[0],
-                    1e-6 * point.block.slenderness + resolved.error[0]);
+        EXPECT_NEAR(resolved[0].peak, exact[0].peak,
+                    1e-6 * point.block.slenderness + resolved[0].error);
     }
     EXPECT_EQ(sensitive, 4);
 }
@@ -243,22 +244,22 @@ TEST(FirstPass, EndsWhereItIsUncertainAndIsUnchangedElsewhere)
     const std::vector<Point> points = points_of_block(1, {1.001, 6, 24, Spacing::log});
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-4}, {Method::taylor, 1e-4}}) {
         const PointRun run({}, points, widest_kernel());
-        Outcomes whole(std::size_t(run.size()), {.error = true, .steps = true});
-        Outcomes ended = whole;
+        Outcomes whole(run.size(), {.error = true, .steps = true});
+        Outcomes ended(run.size(), whole.outputs);
         run.run(numerics, whole, run.all());
         run.run(numerics, ended, run.all(), UncertainImpact::stop);
         double steps_of_doubtful = 0;
         double steps_until_doubt = 0;
-        for (std::size_t i = 0; i < whole.tilt.size(); ++i) {
-            EXPECT_EQ(std::isinf(whole.error[i]), std::isinf(ended.error[i]));
-            if (std::isinf(whole.error[i])) {
-                steps_of_doubtful += whole.steps[i];
-                steps_until_doubt += ended.steps[i];
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ(std::isinf(whole[i].error), std::isinf(ended[i].error));
+            if (std::isinf(whole[i].error)) {
+                steps_of_doubtful += whole[i].steps;
+                steps_until_doubt += ended[i].steps;
             } else {
-                EXPECT_EQ(whole.tilt[i], ended.tilt[i]);
-                EXPECT_EQ(whole.rate[i], ended.rate[i]);
-                EXPECT_EQ(whole.error[i], ended.error[i]);
-                EXPECT_EQ(whole.steps[i], ended.steps[i]);
+                EXPECT_EQ(whole[i].tilt, ended[i].tilt);
+                EXPECT_EQ(whole[i].rate, ended[i].rate);
+                EXPECT_EQ(whole[i].error, ended[i].error);
+                EXPECT_EQ(whole[i].steps, ended[i].steps);
             }
         }
         EXPECT_LE(steps_until_doubt, steps_of_doubtful);
@@ -277,13 +278,13 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
     for (const Numerics& numerics : {Numerics{Method::rk45, 1e-2}, {Method::taylor, 1e-2}}) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
             const PointRun run({.theory = theory}, points, widest_kernel());
-            Outcomes outcomes(std::size_t(run.size()), {.error = true, .margin = true});
+            Outcomes outcomes(run.size(), {.error = true, .margin = true});
             run.run(numerics, outcomes, run.all());
-            for (std::size_t i = 0; i < outcomes.margin.size(); ++i) {
-                const bool in_doubt = outcomes.flags[i] & outcome_flag::in_doubt;
-                EXPECT_EQ(in_doubt, !(outcomes.error[i] < std::abs(outcomes.margin[i])));
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const bool in_doubt = outcomes[i].flags & outcome_flag::in_doubt;
+                EXPECT_EQ(in_doubt, !(outcomes[i].error < std::abs(outcomes[i].margin)));
                 ++(!in_doubt                                ? sure
-                   : outcomes.flags[i] & outcome_flag::fell ? doubted_of_fallen
+                   : outcomes[i].flags & outcome_flag::fell ? doubted_of_fallen
                                                             : doubted);
             }
         }
@@ -302,13 +303,13 @@ TEST(ResolvedVerdicts, AreRightWhereTheFirstPassExceedsItsBound)
     const PointRun run(scene, {point}, widest_kernel());
     const Outputs outputs{.error = true, .region = true, .margin = true};
     const Outcomes first = outcomes_of(run, {Method::rk45, 1e-4}, outputs);
-    EXPECT_GT(first.margin[0], 2 * first.error[0]);
+    EXPECT_GT(first[0].margin, 2 * first[0].error);
     Outcomes exact(1, outputs);
     run.run_in_more_digits<Digits50>(0, exact);
-    EXPECT_LT(exact.margin[0], first.margin[0] - 10 * first.error[0]);
+    EXPECT_LT(exact[0].margin, first[0].margin - 10 * first[0].error);
     const Outcomes resolved = outcomes_of(run, resolved_rk45, outputs);
-    EXPECT_EQ(resolved.region[0], exact.region[0]);
-    EXPECT_NEAR(resolved.margin[0], exact.margin[0], resolved.error[0]);
+    EXPECT_EQ(resolved[0].region, exact[0].region);
+    EXPECT_NEAR(resolved[0].margin, exact[0].margin, resolved[0].error);
 }
 
 TEST(ResolvedVerdicts, AreNotSoughtWhereGravityVanishes)
@@ -320,10 +321,10 @@ TEST(ResolvedVerdicts, AreNotSoughtWhereGravityVanishes)
                        widest_kernel());
     const Outcomes outcomes = outcomes_of(run, {Method::taylor, 1e-4, true}, {.region = true}, 100);
     EXPECT_EQ(outcomes.in_50_digits, 0);
-    EXPECT_NE(outcomes.region[0], std::uint8_t(Region::undecided));
+    EXPECT_NE(outcomes[0].region, Region::undecided);
     for (const std::size_t i : {1, 2}) {
-        EXPECT_EQ(outcomes.region[i], std::uint8_t(Region::undecided));
-        EXPECT_EQ(outcomes.flags[i], outcome_flag::free_fall);
+        EXPECT_EQ(outcomes[i].region, Region::undecided);
+        EXPECT_EQ(outcomes[i].flags, outcome_flag::free_fall);
     }
 }
 

@@ -191,7 +191,7 @@ void expect_turned_gravity()
         const Point point{block, scale, 1 / time_step};
         const Outcomes begin = end_under(theory, record, 7, point);
         const Outcomes end = end_under(theory, record, 12, point);
-        if (!(begin.tilt[0] > 0) || ((begin.flags[0] | end.flags[0]) & outcome_flag::fell)) {
+        if (!(begin[0].tilt > 0) || ((begin[0].flags | end[0].flags) & outcome_flag::fell)) {
             continue;
         }
         const double a = scale * horizontal[6];
@@ -201,9 +201,9 @@ void expect_turned_gravity()
         Body inclined = body;
         inclined.incline -= linear ? a / down : std::atan2(a, down);
         const Block<Digits50> other = block_in<Digits50>(
-            seen_from(begin.side[0], inclined.block(block.restitution, 9.81 * gravity)));
+            seen_from(begin[0].side, inclined.block(block.restitution, 9.81 * gravity)));
         FreeRocking<theory, Digits50> rocking(
-            State<Digits50>{begin.tilt[0], begin.rate[0] / std::sqrt(gravity), begin.side[0]},
+            State<Digits50>{begin[0].tilt, begin[0].rate / std::sqrt(gravity), begin[0].side},
             other);
         const Digits50 duration = 5 / Digits50(point.frequency);
         const bool strikes = rocking.impact_time() < duration;
@@ -216,12 +216,12 @@ void expect_turned_gravity()
             continue;
         }
         const State<Digits50> state = rocking.at(duration);
-        ASSERT_EQ(end.impacts[0], begin.impacts[0] + strikes);
+        ASSERT_EQ(end[0].impacts, begin[0].impacts + strikes);
         // Roundings of the beginning, which grow e-fold in 1/p, at most e^2, and by the impact.
         const double tolerance = 1e-13 / std::min(speed, 1.0);
-        EXPECT_NEAR(end.tilt[0], double(state.tilt), tolerance);
-        EXPECT_NEAR(end.rate[0], double(state.rate) * std::sqrt(gravity), tolerance);
-        EXPECT_EQ(end.side[0], double(state.side));
+        EXPECT_NEAR(end[0].tilt, double(state.tilt), tolerance);
+        EXPECT_NEAR(end[0].rate, double(state.rate) * std::sqrt(gravity), tolerance);
+        EXPECT_EQ(end[0].side, double(state.side));
         ++(strikes ? with_impact : without);
     }
     EXPECT_GT(without, 100);
@@ -234,10 +234,10 @@ TEST(TwoSides, MoveUnderAConstantAccelerationLikeABlockOnAnotherIncline)
     expect_turned_gravity<Theory::linear>();
 }
 
-std::uint8_t mirrored_region(std::uint8_t region)
+Region mirrored(Region region)
 {
-    return region == 0 || region > 10 ? region
-                                      : std::uint8_t(region % 2 == 1 ? region + 1 : region - 1);
+    const auto code = int(region);
+    return code == 0 || code > 10 ? region : Region(code % 2 == 1 ? code + 1 : code - 1);
 }
 
 TEST(TwoSides, AreMirroredBitByBit)
@@ -251,13 +251,13 @@ TEST(TwoSides, AreMirroredBitByBit)
             };
             const Outcomes one = outcomes(points);
             const Outcomes other = outcomes(mirrored(points));
-            EXPECT_EQ(one.tilt, other.tilt);
-            EXPECT_EQ(one.rate, other.rate);
-            EXPECT_EQ(one.margin, other.margin);
-            EXPECT_EQ(one.error, other.error);
-            EXPECT_EQ(one.steps, other.steps);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                EXPECT_EQ(one.region[i], mirrored_region(other.region[i]));
+                EXPECT_EQ(one[i].tilt, other[i].tilt);
+                EXPECT_EQ(one[i].rate, other[i].rate);
+                EXPECT_EQ(one[i].margin, other[i].margin);
+                EXPECT_EQ(one[i].error, other[i].error);
+                EXPECT_EQ(one[i].steps, other[i].steps);
+                EXPECT_EQ(one[i].region, mirrored(other[i].region));
             }
         }
     }
@@ -280,14 +280,16 @@ TEST(TwoSides, HaveEqualBitsInEveryKernelAndBesideEveryNeighbour)
             const Outcomes together = outcomes(points, widest_kernel());
             if (runs_here(Kernel::one_lane)) {
                 const Outcomes one_by_one = outcomes(points, Kernel::one_lane);
-                EXPECT_EQ(together.rate, one_by_one.rate);
-                EXPECT_EQ(together.margin, one_by_one.margin);
-                EXPECT_EQ(together.error, one_by_one.error);
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    EXPECT_EQ(together[i].rate, one_by_one[i].rate);
+                    EXPECT_EQ(together[i].margin, one_by_one[i].margin);
+                    EXPECT_EQ(together[i].error, one_by_one[i].error);
+                }
             }
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const Outcomes alone = outcomes({points[i]}, widest_kernel());
-                ASSERT_EQ(alone.rate[0], together.rate[i]);
-                ASSERT_EQ(alone.error[0], together.error[i]);
+                ASSERT_EQ(alone[0].rate, together[i].rate);
+                ASSERT_EQ(alone[0].error, together[i].error);
             }
         }
     }
@@ -302,7 +304,7 @@ TEST(TwoSides, HaveErrorsWithinTheirBounds)
     for (const Scene& scene : scenes(generator)) {
         const std::vector<Point> points = random_points(scene, generator, 12);
         const PointRun run(scene, points, widest_kernel());
-        Outcomes exact(points.size(), all_outputs);
+        Outcomes exact(run.size(), all_outputs);
         for (const int point : run.all()) {
             run.run_in_more_digits<Digits50>(point, exact);
         }
@@ -310,14 +312,14 @@ TEST(TwoSides, HaveErrorsWithinTheirBounds)
             const Outcomes found = outcomes_of(run, numerics, all_outputs);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 ++all;
-                if (!std::isfinite(found.error[i]) || !(exact.error[i] < 1e-12)) {
+                if (!std::isfinite(found[i].error) || !(exact[i].error < 1e-12)) {
                     continue;
                 }
                 ++known;
                 exceeded +=
-                    std::abs(found.margin[i] - exact.margin[i]) > found.error[i] + exact.error[i];
-                if (found.error[i] < std::abs(found.margin[i])) {
-                    EXPECT_EQ(is_safe(Region(found.region[i])), is_safe(Region(exact.region[i])));
+                    std::abs(found[i].margin - exact[i].margin) > found[i].error + exact[i].error;
+                if (found[i].error < std::abs(found[i].margin)) {
+                    EXPECT_EQ(is_safe(found[i].region), is_safe(exact[i].region));
                 }
             }
         }
@@ -344,9 +346,9 @@ TEST(TwoSides, AreResolved)
     const Outcomes outcomes = outcomes_of(PointRun(one_sine, points, widest_kernel()),
                                           {Method::taylor, 1e-4, true}, {.region = true});
     for (std::size_t i = 0; i < flips.flips.size(); ++i) {
-        EXPECT_EQ(outcomes.region[3 * i], std::uint8_t(flips.flips[i].region_below));
-        EXPECT_EQ(outcomes.region[3 * i + 1], std::uint8_t(flips.flips[i].region_above));
-        EXPECT_EQ(outcomes.region[3 * i + 2], std::uint8_t(flips.flips[i].region_below));
+        EXPECT_EQ(outcomes[3 * i].region, flips.flips[i].region_below);
+        EXPECT_EQ(outcomes[3 * i + 1].region, flips.flips[i].region_above);
+        EXPECT_EQ(outcomes[3 * i + 2].region, flips.flips[i].region_below);
     }
 }
 
@@ -376,11 +378,11 @@ TEST(TwoSides, ThatAreEqualMoveLikeASymmetricBlock)
             outcomes_of(PointRun(scene, symmetric, widest_kernel()), accurate, all_outputs);
         for (std::size_t i = 0; i < general.size(); ++i) {
             // A change of the block by a few roundings has less effect than those of the steps.
-            const double allowed = 8 * (one.error[i] + other.error[i]);
-            EXPECT_LE(std::abs(one.margin[i] - other.margin[i]), allowed);
-            if (allowed < std::abs(one.margin[i])) {
-                EXPECT_EQ(one.region[i], other.region[i]);
-                EXPECT_EQ(one.impacts[i], other.impacts[i]);
+            const double allowed = 8 * (one[i].error + other[i].error);
+            EXPECT_LE(std::abs(one[i].margin - other[i].margin), allowed);
+            if (allowed < std::abs(one[i].margin)) {
+                EXPECT_EQ(one[i].region, other[i].region);
+                EXPECT_EQ(one[i].impacts, other[i].impacts);
             }
         }
     }

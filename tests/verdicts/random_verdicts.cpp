@@ -24,13 +24,6 @@ namespace {
 constexpr double most_overestimated = 30;
 constexpr double most_unresolved[] = {1e-6, 1e-3}; // with and without loss
 
-/// The reference for a grid.
-struct Truth {
-    std::vector<double> margin; ///< NaN where it is unknown
-    std::vector<double> error;  ///< of the margin
-    std::vector<bool> fell;
-};
-
 struct BoundCheck {
     Numerics numerics;
     std::int64_t points = 0;
@@ -62,19 +55,9 @@ TileFields computed(const Scene& scene, const Grid& grid, const Numerics& numeri
     return compute_tile(problem, tiling_of(problem)[0], kernel);
 }
 
-Truth truth_of(const Scene& scene, const Grid& grid, Kernel kernel)
-{
-    const Outcomes outcomes = truth_of(run_of(scene, grid, kernel));
-    Truth truth{outcomes.margin, outcomes.error, {}};
-    for (const std::uint8_t flags : outcomes.flags) {
-        truth.fell.push_back(flags & outcome_flag::fell);
-    }
-    return truth;
-}
-
 /// Prints all parameters needed to recompute a point.
 void name_point(const char* what, const Scene& scene, const Numerics& numerics, const Grid& grid,
-                int number, double found, double bound, const Truth& truth)
+                int number, double found, double bound, const Outcomes& truth)
 {
     const Point point = Coordinates(scene, grid).points()[std::size_t(number)];
     const Block<double>& block = point.block;
@@ -87,35 +70,34 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
                 numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
                 scene.shape.gamma, scene.shape.nu, block.slenderness, block.size, block.pace,
                 block.other.slenderness, block.other.size, block.other.pace, block.restitution,
-                point.frequency, point.amplitude, found, bound, truth.margin[number],
-                std::abs(found - truth.margin[number]));
+                point.frequency, point.amplitude, found, bound, truth[number].margin,
+                std::abs(found - truth[number].margin));
 }
 
-void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const Truth& truth,
+void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const Outcomes& truth,
                   Kernel kernel)
 {
     const PointRun run = run_of(scene, grid, kernel);
     const Outcomes outcomes = outcomes_of(run, check.numerics, {.error = true, .margin = true});
-    const std::vector<double>& margins = outcomes.margin;
     for (int point = 0; point < outcomes.size(); ++point) {
-        const bool known = std::isfinite(truth.margin[point]) &&
-                           std::isfinite(truth.error[point]) && std::isfinite(margins[point]);
+        const bool known = std::isfinite(truth[point].margin) &&
+                           std::isfinite(truth[point].error) &&
+                           std::isfinite(outcomes[point].margin);
         if (!known) {
             continue;
         }
         ++check.points;
-        const bool fell = outcomes.flags[point] & outcome_flag::fell;
-        const double error = fell == truth.fell[point]
-                                 ? std::abs(margins[point] - truth.margin[point])
-                                 : std::numeric_limits<double>::infinity();
-        if (!std::isfinite(outcomes.error[point])) {
+        const bool agree = !((outcomes[point].flags ^ truth[point].flags) & outcome_flag::fell);
+        const double error = agree ? std::abs(outcomes[point].margin - truth[point].margin)
+                                   : std::numeric_limits<double>::infinity();
+        if (!std::isfinite(outcomes[point].error)) {
             ++check.unbounded;
-        } else if (error > outcomes.error[point] + truth.error[point]) {
+        } else if (error > outcomes[point].error + truth[point].error) {
             ++check.exceeded;
-            name_point("bound exceeded", scene, check.numerics, grid, point, margins[point],
-                       outcomes.error[point], truth);
-        } else if (error > 2 * truth.error[point]) {
-            check.ratios.push_back(outcomes.error[point] / error);
+            name_point("bound exceeded", scene, check.numerics, grid, point, outcomes[point].margin,
+                       outcomes[point].error, truth);
+        } else if (error > 2 * truth[point].error) {
+            check.ratios.push_back(outcomes[point].error / error);
         }
     }
 }
@@ -143,7 +125,7 @@ void time(Resolving& resolving, const Scene& scene, const Grid& grid, Kernel ker
     resolving.seconds[without_loss] += seconds_of({resolving.method, loosest, true});
 }
 
-void resolve(Resolving& resolving, const Scene& scene, const Grid& grid, const Truth& truth,
+void resolve(Resolving& resolving, const Scene& scene, const Grid& grid, const Outcomes& truth,
              Kernel kernel)
 {
     const Numerics resolved{resolving.method, loosest, true};
@@ -155,12 +137,12 @@ void resolve(Resolving& resolving, const Scene& scene, const Grid& grid, const T
     for (std::size_t point = 0; point < region.size(); ++point) {
         ++resolving.points[without_loss];
         const bool decided = !(flags[point] & status::unresolved);
-        const bool known = truth.error[point] < std::abs(truth.margin[point]);
+        const bool known = truth[point].error < std::abs(truth[point].margin);
         if (!decided) {
             ++resolving.unresolved[without_loss];
             name_point("unresolved", scene, resolved, grid, int(point),
                        std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
-        } else if (known && is_safe(Region(region[point])) != (truth.margin[point] > 0)) {
+        } else if (known && is_safe(Region(region[point])) != (truth[point].margin > 0)) {
             ++resolving.wrong;
             name_point("WRONG", scene, resolved, grid, int(point),
                        std::get<std::vector<double>>(fields.values[2])[point], 0, truth);
@@ -210,7 +192,7 @@ bool study_scene(const Scene& kind, std::int64_t points, std::mt19937_64& genera
     for (std::int64_t done = 0; done < points;) {
         const auto [scene, block, beside_boundary] = grids.next();
         const Grid grid = block.grid();
-        const Truth truth = truth_of(scene, grid, kernel);
+        const Outcomes truth = truth_of(run_of(scene, grid, kernel));
         for (Resolving& resolving : resolvings) {
             resolve(resolving, scene, grid, truth, kernel);
             if (!beside_boundary) {

@@ -71,7 +71,7 @@ private:
         const auto is_safe_at = [&](const Point& point) {
             const PointRun single(run.scene(), {point}, widest_kernel());
             return is_safe(
-                Region(outcomes_of(single, {Method::taylor, 1e-10}, {.region = true}).region[0]));
+                outcomes_of(single, {Method::taylor, 1e-10}, {.region = true})[0].region);
         };
         Point low = points.front();
         Point high = points.back();
@@ -104,7 +104,7 @@ void name_point(const char* what, const PointRun& run, int i, double found, cons
         what, std::string(name_of(run.scene().theory)).c_str(),
         static_cast<long long>(run.scene().records[0]->samples()), point.block.slenderness,
         point.block.other.slenderness, point.block.restitution, point.frequency, point.amplitude,
-        found, truth.margin[i], truth.error[i]);
+        found, truth[i].margin, truth[i].error);
 }
 
 void check_verdicts(const PointRun& run, const Outcomes& truth, Counts& counts)
@@ -114,12 +114,12 @@ void check_verdicts(const PointRun& run, const Outcomes& truth, Counts& counts)
     counts.in_50_digits += resolved.in_50_digits;
     for (int i = 0; i < resolved.size(); ++i) {
         ++counts.points;
-        const bool known = truth.error[i] < std::abs(truth.margin[i]);
-        if (resolved.flags[i] & outcome_flag::unresolved) {
+        const bool known = truth[i].error < std::abs(truth[i].margin);
+        if (resolved[i].flags & outcome_flag::unresolved) {
             ++counts.unresolved;
-        } else if (known && is_safe(Region(resolved.region[i])) != (truth.margin[i] > 0)) {
+        } else if (known && is_safe(resolved[i].region) != (truth[i].margin > 0)) {
             ++counts.wrong;
-            name_point("WRONG", run, i, resolved.margin[i], truth);
+            name_point("WRONG", run, i, resolved[i].margin, truth);
         }
     }
 }
@@ -129,21 +129,21 @@ void check_bounds(const PointRun& run, const Outcomes& truth, double tolerance, 
     const Outcomes found =
         outcomes_of(run, {Method::taylor, tolerance}, {.error = true, .margin = true});
     for (int i = 0; i < found.size(); ++i) {
-        if (!std::isfinite(truth.margin[i]) || !std::isfinite(truth.error[i]) ||
-            !std::isfinite(found.margin[i])) {
+        if (!std::isfinite(truth[i].margin) || !std::isfinite(truth[i].error) ||
+            !std::isfinite(found[i].margin)) {
             continue;
         }
-        const bool agree = !((found.flags[i] ^ truth.flags[i]) & outcome_flag::fell);
-        const double error = agree ? std::abs(found.margin[i] - truth.margin[i])
+        const bool agree = !((found[i].flags ^ truth[i].flags) & outcome_flag::fell);
+        const double error = agree ? std::abs(found[i].margin - truth[i].margin)
                                    : std::numeric_limits<double>::infinity();
-        if (!std::isfinite(found.error[i])) {
+        if (!std::isfinite(found[i].error)) {
             ++counts.unbounded;
             continue;
         }
         ++counts.bounds;
-        if (error > found.error[i] + truth.error[i]) {
+        if (error > found[i].error + truth[i].error) {
             ++counts.exceeded;
-            name_point("bound exceeded", run, i, found.margin[i], truth);
+            name_point("bound exceeded", run, i, found[i].margin, truth);
         }
     }
 }

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -75,6 +76,7 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
     std::iota(all.begin(), all.end(), 0);
     const Outputs outputs{.impacts = requested == ByHand::impacts,
                           .region = requested == ByHand::region};
+    const auto outcomes = std::make_unique_for_overwrite<Outcome[]>(count);
     const KernelTask task{.pulse = motion,
                           .record = nullptr,
                           .points = points.data(),
@@ -87,33 +89,15 @@ std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
                           .chosen = all.data(),
                           .chosen_count = int(count),
                           .drop_requested = [](const void*) { return false; },
-                          .context = nullptr};
-    std::vector<double> tilt(count);
-    std::vector<double> rate(count);
-    std::vector<double> side(count);
-    std::vector<std::uint8_t> flags(count);
-    std::vector<std::uint8_t> regions(outputs.region ? count : 0);
-    std::vector<double> impacts(outputs.impacts ? count : 0);
-    const OutcomePointers outcomes{.tilt = tilt.data(),
-                                   .rate = rate.data(),
-                                   .side = side.data(),
-                                   .flags = flags.data(),
-                                   .region = regions.data(),
-                                   .margin = nullptr,
-                                   .impacts = impacts.data(),
-                                   .error = nullptr,
-                                   .steps = nullptr,
-                                   .phase = nullptr,
-                                   .peak = nullptr,
-                                   .lowest_turn = nullptr,
-                                   .softest_impact = nullptr,
-                                   .last_impact = nullptr,
-                                   .friction = nullptr,
-                                   .normal = nullptr};
+                          .context = nullptr,
+                          .outcomes = outcomes.get()};
     const Integrator integrator =
         numerics.method == Method::rk45 ? Integrator::runge_kutta : Integrator::taylor_20;
-    sweep_kernel(work.kernel, integrator, Theory::nonlinear, outputs,
-                 Directions::horizontal)(task, outcomes);
+    sweep_kernel(work.kernel, integrator, Theory::nonlinear, outputs, Directions::horizontal)(task);
+    std::vector<std::uint8_t> regions(outputs.region ? count : 0);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        regions[i] = std::uint8_t(outcomes[i].region);
+    }
     return regions;
 }
 

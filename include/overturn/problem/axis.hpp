@@ -46,6 +46,9 @@ public:
     std::vector<double> values(std::int64_t begin, std::int64_t end) const;
     std::vector<double> values() const { return values(0, size()); }
 
+    /// At most `count` of the values, evenly chosen, with both ends unless `count` is 1.
+    Axis thinned(std::int64_t count) const;
+
     const std::variant<AxisRange, AxisList>& definition() const { return definition_; }
     bool is_range() const { return std::holds_alternative<AxisRange>(definition_); }
 

@@ -6,7 +6,6 @@
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -38,21 +37,21 @@ double lifting_pga(const Scene& scene, const Point& point);
 
 /// The coordinates that result files store in addition to those given in the job, if they follow
 /// from these.
-inline constexpr std::array<std::string_view, 15> derived_coordinates{"slenderness",
-                                                                      "size",
-                                                                      "slenderness_plus",
-                                                                      "slenderness_minus",
-                                                                      "size_plus",
-                                                                      "size_minus",
-                                                                      "frequency_parameter",
-                                                                      "frequency_parameter_minus",
-                                                                      "largest_restitution",
-                                                                      "restitution",
-                                                                      "amplitude",
-                                                                      "scale",
-                                                                      "pga",
-                                                                      "frequency",
-                                                                      "pulse_period"};
+inline constexpr std::string_view derived_coordinates[]{"slenderness",
+                                                        "size",
+                                                        "slenderness_plus",
+                                                        "slenderness_minus",
+                                                        "size_plus",
+                                                        "size_minus",
+                                                        "frequency_parameter",
+                                                        "frequency_parameter_minus",
+                                                        "largest_restitution",
+                                                        "restitution",
+                                                        "amplitude",
+                                                        "scale",
+                                                        "pga",
+                                                        "frequency",
+                                                        "pulse_period"};
 
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {

@@ -8,9 +8,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace overturn {
+
+class PointRun;
+struct Outcomes;
 
 /// The quantiles of the error distributions.
 inline constexpr std::array<double, 5> error_quantiles{0.5, 0.9, 0.99, 0.999, 1};
@@ -44,6 +48,16 @@ struct AccuracyRow {
     double bound_over_error = 0;
 };
 
+/// A grid of at most `points` points, spread evenly over this one, which has no table, including
+/// the ends of each axis, with at most three values of each quantity other than the strength and
+/// the fastest one; one point for each of these and each motion if that is more. points: at
+/// least 9.
+Grid sample_of(const Grid& grid, std::int64_t points);
+
+/// About `wanted` points, spread over all rows and columns of a grid: their numbers, counted tile
+/// by tile and row by row, in ascending order. All points if there are fewer than twice as many.
+std::vector<int> evenly_chosen(const Tiling& tiling, std::int64_t wanted);
+
 /// The points on which methods are compared.
 struct AccuracySample {
     Grid grid;                  ///< an even sample of that of the job
@@ -69,23 +83,16 @@ public:
     void compute_regions(const Numerics& numerics) const;
 
 private:
-    struct DigitsTruth {
-        std::size_t tile, point;
-        bool fell;
-        double angle, velocity, margin;
-    };
+    void count_verdicts(const Outcomes& outcomes, AccuracyRow& row) const;
+    void measure_errors(const Outcomes& outcomes, AccuracyRow& row) const;
 
-    /// The fields of the sample, by tile.
-    std::vector<TileFields> computed(const Numerics& numerics, std::vector<Field> fields) const;
-    void compute_in_digits(std::int64_t wanted);
-    void count_verdicts(const std::vector<TileFields>& tiles, AccuracyRow& row) const;
-    void measure_errors(const std::vector<TileFields>& tiles, AccuracyRow& row) const;
-
-    Scene scene_;
+    Problem problem_; // of the sample, without numerics and fields
     Kernel kernel_;
     AccuracySample sample_;
-    std::vector<TileFields> truth_; // by tile: region, margin
-    std::vector<DigitsTruth> in_digits_;
+    std::shared_ptr<const PointRun> run_; // of the sample, tile by tile
+    std::shared_ptr<const Outcomes> truth_;
+    std::shared_ptr<const Outcomes> in_50_digits_; // of the points chosen_
+    std::vector<int> chosen_;
 };
 
 /// The settings that `overturn accuracy` compares: both methods (under a record, only taylor) at
