@@ -18,7 +18,6 @@ namespace overturn {
 namespace {
 
 constexpr double sampling_time = 0.3; // [s]
-constexpr int longest_sampling = 3;   // of lines of a boundary, each of which may take seconds [s]
 
 /// Points of a sample: neighbours along frequency, which fill the lanes of a kernel.
 constexpr std::int64_t sample_length = 16;
@@ -46,13 +45,11 @@ Tile sample_tile(const Grid& grid, std::int64_t i)
     return tile;
 }
 
-/// Estimated time [s] to compute this many points or lines on one rank, from samples:
+/// Estimated time [s] to compute this many points or tiles on one rank, from samples:
 /// compute_sample(i) returns the size of sample i, whose order is fixed. Samples are computed
-/// for 0.3 s; if these are fewer than `fewest`, for up to 1.2 s until there are as many, because
-/// their times differ.
+/// for 0.3 s.
 template <class ComputeSample>
-double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample,
-                         std::int64_t fewest = 1)
+double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample)
 {
     using Clock = std::chrono::steady_clock;
     compute_sample(0); // untimed: the caches are cold
@@ -60,8 +57,7 @@ double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample
     std::int64_t computed = 0;
     double seconds = 0;
     const auto start = Clock::now();
-    for (std::int64_t i = 0;
-         computed < items && seconds < (i < fewest ? 4 * sampling_time : sampling_time); ++i) {
+    for (std::int64_t i = 0; computed < items && seconds < sampling_time; ++i) {
         computed += compute_sample(i);
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
     }
@@ -125,28 +121,6 @@ void print_time(const Problem& problem, Kernel kernel)
         filled.fields.push_back(Field::evaluated);
         print_row("fill", fmt::format("about {} with numerics.fill = true",
                                       human_duration(fill_estimate(filled, kernel).seconds)));
-    }
-}
-
-std::string boundary_time(const Job& spectrum, Kernel kernel)
-{
-    const Problem problem = boundary_of(spectrum).problem;
-    const Tiling tiling = tiling_of(problem); // of one line each
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(longest_sampling);
-    const auto overdue = [&] { return std::chrono::steady_clock::now() > limit; };
-    std::int64_t lines = 0;
-    try {
-        const auto compute_line = [&](std::int64_t i) {
-            ++lines;
-            compute_tile(problem, tiling[spread_index(i, 0, tiling.size())], kernel, overdue);
-            return std::int64_t(1);
-        };
-        constexpr std::int64_t fewest_lines = 24;
-        return "about " +
-               human_duration(estimated_seconds(tiling.size(), compute_line, fewest_lines));
-    } catch (const TileDropped&) {
-        return "more than " +
-               human_duration(double(longest_sampling) * double(tiling.size()) / double(lines));
     }
 }
 
@@ -233,11 +207,6 @@ int check(const JobSource& source)
     }
     print_size(job);
     print_time(job.problem, kernel);
-    if (!job.blocks && !job.problem.numerics.fill &&
-        job.problem.grid.axis_or_number(Role::strength)->values.size() > 1) {
-        print_row("boundary",
-                  fmt::format("{} if computed with overturn boundary", boundary_time(job, kernel)));
-    }
     return exit_code::complete;
 }
 

@@ -167,9 +167,8 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     };
     add_block(command, options.block);
     add_text(command, "--direction", options.direction, "DEGREES",
-             "180: the mirror image of the motion, for blocks with two different sides; any "
-             "angle with --set scene.second_component=...");
-    number("--period", options.period, "S", "Period of the pulse [s]");
+             "180: the mirror image; any angle with --set scene.second_component=...");
+    number("--period", options.period, "S", "Period of the pulse [s], unless --record is given");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges",
            largest_pga);
     add_text(command, "--pulse", options.pulse, "NAME", "Pulse; default: one_sine");

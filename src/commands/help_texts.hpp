@@ -5,6 +5,7 @@
 namespace overturn::help {
 
 inline constexpr const char* overview = R"(Examples:
+  overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
   overturn check jobs/smoke.toml
   overturn run jobs/smoke.toml
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5
@@ -29,13 +30,13 @@ inline constexpr const char* boundary = R"(Example:
   mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200
   tools/plot_boundary figure_07a_boundary.h5
 
-Finds, for every slenderness, restitution and frequency, the amplitudes between the first and the
-last of the job at which the verdict flips from safe to unsafe or back, with the regions on both
-sides. The amplitudes of the job are computed first; where they indicate more flips between them,
-the steps are halved. Very narrow safe or unsafe strips may be missed. Each flip lies between two
-settled verdicts whose amplitudes differ by at most 1e-12 of their size (under a record, 1e-4),
-regardless of [numerics]. If a block already overturns at the first amplitude, overturn info reports
-it. The same command resumes an unfinished run.
+Finds, for every combination of the other coordinates, the amplitudes between the first and the last
+of the job at which the verdict flips from safe to unsafe or back, with the regions on both sides.
+The amplitudes of the job are computed first; where they indicate more flips between them, the steps
+are halved. Very narrow safe or unsafe strips may be missed. Each flip lies between two settled
+verdicts whose amplitudes differ by at most 1e-12 of their size (under a record, 1e-4), regardless of
+[numerics]. If a block already overturns at the first amplitude, overturn info reports it. The same
+command resumes an unfinished run.
 
 Under a record there is no complete list: the steps are divided evenly until each is at most 0.1 %
 of the amplitude, and narrower strips exist. The share of the scanned interval in which the block
@@ -49,13 +50,16 @@ Prints whether a rigid block topples, its peak tilt, the peak ground acceleratio
 it, and the ranges of the PGA in which it topples or the verdict is undecided: for the given
 restitution, and for 0.8 to 1 times r_max, because restitutions are rarely known. Accelerations
 within the search and in none of the ranges are safe, except for very narrow ranges that may be
-missed. The search ends at --pga-max, or where the
-vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... changes it. Values
-that are probably in another unit cause a warning. The exit code is 0 whatever the verdict. Spectra
-and suites of records need a job file: see overturn run.)";
+missed. The search ends at --pga-max, or where the vertical motion cancels gravity. g is 9.81 m/s2,
+unless --set scene.gravity=... changes it. Values that are probably in another unit cause a warning.
+The exit code is 0 whatever the verdict. Spectra and suites of records need a job file: see overturn
+run.)";
 
 inline constexpr const char* check = R"(Example:
-  overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }')";
+  overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }'
+
+Prints the motion, the axes, alpha, R, p and r_max of the block, the friction coefficients that
+lifting and impacts need, points, bytes and the estimated time of overturn run.)";
 
 inline constexpr const char* doctor = R"(Examples:
   overturn doctor

@@ -137,9 +137,9 @@ std::string contact_line(const Job& job)
         include(impact, friction_of_impact(other, sides.minus, sides.plus));
     }
     const auto text = [](const Extent& extent) {
-        return extent.first == extent.last
-                   ? fmt::format("{:.3g}", extent.first)
-                   : fmt::format("{:.3g} to {:.3g}", extent.first, extent.last);
+        const std::string first = fmt::format("{:.3g}", extent.first);
+        const std::string last = fmt::format("{:.3g}", extent.last);
+        return first == last ? first : fmt::format("{} to {}", first, last);
     };
     return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
                        text(lift), text(impact),

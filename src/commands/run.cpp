@@ -145,8 +145,8 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
     return fmt::format(
         "computed {} {} in {}, {} {}/s; {:.0f} % of the time in the kernel, {:.0f} % writing",
         human_count(items), noun_of(items, task.items.name), human_duration(seconds),
-        human_count(items / seconds), task.items.name, percent * report.all.compute_seconds,
-        percent * report.all.write_seconds);
+        human_count(items / seconds), noun_of(items / seconds, task.items.name),
+        percent * report.all.compute_seconds, percent * report.all.write_seconds);
 }
 
 FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,

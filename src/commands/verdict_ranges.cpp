@@ -12,8 +12,8 @@ namespace overturn {
 
 namespace {
 
-/// Answers take seconds, even if a slow pulse has hundreds of flips. A line of usual pulses needs a
-/// thousand amplitudes, none of them in 50 digits, in which one may take a second.
+/// Bounds the time of an answer if a slow pulse has hundreds of flips. A line of usual pulses needs
+/// a thousand amplitudes, none of them in 50 digits, in which one may take a second.
 constexpr std::size_t most_amplitudes = 2500;
 constexpr int most_in_50_digits = 4;
 

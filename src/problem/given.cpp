@@ -219,7 +219,7 @@ void expect_directions(const Scene& scene, const Grid& grid)
             if (value != 0 && value != 180) {
                 refuse("direction",
                        fmt::format(" = {} needs two horizontal components. With one, give 0, the "
-                                   "motion as it stands, or 180, its mirror image.",
+                                   "given motion, or 180, its mirror image.",
                                    value));
             }
         }

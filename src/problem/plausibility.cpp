@@ -164,7 +164,7 @@ void judge_directions(const Grid& grid, const Coordinates& coordinates, Findings
         findings.push_back(
             differ ? "the mirror image of the motion, direction 180, is not computed; it "
                      "may be worse for blocks with two different sides (give the "
-                     "direction, 0, 180 or both)"
+                     "direction, 0 or 180)"
                    : "");
         return;
     }

@@ -48,7 +48,7 @@ constexpr Quantity quantities[] = {
     {"motion", "1", Role::motion, "number of the ground motion in the job", positive,
      "It is the number of a record."},
     {"direction", "degree", Role::direction, "direction of the motion", directions,
-     "It is an angle in degrees: 0 is the motion as it stands, 180 its mirror image."},
+     "It is an angle in degrees: 0 is the given motion, 180 its mirror image."},
     {"width", "m", Role::block, "width of the block", positive, of_length},
     {"half_width", "m", Role::block, "half width of the block, b", positive, of_length},
     {"height", "m", Role::block, "height of the block", positive, of_length},

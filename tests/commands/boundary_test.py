@@ -132,11 +132,6 @@ class ABoundary(Scratch):
         self.assert_exit(result, 65, "plane.amplitude has one value, 3")
         self.assertFalse((self.folder / "small_boundary.h5").exists())
 
-    def test_is_estimated_by_check(self):
-        self.assert_exit(self.overturn("check", "small.toml"), 0, "boundary about", "if computed with overturn boundary")
-        single = self.overturn("check", "small.toml", "--set", "plane.amplitude.values=[3]")
-        self.assertNotIn("overturn boundary", single.stdout)
-
     def test_is_described_by_info(self):
         self.have_boundary()
         self.assert_exit(self.overturn("info", "boundary.h5"), 0, "crossing 64 values",

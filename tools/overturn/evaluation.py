@@ -81,7 +81,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
         pga*: peak ground acceleration over g [1]; or amplitude*, over the acceleration that lifts the block [1].
         pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
             docs/jobs.md.
-        direction*: 0, the motion as it stands, or 180, its mirror image [degree]; also of a record.
+        direction*: 0, the given motion, or 180, its mirror image [degree]; also of a record.
     Or a record:
         record: horizontal accelerations, one-dimensional, linear between samples; an array, or a Trace of ObsPy or a
             Stream of one.
