@@ -155,9 +155,9 @@ ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slender
     const auto [s, c] = sine_and_cosine(T(slenderness - block.tilt));
     const T& rate = block.rate; // s' = -c rate, c' = s rate
     const T& push = horizontal_of(block.push);
-    const T gravity = gravity_of(block.push);
+    const T gravity = gravity_of(block.push, T(1));
     const T& push_slope = horizontal_of(block.push_slope);
-    const T gravity_slope = gravity_slope_of(block.push_slope);
+    const T gravity_slope = gravity_of(block.push_slope, T(0));
     const T pull = -(gravity * s + push * c);
     const T jerk = (gravity * c - push * s) * rate - (gravity_slope * s + push_slope * c);
     const T turning = side.inertia * pull;
@@ -175,8 +175,8 @@ ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slender
 template <Number T, class Push>
 ContactForce<T> force_at_rest(const ContactSide<T>& side, const Push& push, const Push& slope)
 {
-    return on_base<T>(side, {horizontal_of(push), gravity_of(push), horizontal_of(slope),
-                             gravity_slope_of(slope)});
+    return on_base<T>(side, {horizontal_of(push), gravity_of(push, T(1)), horizontal_of(slope),
+                             gravity_of(slope, T(0))});
 }
 
 /// What the contact must bear over some time.
