@@ -276,7 +276,6 @@ struct number_traits<DoubleDouble<D>> {
     static number lesser(const number& a, const number& b) { return select(a < b, a, b); }
     static number greater(const number& a, const number& b) { return select(a > b, a, b); }
     static number pi() { return {D(0x1.921fb54442d18p+1), D(0x1.1a62633145c07p-53)}; }
-    static number ln_two() { return {D(0x1.62e42fefa39efp-1), D(0x1.abc9e3b39803fp-56)}; }
     static bool any(const mask& condition) { return overturn::any<D>(condition); }
     static number load(const scalar* from)
     {

@@ -40,7 +40,6 @@ struct scalar_number_traits {
     static T lesser(const T& a, const T& b) { return a < b ? a : b; }
     static T greater(const T& a, const T& b) { return a > b ? a : b; }
     static T pi() { return std::numbers::pi_v<T>; }
-    static T ln_two() { return std::numbers::ln2_v<T>; }
     static bool any(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
