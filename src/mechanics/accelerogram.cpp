@@ -15,11 +15,9 @@ template <class Value>
 std::vector<double> suffix_maxima(const std::vector<double>& values, const Value& value)
 {
     std::vector<double> maxima(values.size());
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = values.size(); i-- > 0;) {
-        largest = std::max(largest, value(values[i]));
-        maxima[i] = largest;
-    }
+    std::ranges::transform(values, maxima.begin(), value);
+    std::partial_sum(maxima.rbegin(), maxima.rend(), maxima.rbegin(),
+                     [](double later, double here) { return std::max(later, here); });
     return maxima;
 }
 

@@ -48,8 +48,8 @@ double lifting_pga(const Scene& scene, const Point& point)
     }
     const bool is_mirrored = std::signbit(point.amplitude);
     const Block<double> block = is_mirrored ? point.block.turned() : point.block;
-    const UpliftThresholds thresholds(uplift_threshold(scene.theory, block.slenderness),
-                                      uplift_threshold(scene.theory, block.other.slenderness));
+    const UpliftThresholds thresholds{uplift_threshold(scene.theory, block.slenderness),
+                                      uplift_threshold(scene.theory, block.other.slenderness)};
     if (scene.is_recorded()) {
         const auto record = directed_record(scene, point);
         return record->peak() * record->lifting_scale(thresholds);

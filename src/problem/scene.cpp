@@ -52,7 +52,8 @@ std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double
 double cut_by_window(const Scene& scene)
 {
     const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
-    return has_window(scene.pulse) ? std::abs(motion.values(std::array{motion.end})[0]) : 0;
+    const double cut = motion.with_formula([&](const auto& f) { return f.value(motion.end); });
+    return has_window(scene.pulse) ? std::abs(cut) : 0;
 }
 
 } // namespace overturn

@@ -90,8 +90,7 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
         const auto number = int(pulses.size());
         const Point& point = points[first];
         pulses.push_back(with_theory(theory, [&]<Theory known>() {
-            return scaled_pulse<known>(motion, flanks, point.block.slenderness,
-                                       point.block.other.slenderness, point.amplitude);
+            return scaled_pulse<known>(motion, flanks, point.block, point.amplitude);
         }));
         std::size_t next = first;
         for (; next < points.size() && are_equal(points[first], points[next]); ++next) {

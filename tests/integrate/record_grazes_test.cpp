@@ -27,8 +27,8 @@ Rocking<double> motion_at(double phase, const Graze& graze)
     const Digits50 alpha(graze.slenderness);
     const Digits50 threshold = theory == Theory::linear ? alpha : Digits50(tan(alpha));
     const Digits50 frequency(graze.frequency);
-    const LinearPush<Digits50> push{
-        {-(threshold + Digits50(graze.excess)), Digits50(graze.change) * frequency}};
+    const Ramp<Digits50> push{-(threshold + Digits50(graze.excess)),
+                              Digits50(graze.change) * frequency};
     const auto series = rocking_series<theory, 30>(Digits50(Digits50(graze.distance) * alpha),
                                                    Digits50(0), alpha, push, Digits50(1));
     const Digits50 time = (Digits50(phase) - Digits50(graze.when)) / frequency;

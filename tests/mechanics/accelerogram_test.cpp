@@ -17,6 +17,11 @@ bool lifts(const Accelerogram& record, std::int64_t i, double scale, double thre
            (1 + scale * upwards) * threshold;
 }
 
+UpliftThresholds on_both(double side)
+{
+    return {side, side};
+}
+
 TEST(Accelerogram, FindsTheFirstSampleThatLifts)
 {
     std::mt19937_64 generator(3);
@@ -33,7 +38,7 @@ TEST(Accelerogram, FindsTheFirstSampleThatLifts)
             while (expected < record.samples() && !lifts(record, expected, scale, threshold)) {
                 ++expected;
             }
-            ASSERT_EQ(record.first_lifting(first, scale, threshold), expected);
+            ASSERT_EQ(record.first_lifting(first, scale, on_both(threshold)), expected);
             ++(expected < record.samples() ? found : missed);
         }
     }
@@ -44,12 +49,12 @@ TEST(Accelerogram, FindsTheFirstSampleThatLifts)
 TEST(Accelerogram, ASampleAtTheThresholdDoesNotLift)
 {
     const Accelerogram record = accelerogram({0, 0.25, -0.5});
-    EXPECT_EQ(record.first_lifting(0, 1, 0.5), 3);
-    EXPECT_EQ(record.first_lifting(0, 1, 0.25), 2);
-    EXPECT_EQ(record.first_lifting(0, 1, std::nextafter(0.25, 0)), 1);
+    EXPECT_EQ(record.first_lifting(0, 1, on_both(0.5)), 3);
+    EXPECT_EQ(record.first_lifting(0, 1, on_both(0.25)), 2);
+    EXPECT_EQ(record.first_lifting(0, 1, on_both(std::nextafter(0.25, 0))), 1);
     // A fall of the ground by half of g halves the threshold.
-    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, 1), 3);
-    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, 0.99), 2);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, on_both(1)), 3);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).first_lifting(0, 1, on_both(0.99)), 2);
 }
 
 TEST(Accelerogram, LargestScaleLeavesGravityPositive)
@@ -128,18 +133,20 @@ TEST(Accelerogram, LiftingScaleSeparatesScalesThatLiftFromOthers)
         const Accelerogram record = random_record(
             generator, 2 + i % 30, i % 2 == 0 ? Directions::both : Directions::horizontal);
         const double threshold = uniform(generator);
-        const double scale = record.lifting_scale(threshold);
+        const double scale = record.lifting_scale(on_both(threshold));
         if (std::isinf(scale)) { // the ground always rises too fast
-            EXPECT_EQ(record.first_lifting(0, 1e6, threshold), record.samples());
+            EXPECT_EQ(record.first_lifting(0, 1e6, on_both(threshold)), record.samples());
             continue;
         }
         // A few roundings, hundreds of times smaller than 1e-12 unless |a| and v cancel.
-        EXPECT_LT(record.first_lifting(0, scale * (1 + 1e-12), threshold), record.samples());
-        EXPECT_EQ(record.first_lifting(0, scale * (1 - 1e-12), threshold), record.samples());
+        EXPECT_LT(record.first_lifting(0, scale * (1 + 1e-12), on_both(threshold)),
+                  record.samples());
+        EXPECT_EQ(record.first_lifting(0, scale * (1 - 1e-12), on_both(threshold)),
+                  record.samples());
     }
-    EXPECT_EQ(accelerogram({0, 0.25}, {0, 1}).lifting_scale(0.25), infinity);
-    EXPECT_EQ(accelerogram({0, 0.25, -0.5}).lifting_scale(0.25), 0.5);
-    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).lifting_scale(1), 1);
+    EXPECT_EQ(accelerogram({0, 0.25}, {0, 1}).lifting_scale(on_both(0.25)), infinity);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}).lifting_scale(on_both(0.25)), 0.5);
+    EXPECT_EQ(accelerogram({0, 0.25, -0.5}, {0, 0, -0.5}).lifting_scale(on_both(1)), 1);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ struct Start {
     T rate;        // [rad per unit]
     T slenderness; // [rad]
     T unit;        // of time [1/p]
-    LinearPushAndGravity<T> ground;
+    Ground<Ramp<T>> ground;
 };
 
 /// Blocks from upright to overturned under pushes from both sides.
@@ -82,8 +82,8 @@ TYPED_TEST(SeriesUnderALinearPush, IsThatOfAnyPushWithoutFurtherTerms)
 {
     constexpr Theory theory = TypeParam::value;
     for (const Start<double>& start : random_starts(200)) {
-        const LinearPush<double> push{start.ground.horizontal};
-        const Coefficients<20, double> all{push.horizontal.start, push.horizontal.slope};
+        const Ramp<double>& push = start.ground.horizontal;
+        const Coefficients<20, double> all{push.start, push.slope};
         // The terms that are omitted add exact zeros: no bit may change.
         expect_same(series_under<theory, 20>(push, start).tilt,
                     series_under<theory, 20>(all, start));
@@ -94,8 +94,8 @@ TYPED_TEST(SeriesUnderALinearPush, IsUnchangedByAConstantGravityOfOne)
 {
     constexpr Theory theory = TypeParam::value;
     for (const Start<double>& start : random_starts(200)) {
-        const LinearPush<double> push{start.ground.horizontal};
-        const LinearPushAndGravity<double> with_gravity{push.horizontal, {1, 0}};
+        const Ramp<double>& push = start.ground.horizontal;
+        const Ground<Ramp<double>> with_gravity{push, {1, 0}};
         // Products by 1 and 0 are exact: no bit may change.
         expect_same(series_under<theory, 20>(push, start).tilt,
                     series_under<theory, 20>(with_gravity, start));

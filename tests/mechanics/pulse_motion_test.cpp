@@ -1,5 +1,4 @@
 #include "overturn/mechanics/pulse_motion.hpp"
-#include "overturn/mechanics/wavelet.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
 
@@ -82,6 +81,12 @@ std::vector<double> spells(const PulseMotion<double>& pulse, double amplitude)
         lifted = lifts;
     }
     return result;
+}
+
+template <class S>
+PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const S& amplitude)
+{
+    return uplift_phases(motion, flanks_of(motion), {amplitude, amplitude});
 }
 
 TEST_P(EveryPulse, UpliftsAreWhereTheGroundFirstExceedsTheThreshold)

@@ -1,4 +1,4 @@
-#include "overturn/mechanics/wavelet.hpp"
+#include "overturn/mechanics/pulse_series.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
 

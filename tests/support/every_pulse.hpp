@@ -44,7 +44,7 @@ inline std::string pulse_test_name(const testing::TestParamInfo<PulseKind>& puls
 template <class S>
 S value_of_pulse(const PulseMotion<S>& motion, const S& phase)
 {
-    return motion.values(std::array{phase})[0];
+    return motion.with_formula([&](const auto& formula) { return formula.value(phase); });
 }
 
 } // namespace overturn

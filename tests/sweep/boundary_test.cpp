@@ -303,8 +303,9 @@ RecordLine random_record_line(std::mt19937_64& generator, Directions directions)
     Scene scene;
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
     const double threshold = uplift_acceleration<Theory::nonlinear>(point.block.slenderness);
-    return {
-        scene, {.point = {point.block, 1, point.frequency}}, point.record.lifting_scale(threshold)};
+    return {scene,
+            {.point = {point.block, 1, point.frequency}},
+            point.record.lifting_scale({threshold, threshold})};
 }
 
 /// The region above the last flip below an amplitude.

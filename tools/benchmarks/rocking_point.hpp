@@ -75,7 +75,7 @@ public:
 
 private:
     S begin_; // of the piece, or of the flight within it [1/p]
-    LinearPush<S> line_;
+    Ramp<S> line_;
 };
 
 /// The equation of motion on the side on which the block rocks. Excitation: PulseExcitation, or

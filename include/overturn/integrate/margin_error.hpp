@@ -75,8 +75,7 @@ public:
         const auto& [lanes, rests] = struck;
         const auto push = now.side * excitation.ground(now.phase);
         const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
-        const T after =
-            rocking_acceleration<theory>(zero_, block.other.slenderness, mirrored(push));
+        const T after = rocking_acceleration<theory>(zero_, block.other.slenderness, T(-1) * push);
         const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
         const T square_error = bound(T(before + before), T(speed + speed));
         const T share = select<T>(rests, T(S(64)), T(S(4)));

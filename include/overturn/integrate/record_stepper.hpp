@@ -144,7 +144,7 @@ private:
                 const MotionSample<E> sample = sample_of(rough, length, share);
                 const auto ground = pushes.at(E(share * length));
                 return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
-                    sample.tilt, sample.rate * per_step, ground, pushes.slope(per_unit)};
+                    sample.tilt, sample.rate * per_step, ground, pushes.slope_over(per_unit)};
             };
         };
     }

@@ -8,7 +8,6 @@
 #include "overturn/integrate/step.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
-#include "overturn/mechanics/wavelet.hpp"
 
 #include <type_traits>
 

@@ -10,7 +10,6 @@
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
-#include "overturn/mechanics/wavelet.hpp"
 
 namespace overturn {
 

@@ -9,9 +9,6 @@ namespace overturn {
 
 /// The accelerations over g that lift a block at rest on either side without vertical motion [1].
 struct UpliftThresholds {
-    UpliftThresholds(double both) : plus(both), minus(both) {}
-    UpliftThresholds(double to_plus, double to_minus) : plus(to_plus), minus(to_minus) {}
-
     double plus;
     double minus;
 };

@@ -12,19 +12,19 @@ namespace overturn {
 /// A block on one of its two corners. Lengths and frequencies have any unit that both sides share.
 template <Number T>
 struct BlockSide {
-    T slenderness;              ///< alpha: the tilt at which it would balance [rad]
-    T size = T(scalar_t<T>(1)); ///< R: distance from the corner to the centre of mass
-    T pace = T(scalar_t<T>(1)); ///< p: frequency parameter
+    T slenderness; ///< alpha: the tilt at which it would balance [rad]
+    T size = T(1); ///< R: distance from the corner to the centre of mass
+    T pace = T(1); ///< p: frequency parameter
 };
 
 /// A block as seen from the side on which it rocks. By default the block is symmetric: both sides
 /// have the same slenderness, and size and pace 1.
 template <Number T>
 struct Block {
-    T slenderness;              ///< alpha of this side; of a symmetric block: arctan(b / h) [rad]
-    T restitution;              ///< r: ratio of the energies after and before an impact [1]
-    T size = T(scalar_t<T>(1)); ///< see BlockSide
-    T pace = T(scalar_t<T>(1));
+    T slenderness; ///< alpha of this side; of a symmetric block: arctan(b / h) [rad]
+    T restitution; ///< r: ratio of the energies after and before an impact [1]
+    T size = T(1); ///< see BlockSide
+    T pace = T(1);
     BlockSide<T> other{slenderness, size, pace};
 
     /// The same block as seen from the other side.
@@ -42,11 +42,7 @@ struct Block {
     /// The ratio of the rates after and before an impact, each in units of the p of its side:
     /// sqrt(r R_i / R_j) from this side i to the other side j. The energy, m g R u^2 / 2, changes
     /// by the factor r.
-    T rate_ratio() const
-    {
-        using std::sqrt;
-        return sqrt(restitution * (size / other.size));
-    }
+    T rate_ratio() const { return sqrt(restitution * (size / other.size)); }
 };
 
 /// The block, given as seen from its side plus, as seen from a side, +1 or -1.
@@ -118,30 +114,19 @@ T uplift_acceleration(const T& slenderness)
 /// acceleration / g:
 ///
 ///     |theta|'' = -(sin y + B cos y)          linear theory: -(y + B)
-template <Theory theory, Number T>
-T rocking_acceleration(const T& tilt, const T& slenderness, const T& push)
-{
-    using arithmetic::fma;
-    const T y = slenderness - tilt;
-    if constexpr (theory == Theory::linear) {
-        return -(y + push);
-    } else {
-        const auto [sine, cosine] = sine_and_cosine(y);
-        return -fma(push, cosine, sine);
-    }
-}
-
+///
 /// With a vertical motion, sin y (linear theory: y) is multiplied by the gravity.
-template <Theory theory, Number T>
-T rocking_acceleration(const T& tilt, const T& slenderness, const Ground<T>& push)
+template <Theory theory, Number T, class Push>
+T rocking_acceleration(const T& tilt, const T& slenderness, const Push& push)
 {
-    using arithmetic::fma;
     const T y = slenderness - tilt;
-    if constexpr (theory == Theory::linear) {
+    if constexpr (theory == Theory::nonlinear) {
+        const auto [sine, cosine] = sine_and_cosine(y);
+        return -fma(horizontal_of(push), cosine, gravity_of(push, T(1)) * sine);
+    } else if constexpr (has_gravity<Push>) {
         return -fma(push.gravity, y, push.horizontal);
     } else {
-        const auto [sine, cosine] = sine_and_cosine(y);
-        return -fma(push.horizontal, cosine, push.gravity * sine);
+        return -(y + push);
     }
 }
 

@@ -12,7 +12,6 @@ namespace overturn {
 template <Number T>
 T level_of_other_side(const Block<T>& block)
 {
-    using std::sqrt;
     return sqrt(block.other.size / block.size) * (block.other.pace / block.pace);
 }
 
@@ -23,9 +22,7 @@ T level_of_other_side(const Block<T>& block)
 template <Number T>
 T fastest_bounce_series(const Block<T>& block, const auto& excitation)
 {
-    using std::sqrt;
     using S = scalar_t<T>;
-    const T one(S(1));
     if constexpr (std::same_as<std::remove_cvref_t<decltype(excitation)>, PulseExcitation<T>>) {
         return T(std::numeric_limits<S>::infinity());
     } else {
@@ -33,7 +30,7 @@ T fastest_bounce_series(const Block<T>& block, const auto& excitation)
             excitation.strongest_gravity() *
             greater<T>(block.slenderness, T(level_of_other_side(block) * block.other.slenderness));
         const T rounding(S(1) + 16 * std::numeric_limits<S>::epsilon());
-        return rounding * (one - sqrt(block.restitution)) * pull / (T(S(3)) * excitation.frequency);
+        return rounding * (1 - sqrt(block.restitution)) * pull / (3 * excitation.frequency);
     }
 }
 
@@ -42,6 +39,8 @@ template <Number T>
 struct Pulls {
     T plus;
     T minus;
+
+    T weaker() const { return lesser<T>(plus, minus); }
 };
 
 /// Whether all flights, which would last `twice` under a pull of 1, end within the duration over
@@ -51,24 +50,18 @@ template <bool one_increases, Number T>
 mask_t<T> all_flights_end_within(const T& duration, const T& twice, const Pulls<T>& first,
                                  const Pulls<T>& last)
 {
-    using std::sqrt;
-    using S = scalar_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
     if constexpr (one_increases) {
         const mask_t<T> plus_rises = last.plus >= first.plus;
         const T rise = select<T>(plus_rises, first.plus, first.minus);
         const T rise_then = select<T>(plus_rises, last.plus, last.minus);
         const T fall_then = select<T>(plus_rises, last.minus, last.plus);
-        const T growth =
-            sqrt(select<T>(rise > zero, rise_then, zero) / select<T>(rise > zero, rise, one));
+        const T growth = sqrt(select<T>(rise > 0, rise_then, 0) / select<T>(rise > 0, rise, 1));
         return twice <= duration * rise && twice * growth <= duration * fall_then;
     } else {
         const auto growth = [&](const T& from, const T& to) -> T {
-            return sqrt(greater<T>(to / select<T>(from > zero, from, one), one));
+            return sqrt(greater<T>(to / select<T>(from > 0, from, 1), 1));
         };
-        const T weaker = select<T>(first.plus < first.minus, first.plus, first.minus);
-        const T least = lesser<T>(weaker, lesser<T>(last.plus, last.minus));
+        const T least = lesser<T>(first.weaker(), last.weaker());
         return twice * growth(first.plus, last.plus) * growth(first.minus, last.minus) <=
                duration * least;
     }
@@ -100,57 +93,48 @@ mask_t<T> all_flights_end_within(const T& duration, const T& twice, const Pulls<
 /// side: +1 or -1, that from which the block struck.
 template <Theory theory, Number T>
 mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T& phase,
-                          const T& rate, const T& side = T(scalar_t<T>(1)))
+                          const T& rate, const T& side = T(1))
 {
-    using std::abs;
-    using std::sqrt;
-    using S = scalar_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
     // Unless the ground accelerates upwards, the weaker pull is at most alpha, so that no faster
     // impact would pass the check of the tilt.
     const T& alpha = block.slenderness;
-    const mask_t<T> slow = T(S(10)) * rate * rate <= alpha * alpha;
+    const mask_t<T> slow = 10 * rate * rate <= alpha * alpha;
     if (!any<T>(slow)) {
         return slow;
     }
-    const mask_t<T> from_plus = side > zero;
-    const T pace = block.other.pace / block.pace;
+    const mask_t<T> from_plus = side > 0;
     const T level = level_of_other_side(block);
     const auto pull_on = [&](const mask_t<T>& this_side, const auto& push) -> T {
         const T slenderness = select<T>(this_side, alpha, block.other.slenderness);
-        const T pull = -rocking_acceleration<theory>(zero, slenderness, push);
+        const T pull = -rocking_acceleration<theory>(T(0), slenderness, push);
         return select<T>(this_side, pull, level * pull);
     };
-    const auto pull_on_plus = [&](const auto& ground) { return pull_on(from_plus, ground); };
-    const auto pull_on_minus = [&](const auto& ground) {
-        return pull_on(!from_plus, mirrored(ground));
+    const auto pulls_under = [&](const auto& ground) -> Pulls<T> {
+        return {pull_on(from_plus, ground), pull_on(!from_plus, T(-1) * ground)};
     };
     const auto ground_now = excitation.ground(phase);
-    const T plus = pull_on_plus(ground_now);
-    const T minus = pull_on_minus(ground_now);
-    const T weaker = select<T>(plus < minus, plus, minus);
+    const Pulls<T> now = pulls_under(ground_now);
+    const T weaker = now.weaker();
     // Without loss or pull, no series ends; 1 avoids divisions by zero.
-    const T loss = one - T(sqrt(block.restitution));
-    const mask_t<T> fades = slow && loss > zero && weaker > zero;
-    const T series = rate / select<T>(fades, loss, one);                 // v (1 + sqrt r + r + ...)
-    const T duration = T(S(3)) * series / select<T>(fades, weaker, one); // D
+    const T loss = 1 - sqrt(block.restitution);
+    const mask_t<T> fades = slow && loss > 0 && weaker > 0;
+    const T series = rate / select<T>(fades, loss, 1);           // v (1 + sqrt r + r + ...)
+    const T duration = 3 * series / select<T>(fades, weaker, 1); // D
 
     // A lane without an impact may have a negative rate and thus a phase far before the pulse.
     const T over = phase + duration * excitation.frequency;
     const mask_t<T> in_time = fades && over >= phase && over <= T(excitation.motion.end) &&
                               excitation.motion.is_monotone(phase, over);
-    const auto ground_then = excitation.ground(select<T>(in_time, over, phase));
-    const T plus_then = pull_on_plus(ground_then);
-    const T minus_then = pull_on_minus(ground_then);
+    const Pulls<T> then = pulls_under(excitation.ground(select<T>(in_time, over, phase)));
     constexpr bool one_increases = std::same_as<decltype(ground_now), const T>;
-    const mask_t<T> short_enough = all_flights_end_within<one_increases, T>(
-        duration, series + series, {plus, minus}, {plus_then, minus_then});
-    // On the other side, the square of the rate is larger by R_i / R_j.
-    const T without_pace = weaker / greater<T>(pace, one);
-    const mask_t<T> low =
-        T(S(10)) * rate * rate * largest_stiffness<T>(ground_now) <= without_pace * without_pace;
-    return weaker > zero && ((in_time && short_enough && low) || rate == zero);
+    const mask_t<T> short_enough =
+        all_flights_end_within<one_increases, T>(duration, series + series, now, then);
+    // On the other side, the square of the rate is larger by R_i / R_j. A change of the tilt
+    // changes the pull by no more than the stiffness.
+    const T without_pace = weaker / greater<T>(block.other.pace / block.pace, 1);
+    const T stiffness = gravity_of(ground_now, T(1)) + abs(horizontal_of(ground_now));
+    const mask_t<T> low = 10 * rate * rate * stiffness <= without_pace * without_pace;
+    return weaker > 0 && ((in_time && short_enough && low) || rate == 0);
 }
 
 } // namespace overturn

@@ -5,7 +5,6 @@
 #include "overturn/mechanics/block.hpp"
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -24,15 +23,13 @@ struct ContactSide {
 template <Number T>
 ContactSide<T> contact_side(const Block<T>& block, const T& gyration, const T& size_plus)
 {
-    using std::sqrt;
-    const T one(scalar_t<T>(1));
     const T share = gyration * size_plus / block.size;
     const auto here = sine_and_cosine(block.slenderness);
     const auto there = sine_and_cosine(block.other.slenderness);
     const T descent = block.size * here.cosine - block.other.size * there.cosine;
     const T width = block.size * here.sine + block.other.size * there.sine;
     const T length = sqrt(descent * descent + width * width);
-    return {one / (one + share * share), width / length, descent / length};
+    return {1 / (1 + share * share), width / length, descent / length};
 }
 
 /// Both sides of a block.
@@ -46,7 +43,7 @@ struct ContactSides {
 
     ContactSide<T> seen_from(const T& side) const
     {
-        const mask_t<T> is_plus = side > T(scalar_t<T>(0));
+        const mask_t<T> is_plus = side > 0;
         return {select<T>(is_plus, plus.inertia, minus.inertia),
                 select<T>(is_plus, plus.cosine, minus.cosine),
                 select<T>(is_plus, plus.sine, minus.sine)};
@@ -88,7 +85,7 @@ T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const Co
     const FootOfCentre<T> here = foot_of_centre(side, block.slenderness);
     const FootOfCentre<T> there = foot_of_centre(other, block.other.slenderness);
     const T kept = block.rate_ratio() * (block.other.pace / block.pace); // omega_j / omega_i
-    return block.size * here.height * (T(scalar_t<T>(1)) - kept) /
+    return block.size * here.height * (1 - kept) /
            (block.size * here.distance + block.other.size * there.distance * kept);
 }
 
@@ -97,15 +94,14 @@ template <Number T>
 struct ContactForce {
     T along;  ///< along the base, positive outward
     T normal; ///< normal to it
-    T along_slope = T(scalar_t<T>(0));
-    T normal_slope = T(scalar_t<T>(0));
+    T along_slope = T(0);
+    T normal_slope = T(0);
 
     /// The friction coefficient that the contact needs; infinite if the block would leave the base.
     T friction() const
     {
-        using std::abs;
-        const mask_t<T> holds = normal > T(scalar_t<T>(0));
-        return select<T>(holds, abs(along) / select<T>(holds, normal, T(scalar_t<T>(1))),
+        const mask_t<T> holds = normal > 0;
+        return select<T>(holds, abs(along) / select<T>(holds, normal, 1),
                          T(std::numeric_limits<scalar_t<T>>::infinity()));
     }
 
@@ -113,7 +109,7 @@ struct ContactForce {
     T friction_slope() const
     {
         const T slope = along_slope * normal - along * normal_slope;
-        return select<T>(along < T(scalar_t<T>(0)), -slope, slope);
+        return select<T>(along < 0, -slope, slope);
     }
 };
 
@@ -121,15 +117,10 @@ struct ContactForce {
 template <Number T>
 ContactForce<T> on_base(const ContactSide<T>& side, const ContactForce<T>& level)
 {
-    const auto along = [&](const T& outward, const T& upward) -> T {
-        return outward * side.cosine - upward * side.sine;
-    };
-    const auto normal = [&](const T& outward, const T& upward) -> T {
-        return upward * side.cosine + outward * side.sine;
-    };
-    return {along(level.along, level.normal), normal(level.along, level.normal),
-            along(level.along_slope, level.normal_slope),
-            normal(level.along_slope, level.normal_slope)};
+    return {level.along * side.cosine - level.normal * side.sine,
+            level.normal * side.cosine + level.along * side.sine,
+            level.along_slope * side.cosine - level.normal_slope * side.sine,
+            level.normal_slope * side.cosine + level.along_slope * side.sine};
 }
 
 /// A rocking block. The push is the acceleration of the ground over g, positive outward: T, or
@@ -155,9 +146,9 @@ ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slender
     const auto [s, c] = sine_and_cosine(T(slenderness - block.tilt));
     const T& rate = block.rate; // s' = -c rate, c' = s rate
     const T& push = horizontal_of(block.push);
-    const T gravity = gravity_of(block.push);
+    const T gravity = gravity_of(block.push, T(1));
     const T& push_slope = horizontal_of(block.push_slope);
-    const T gravity_slope = gravity_slope_of(block.push_slope);
+    const T gravity_slope = gravity_of(block.push_slope, T(0));
     const T pull = -(gravity * s + push * c);
     const T jerk = (gravity * c - push * s) * rate - (gravity_slope * s + push_slope * c);
     const T turning = side.inertia * pull;
@@ -175,14 +166,14 @@ ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slender
 template <Number T, class Push>
 ContactForce<T> force_at_rest(const ContactSide<T>& side, const Push& push, const Push& slope)
 {
-    return on_base<T>(side, {horizontal_of(push), gravity_of(push), horizontal_of(slope),
-                             gravity_slope_of(slope)});
+    return on_base<T>(side, {horizontal_of(push), gravity_of(push, T(1)), horizontal_of(slope),
+                             gravity_of(slope, T(0))});
 }
 
 /// What the contact must bear over some time.
 template <Number T>
 struct ContactDemand {
-    T friction = T(scalar_t<T>(0)); ///< the largest friction coefficient that it needs [1]
+    T friction = T(0); ///< the largest friction coefficient that it needs [1]
     T normal = T(std::numeric_limits<scalar_t<T>>::infinity()); ///< the smallest normal force
 
     void include(const ContactDemand& other, const mask_t<T>& lanes)
@@ -210,54 +201,53 @@ ContactDemand<T> demand_of(const ContactForce<T>& force)
 template <Number T, class At>
 T root_between(T first, T last, const mask_t<T>& lanes, const At& at)
 {
-    const T zero(scalar_t<T>(0));
     T from = at(first);
     T to = at(last);
     constexpr int most_passes = 7; // an eighth of a step to 12 digits
     for (int i = 0; i < most_passes; ++i) {
         const mask_t<T> open = lanes && from != to;
-        const T change = select<T>(open, to - from, T(scalar_t<T>(1)));
+        const T change = select<T>(open, to - from, 1);
         const T next = select<T>(open, (first * to - last * from) / change, last);
         const T there = at(next);
-        const mask_t<T> stays = there * to > zero;
+        const mask_t<T> stays = there * to > 0;
         first = select<T>(stays, first, last);
-        from = select<T>(stays, from * T(scalar_t<T>(0.5)), to);
+        from = select<T>(stays, from * 0.5, to);
         last = next;
         to = there;
     }
     return last;
 }
 
-/// A maximum of samples of a function, and the derivative there.
+/// A function at a place, with the derivative or its sign.
 template <Number T>
-struct HighestSample {
+struct FunctionSample {
     T place;
     T value;
     T slope;
 
-    void see(const T& at, const T& next, const T& next_slope)
+    /// The sample with the higher value.
+    FunctionSample or_higher(const FunctionSample& other) const
     {
-        const mask_t<T> higher = next > value;
-        place = select<T>(higher, at, place);
-        value = select<T>(higher, next, value);
-        slope = select<T>(higher, next_slope, slope);
+        const mask_t<T> higher = other.value > value;
+        return {select<T>(higher, other.place, place), select<T>(higher, other.value, value),
+                select<T>(higher, other.slope, slope)};
     }
 };
 
-/// The maximum of a function: that of its samples, which are `width` apart, or the one next to it
-/// on the side to which the function ascends, up to `first` or `last`.
-template <Number T, class ValueAt, class SlopeAt>
-T maximum_near(const HighestSample<T>& best, const T& width, const std::array<T, 2>& limits,
-               const ValueAt& value_at, const SlopeAt& slope_at)
+/// The maximum of a function between two places: that of its samples, which are `width` apart, or
+/// the one next to it on the side to which the function ascends. at(place) returns a sample.
+template <Number T, class At>
+T maximum_near(const FunctionSample<T>& best, const T& width, const std::array<T, 2>& places,
+               const At& at)
 {
-    const T zero(scalar_t<T>(0));
-    const T step = select<T>(best.slope > zero, width, -width);
-    const T end = lesser<T>(greater<T>(best.place + step, limits[0]), limits[1]);
-    const mask_t<T> turns = best.slope * slope_at(end) < zero;
+    const T step = select<T>(best.slope > 0, width, -width);
+    const T end = lesser<T>(greater<T>(best.place + step, places[0]), places[1]);
+    const mask_t<T> turns = best.slope * at(end).slope < 0;
     if (!any<T>(turns)) {
         return best.value;
     }
-    const T top = value_at(root_between<T>(best.place, end, turns, slope_at));
+    const auto slope_at = [&](const T& place) -> T { return at(place).slope; };
+    const T top = at(root_between<T>(best.place, end, turns, slope_at)).value;
     return select<T>(turns && top > best.value, top, best.value);
 }
 
@@ -266,25 +256,30 @@ T maximum_near(const HighestSample<T>& best, const T& width, const std::array<T,
 template <Number T, class ForceAt>
 ContactDemand<T> demand_between(const T& first, const T& last, int parts, const ForceAt& force_at)
 {
+    using Sample = FunctionSample<T>;
+    const auto friction_of = [](const T& place, const ContactForce<T>& force) -> Sample {
+        return {place, force.friction(), force.friction_slope()};
+    };
+    const auto relief_of = [](const T& place, const ContactForce<T>& force) -> Sample {
+        return {place, -force.normal, -force.normal_slope};
+    };
     const T width = (last - first) * T(scalar_t<T>(1) / parts);
     const ContactForce<T> start = force_at(first);
-    HighestSample<T> friction{first, start.friction(), start.friction_slope()};
-    HighestSample<T> relief{first, -start.normal, -start.normal_slope};
+    Sample friction = friction_of(first, start);
+    Sample relief = relief_of(first, start);
     for (int i = 1; i <= parts; ++i) {
-        const T place = i == parts ? last : T(first + width * T(scalar_t<T>(i)));
+        const T place = i == parts ? last : T(first + width * i);
         const ContactForce<T> force = force_at(place);
-        friction.see(place, force.friction(), force.friction_slope());
-        relief.see(place, -force.normal, -force.normal_slope);
+        friction = friction.or_higher(friction_of(place, force));
+        relief = relief.or_higher(relief_of(place, force));
     }
-    const std::array limits{first, last};
-    const T normal = -maximum_near<T>(
-        relief, width, limits, [&](const T& at) -> T { return -force_at(at).normal; },
-        [&](const T& at) -> T { return -force_at(at).normal_slope; });
-    const T highest = maximum_near<T>(
-        friction, width, limits, [&](const T& at) -> T { return force_at(at).friction(); },
-        [&](const T& at) -> T { return force_at(at).friction_slope(); });
-    return {select<T>(normal > T(scalar_t<T>(0)), highest,
-                      T(std::numeric_limits<scalar_t<T>>::infinity())),
+    const auto maximum = [&](const Sample& best, const auto& of) -> T {
+        return maximum_near<T>(best, width, {first, last},
+                               [&](const T& place) { return of(place, force_at(place)); });
+    };
+    const T normal = -maximum(relief, relief_of);
+    const T highest = maximum(friction, friction_of);
+    return {select<T>(normal > 0, highest, T(std::numeric_limits<scalar_t<T>>::infinity())),
             normal};
 }
 

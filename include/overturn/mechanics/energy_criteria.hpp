@@ -16,8 +16,7 @@ T separatrix_rate(const T& tilt, const T& slenderness)
     if constexpr (theory == Theory::linear) {
         return slenderness - tilt;
     } else {
-        const scalar_t<T> half = scalar_t<T>(1) / 2;
-        const T sine = sine_and_cosine(T((slenderness - tilt) * T(half))).sine;
+        const T sine = sine_and_cosine(T((slenderness - tilt) * 0.5)).sine;
         return sine + sine;
     }
 }
@@ -27,7 +26,7 @@ T separatrix_rate(const T& tilt, const T& slenderness)
 template <Theory theory, Number T>
 T barrier_ratio(const T& largest, const Block<T>& block)
 {
-    const T ratio = separatrix_rate<theory>(T(scalar_t<T>(0)), block.other.slenderness) / largest;
+    const T ratio = separatrix_rate<theory>(T(0), block.other.slenderness) / largest;
     return block.other.size / block.size * (ratio * ratio);
 }
 
@@ -40,7 +39,6 @@ struct ImpactLimit {
     T minus_q_min; ///< [rad^2]
     T limit;       ///< [rad]
 
-    ImpactLimit() = default;
     ImpactLimit(const T& minus_q, const T& c) : minus_q_min(minus_q), limit(limit_at(c)) {}
 
     /// The limit at another tilt, where the separatrix is at c.
@@ -49,25 +47,17 @@ struct ImpactLimit {
     /// c |c| - q_min, or c^2 - q_min if q_min is not positive.
     T square_at(const T& c) const
     {
-        using arithmetic::fma;
-        using std::abs;
-        return fma(select<T>(minus_q_min < T(scalar_t<T>(0)), T(abs(c)), c), c, minus_q_min);
+        return fma(select<T>(minus_q_min < 0, abs(c), c), c, minus_q_min);
     }
 
     static T signed_root(const T& square)
     {
-        using std::abs;
-        using std::sqrt;
-        const T root = sqrt(T(abs(square)));
-        return select<T>(square < T(scalar_t<T>(0)), T(-root), root);
+        const T root = sqrt(abs(square));
+        return select<T>(square < 0, -root, root);
     }
 
     /// The distance of a rate from the limit; negative if the block overturns after the impact.
-    T distance(const T& rate) const
-    {
-        using std::abs;
-        return select<T>(minus_q_min < T(scalar_t<T>(0)), T(-abs(rate)), rate) + limit;
-    }
+    T distance(const T& rate) const { return select<T>(minus_q_min < 0, -abs(rate), rate) + limit; }
 };
 
 /// The bounds of the safe states at one tilt (Eq. 20).
@@ -79,26 +69,9 @@ struct SafeRates {
     ImpactLimit<T> two; ///< beyond it, to the side of its tilt, after two; only if not after one
     /// sqrt(q_max): the largest safe rate of an upright block without impact (Eq. 16) [rad].
     T largest;
-    bool are_symmetric; ///< all blocks: `two` is not needed, and q_min <= 0
-
-    /// Per lane: whether the block overturns after one impact, unless it does so without.
-    mask_t<T> are_beyond_one(const T& rate) const
-    {
-        return are_symmetric ? rate < -one.limit : one.distance(rate) < T(scalar_t<T>(0));
-    }
 
     /// The limit that a rate reaches first.
-    ImpactLimit<T> inward() const
-    {
-        if (are_symmetric) {
-            return one;
-        }
-        const mask_t<T> is_one = one.minus_q_min <= two.minus_q_min;
-        ImpactLimit<T> first = one;
-        first.minus_q_min = select<T>(is_one, one.minus_q_min, two.minus_q_min);
-        first.limit = select<T>(is_one, one.limit, two.limit);
-        return first;
-    }
+    ImpactLimit<T> inward() const { return {lesser<T>(one.minus_q_min, two.minus_q_min), outward}; }
 };
 
 /// With the energy E of the block on its side i, and the energies W at the top of both sides, the
@@ -107,30 +80,20 @@ struct SafeRates {
 ///     q_max = 4 sin^2(alpha_i/2),   q_min = q_max (1 - W_j/(r W_i))   for one impact,
 ///                                   q_min = q_max (1 - 1/r^2)         for two
 ///
-/// For a symmetric block the first one is the larger, that of Eq. 18. Later impacts face the same
-/// energies with less energy.
+/// For a symmetric block the first one is the larger, that of Eq. 18, so that U2 does not exist.
+/// Later impacts face the same energies with less energy.
 template <Theory theory, Number T>
 SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
 {
-    using arithmetic::fma;
-    using std::sqrt;
     const T c = separatrix_rate<theory>(tilt, block.slenderness);
-    const T largest = separatrix_rate<theory>(T(scalar_t<T>(0)), block.slenderness);
-    const T one = T(scalar_t<T>(1));
+    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
     const T& r = block.restitution;
     const T q_max = largest * largest;
-    if (!any<T>(!block.is_symmetric())) { // the same with W_j = W_i
-        ImpactLimit<T> limit;
-        limit.minus_q_min = q_max * ((one - r) / r);
-        limit.limit = sqrt(fma(c, c, limit.minus_q_min));
-        return {c, limit, limit, largest, true};
-    }
     const T ratio = barrier_ratio<theory>(largest, block);
     return {c,
             {T(q_max * ((ratio - r) / r)), c},
-            {T(q_max * ((one - r) * (one + r) / (r * r))), c},
-            largest,
-            false};
+            {T(q_max * ((1 - r) * (1 + r) / (r * r))), c},
+            largest};
 }
 
 /// The margin: distance to a change of the verdict, over sqrt(q_max). Positive if the block is
@@ -143,20 +106,17 @@ template <Theory theory, Number T>
 T margin_after_pulse(const State<T>& state, const Block<T>& block)
 {
     const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
-    const T above = safe.outward - state.rate;
-    const T below = safe.inward().distance(state.rate);
-    return select<T>(above < below, above, below) / safe.largest;
+    return lesser<T>(safe.outward - state.rate, safe.inward().distance(state.rate)) / safe.largest;
 }
 
 /// The slope of the separatrix: d c / d|theta|, between -1 and 0 below the top.
 template <Theory theory, Number T>
 T separatrix_slope(const T& tilt, const T& slenderness)
 {
-    using S = scalar_t<T>;
     if constexpr (theory == Theory::linear) {
-        return T(S(-1));
+        return T(-1);
     } else {
-        return -sine_and_cosine(T((slenderness - tilt) * T(S(0.5)))).cosine;
+        return -sine_and_cosine(T((slenderness - tilt) * 0.5)).cosine;
     }
 }
 
@@ -164,7 +124,7 @@ T separatrix_slope(const T& tilt, const T& slenderness)
 template <Theory theory, Number T>
 T margin_of_fall(const T& rate, const Block<T>& block)
 {
-    const T ratio = rate / separatrix_rate<theory>(T(scalar_t<T>(0)), block.slenderness);
+    const T ratio = rate / separatrix_rate<theory>(T(0), block.slenderness);
     return -(ratio * ratio);
 }
 
@@ -173,21 +133,18 @@ T margin_of_fall(const T& rate, const Block<T>& block)
 template <Theory theory, Number T>
 T region_code_after_pulse(const State<T>& state, const Block<T>& block)
 {
-    const auto code = [](Region region) { return T(scalar_t<T>(int(region))); };
     const SafeRates<T> safe = safe_rates<theory>(state.tilt, block);
-    const T zero(scalar_t<T>(0));
-    const mask_t<T> plus = state.side > zero;
-    const T beyond_top = select<T>(plus, code(Region::U0_plus), code(Region::U0_minus));
-    const T beyond_one = select<T>(plus, code(Region::U1_minus), code(Region::U1_plus));
-    const T in_blade = select<T>(plus, code(Region::S_minus), code(Region::S_plus));
+    const auto code = [&](Region on_plus, Region on_minus) -> T {
+        return select<T>(state.side > 0, T(int(on_plus)), T(int(on_minus)));
+    };
     // If it does not overturn. Beyond the top, c < 0, so u <= c implies S+ or S-.
-    T after_two = select<T>(state.rate >= -safe.outward, code(Region::S), in_blade);
-    if (!safe.are_symmetric) {
-        const T beyond_two = select<T>(plus, code(Region::U2_plus), code(Region::U2_minus));
-        after_two = select<T>(safe.two.distance(state.rate) < zero, beyond_two, after_two);
-    }
-    const T after_one = select<T>(safe.are_beyond_one(state.rate), beyond_one, after_two);
-    return select<T>(state.rate > safe.outward, beyond_top, after_one);
+    const T is_safe = select<T>(state.rate >= -safe.outward, code(Region::S, Region::S),
+                                code(Region::S_minus, Region::S_plus));
+    const T after_two = select<T>(safe.two.distance(state.rate) < 0,
+                                  code(Region::U2_plus, Region::U2_minus), is_safe);
+    const T after_one = select<T>(safe.one.distance(state.rate) < 0,
+                                  code(Region::U1_minus, Region::U1_plus), after_two);
+    return select<T>(state.rate > safe.outward, code(Region::U0_plus, Region::U0_minus), after_one);
 }
 
 } // namespace overturn

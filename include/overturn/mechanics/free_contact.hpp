@@ -35,9 +35,6 @@ template <Number T>
 ContactDemand<T> free_contact(const State<T>& state, const Block<T>& block,
                               const ContactSides<T>& sides)
 {
-    using std::asin;
-    using std::sqrt;
-    using std::tan;
     constexpr int parts = 16;
     constexpr Theory theory = Theory::nonlinear;
     ContactDemand<T> demand;

@@ -9,20 +9,21 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
 namespace overturn {
 
+/// 113 bits.
+using Quad = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
+                                           boost::multiprecision::et_off>;
+template <>
+struct number_traits<Quad> : scalar_number_traits<Quad> {};
+
 /// The type in which q is computed. Near the separatrix, q loses most digits of the state, and the
 /// time that a block spends near the top depends on the logarithm of q.
 template <class T>
-using MoreExact = std::conditional_t<
-    std::is_floating_point_v<T>,
-    boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
-                                  boost::multiprecision::et_off>,
-    T>;
+using MoreExact = std::conditional_t<std::is_floating_point_v<T>, Quad, T>;
 
 /// q0 of a state (Eq. 12) [rad^2], accurate to the last digits of T unless the state is within
 /// epsilon^2 of the separatrix:
@@ -30,42 +31,45 @@ using MoreExact = std::conditional_t<
 ///     q0 = 4 sin^2((alpha - |theta|) / 2) - theta'^2
 ///
 /// or (alpha - |theta|)^2 - theta'^2 in the linear theory.
-template <Theory theory, class T>
-MoreExact<T> conserved_q(const State<T>& state, const T& slenderness)
+template <Theory theory, Number T, Number Q = MoreExact<T>>
+Q conserved_q(const State<T>& state, const T& slenderness)
 {
-    using std::sin;
-    const MoreExact<T> y = MoreExact<T>(slenderness) - MoreExact<T>(state.tilt);
-    const MoreExact<T> rate(state.rate);
-    MoreExact<T> c = y;
-    if constexpr (theory == Theory::nonlinear) {
-        c = 2 * sin(MoreExact<T>(y / 2));
-    }
+    const Q c = separatrix_rate<theory>(Q(state.tilt), Q(slenderness));
+    const Q rate(state.rate);
     return (c - rate) * (c + rate);
 }
 
-/// q0 just after an impact, on the other side j, from that before, on this side i. The energy
-/// m g R (q_max - q) / 2 changes by the factor r.
-template <class Q>
-Q q_after_impact(const Q& q, const Q& q_max, const Q& q_max_of_other, const Q& kept)
+/// q of a block at rest.
+template <Theory theory, Number Q>
+Q q_max_of(const Q& slenderness)
 {
-    return q_max * (q_max_of_other / q_max - kept) + kept * q;
+    const Q largest = separatrix_rate<theory>(Q(0), slenderness);
+    return largest * largest;
 }
 
-/// r R_i / R_j, for q_after_impact().
-template <class Q, class T>
-Q kept_by_impact(const Block<T>& block)
+/// q0 just after an impact on this side i, for the other side j. The energy m g R (q_max - q) / 2
+/// changes by the factor r.
+template <Number Q, Number T>
+Q q_after_impact(const Block<T>& block, const Q& q, const Q& q_max, const Q& q_max_of_other)
 {
-    return Q(block.restitution) * (Q(block.size) / Q(block.other.size));
+    const Q kept = Q(block.restitution) * (Q(block.size) / Q(block.other.size)); // r R_i / R_j
+    return q_max * (q_max_of_other / q_max - kept) + kept * q;
+}
+template <Theory theory, Number Q, Number T>
+Q q_after_impact(const Block<T>& block, const Q& q)
+{
+    return q_after_impact(block, q, q_max_of<theory>(Q(block.slenderness)),
+                          q_max_of<theory>(Q(block.other.slenderness)));
 }
 
 /// Free rocking, one arc at a time; times since the beginning, in the unit of 1 / Block::pace,
-/// which is 1/p if the block is symmetric.
-template <Theory theory, Number T>
+/// which is 1/p if the block is symmetric. Q: the type in which q is computed.
+template <Theory theory, Number T, Number Q = MoreExact<T>>
 class FreeRocking {
 public:
     /// block: as seen from the side on which it rocks at the beginning.
     FreeRocking(const State<T>& begin, const Block<T>& block)
-        : block_(block), begin_(0), q_(conserved_q<theory>(begin, block.slenderness)),
+        : block_(block), begin_(0), q_(conserved_q<theory, T, Q>(begin, block.slenderness)),
           arc_(begin, block.slenderness, T(q_))
     {}
 
@@ -91,15 +95,11 @@ public:
     /// Advances to the arc after the impact, which must exist (Eqs. 40, 41).
     void strike()
     {
-        using Q = MoreExact<T>;
         begin_ = impact_time();
         ++impacts_;
         const State<T> upright{
             .tilt = T(0), .rate = block_.rate_ratio() * arc_.impact_speed(), .side = -arc_.side()};
-        const State<T> at_rest{T(0), T(0), T(1)};
-        q_ = q_after_impact<Q>(q_, conserved_q<theory>(at_rest, block_.slenderness),
-                               conserved_q<theory>(at_rest, block_.other.slenderness),
-                               kept_by_impact<Q>(block_));
+        q_ = q_after_impact<theory>(block_, q_);
         block_ = block_.turned();
         arc_ = RockingArc<theory, T>(upright, block_.slenderness, T(q_));
     }
@@ -108,53 +108,34 @@ private:
     Block<T> block_;
     T begin_;
     int impacts_ = 0;
-    MoreExact<T> q_;
+    Q q_;
     RockingArc<theory, T> arc_;
 };
-
-/// q_max of the sides of a block.
-template <Theory theory, Number T>
-T q_max_of(const T& slenderness)
-{
-    const T largest = separatrix_rate<theory>(T(0), slenderness);
-    return largest * largest;
-}
-
-/// q0 after an impact on this side, in T.
-template <Theory theory, Number T>
-T q_after_impact_of(const Block<T>& block, const T& q)
-{
-    return q_after_impact<T>(q, q_max_of<theory>(block.slenderness),
-                             q_max_of<theory>(block.other.slenderness), kept_by_impact<T>(block));
-}
 
 /// The largest tilt of a block that does not fall, over alpha of its side, from this state on: that
 /// of its next two turns, before or after an impact. Every later turn is lower.
 template <Theory theory, Number T>
 T largest_free_tilt(const State<T>& state, const Block<T>& block)
 {
-    using std::asin;
-    using std::sqrt;
     if (state.tilt == 0 && state.rate == 0) {
         return T(0); // without the rounding errors of the formulas below
     }
     const auto turn = [](const T& slenderness, const T& q) -> T {
         const T distance = q > 0 ? T(sqrt(q)) : T(0); // from the top, at the turn
         const T top = theory == Theory::linear ? distance : T(2 * asin(distance / 2));
-        return lesser<T>(greater<T>(slenderness - top, T(0)), slenderness) / slenderness;
+        return lesser<T>(greater<T>(slenderness - top, 0), slenderness) / slenderness;
     };
-    const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
-    const T q = (c - state.rate) * (c + state.rate);
+    const T q = conserved_q<theory, T, T>(state, block.slenderness);
     if (state.rate > 0 && block.is_symmetric()) {
         return turn(block.slenderness, q);
     }
-    const T q_on_other = q_after_impact_of<theory>(block, q);
+    const T q_on_other = q_after_impact<theory>(block, q);
     const T on_other = turn(block.other.slenderness, q_on_other);
     if (block.is_symmetric()) {
         return on_other;
     }
     const T next =
-        state.rate > 0 ? q : q_after_impact_of<theory>(block.turned(), q_on_other); // on this side
+        state.rate > 0 ? q : q_after_impact<theory>(block.turned(), q_on_other); // on this side
     return greater<T>(on_other, turn(block.slenderness, next));
 }
 
@@ -164,22 +145,11 @@ template <Theory theory, Number T>
 T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 {
     constexpr int most_impacts = 2; // see safe_rates()
-    const T c = separatrix_rate<theory>(state.tilt, block.slenderness);
-    T q = (c - state.rate) * (c + state.rate);
-    State<T> begin = state;
-    Block<T> on = block;
-    T time(0);
-    for (int impacts = 0;; ++impacts) {
-        const RockingArc<theory, T> arc(begin, on.slenderness, q);
-        const T impact = arc.time_to_impact();
-        if (impact == std::numeric_limits<T>::infinity() || impacts == most_impacts) {
-            return time + arc.time_to_fall() / on.pace;
-        }
-        time += impact / on.pace;
-        begin = {.tilt = T(0), .rate = on.rate_ratio() * arc.impact_speed(), .side = -begin.side};
-        q = q_after_impact_of<theory>(on, q);
-        on = on.turned();
+    FreeRocking<theory, T, T> rocking(state, block);
+    while (!isinf(rocking.impact_time()) && rocking.impacts() < most_impacts) {
+        rocking.strike();
     }
+    return rocking.fall_time();
 }
 
 /// The duration of rocking of a block that leaves the ground at the rate v, and after each arc at
@@ -193,13 +163,10 @@ T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 /// or 2 artanh(v / alpha) in the linear theory. Term k of all half periods is a geometric series.
 /// The terms decrease like (v^2 / q_max)^k.
 template <Theory theory, Number T>
-T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
+T sum_of_half_periods(const T& v, const T&, const Block<T>& block)
 {
-    using std::cos;
-    using std::expm1;
-    using std::log;
-    using std::sin;
-    const T log_r = log(r);
+    const T& slenderness = block.slenderness;
+    const T log_r = log(block.restitution);
     const auto share = [&](int k) -> T { return -1 / expm1(log_r * (2 * k + 1) / 2); };
     const T epsilon = std::numeric_limits<T>::epsilon();
     T sum = share(0);
@@ -234,8 +201,6 @@ T sum_of_half_periods(const T& v, const T& slenderness, const T& r)
 template <Theory theory, Number T>
 T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
 {
-    using std::log;
-    using std::sqrt;
     const auto half_period = [&](const T& rate, const T& gained) -> T { // gained: increase of q
         const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
         return RockingArc<theory, T>(upright, block.slenderness, q + gained).time_to_impact();
@@ -254,47 +219,38 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
     return 2 * integral / -log(block.restitution) + half_period(v, T(0)) / 2;
 }
 
-/// q of a block at rest, from conserved_q().
-template <Theory theory, Number T>
-T q_at_rest(const T& slenderness)
-{
-    return T(conserved_q<theory>(State<T>{T(0), T(0), T(1)}, slenderness));
-}
-
 /// A block that leaves the ground, with q accurate as in RockingArc.
 template <Number T>
 struct Leaving {
     T rate;
     T q;
     Block<T> block;
+    T q_max; ///< of this side
+    T q_max_of_other;
 
     /// The next one.
-    template <Theory theory>
     Leaving after_impact() const
     {
-        return {rate * block.rate_ratio(),
-                q_after_impact<T>(q, q_at_rest<theory>(block.slenderness),
-                                  q_at_rest<theory>(block.other.slenderness),
-                                  kept_by_impact<T>(block)),
-                block.turned()};
+        return {rate * block.rate_ratio(), q_after_impact(block, q, q_max, q_max_of_other),
+                block.turned(), q_max_of_other, q_max};
     }
 };
 
-/// The duration of all flights, in the unit of FreeRocking. sum(leaving): that of a symmetric
-/// block. On each of two different sides, the rate falls by r from one flight to the next, as that
-/// of a symmetric block with the restitution r^2.
-template <Theory theory, Number T, class Sum>
+/// The duration of all flights, in the unit of FreeRocking. sum(rate, q, block): that of a
+/// symmetric block. On each of two different sides, the rate falls by r from one flight to the
+/// next, as that of a symmetric block with the restitution r^2.
+template <Number T, class Sum>
 T sum_on_both_sides(const Leaving<T>& leaving, const Sum& sum)
 {
     const Block<T>& block = leaving.block;
     if (block.is_symmetric()) {
-        return sum(leaving) / block.pace;
+        return sum(leaving.rate, leaving.q, block) / block.pace;
     }
     const auto on_one = [&](const Leaving<T>& one) -> T {
         const Block<T> symmetric{one.block.slenderness, block.restitution * block.restitution};
-        return sum(Leaving<T>{one.rate, one.q, symmetric}) / one.block.pace;
+        return sum(one.rate, one.q, symmetric) / one.block.pace;
     };
-    return on_one(leaving) + on_one(leaving.template after_impact<theory>());
+    return on_one(leaving) + on_one(leaving.after_impact());
 }
 
 /// The time at which a block comes to rest, in the unit of FreeRocking; infinite if it falls, stays
@@ -302,7 +258,6 @@ T sum_on_both_sides(const Leaving<T>& leaving, const Sum& sum)
 template <Theory theory, Number T>
 T time_of_rest(const State<T>& begin, const Block<T>& block)
 {
-    using std::isinf;
     const T never = std::numeric_limits<T>::infinity();
     const T r = block.restitution;
     FreeRocking<theory, T> rocking(begin, block);
@@ -314,7 +269,12 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
         rocking.strike();
     }
     T time = rocking.begin();
-    Leaving<T> leaving{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block()};
+    const auto q_max = [](const T& slenderness) {
+        return T(q_max_of<theory>(MoreExact<T>(slenderness)));
+    };
+    Leaving<T> leaving{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block(),
+                       q_max(rocking.block().slenderness),
+                       q_max(rocking.block().other.slenderness)};
     if (leaving.rate == 0) {
         return time;
     }
@@ -327,22 +287,16 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
     // -log r per bounce.
     const int digits = std::numeric_limits<T>::digits;
     constexpr int most_bounces = 200'000;
-    for (int bounces = 0;
-         digits * q_at_rest<theory>(leaving.block.slenderness) > bounces * leaving.q; ++bounces) {
+    for (int bounces = 0; digits * leaving.q_max > bounces * leaving.q; ++bounces) {
         if (bounces == most_bounces) {
-            return time + sum_on_both_sides<theory>(leaving, [](const Leaving<T>& one) -> T {
-                       return integral_of_half_periods<theory>(one.rate, one.q, one.block);
-                   });
+            return time + sum_on_both_sides(leaving, integral_of_half_periods<theory, T>);
         }
         const State<T> upright{.tilt = T(0), .rate = leaving.rate, .side = T(1)};
         const RockingArc<theory, T> arc(upright, leaving.block.slenderness, leaving.q);
         time += arc.time_to_impact() / leaving.block.pace;
-        leaving = leaving.template after_impact<theory>();
+        leaving = leaving.after_impact();
     }
-    return time + sum_on_both_sides<theory>(leaving, [](const Leaving<T>& one) -> T {
-               return sum_of_half_periods<theory>(one.rate, one.block.slenderness,
-                                                  one.block.restitution);
-           });
+    return time + sum_on_both_sides(leaving, sum_of_half_periods<theory, T>);
 }
 
 } // namespace overturn

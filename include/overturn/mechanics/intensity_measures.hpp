@@ -37,28 +37,23 @@ inline double fraction_of_interval(double first, double last, double e)
     return std::clamp(3 * e / (first * first + first * a + a * a), 0.0, 1.0);
 }
 
-/// The integral of a^2 over all intervals [the square of its unit, times the time step].
-inline double energy_of_samples(std::span<const double> a)
+/// The integral of a^2 up to each sample [the square of its unit, times the time step].
+inline std::vector<double> energies_at(std::span<const double> a)
 {
-    double energy = 0;
+    std::vector<double> energies(a.size());
     for (std::size_t i = 1; i < a.size(); ++i) {
-        energy += energy_of_interval(a[i - 1], a[i]);
+        energies[i] = energies[i - 1] + energy_of_interval(a[i - 1], a[i]);
     }
-    return energy;
+    return energies;
 }
 
-/// The time at which that integral reaches an energy above 0 [time step].
-inline double time_of_energy(std::span<const double> a, double energy)
+/// The time at which that integral reaches an energy above 0, at most that of all [time step].
+inline double time_of_energy(std::span<const double> a, const std::vector<double>& energies,
+                             double energy)
 {
-    double before = 0;
-    for (std::size_t i = 1; i < a.size(); ++i) {
-        const double within = energy_of_interval(a[i - 1], a[i]);
-        if (before + within >= energy) {
-            return double(i - 1) + fraction_of_interval(a[i - 1], a[i], energy - before);
-        }
-        before += within;
-    }
-    return double(a.size() - 1);
+    const auto reached = std::lower_bound(energies.begin(), energies.end(), energy);
+    const auto i = std::size_t(reached - energies.begin());
+    return double(i - 1) + fraction_of_interval(a[i - 1], a[i], energy - energies[i - 1]);
 }
 
 /// The peak of |v| at the samples, where v starts from rest and is not corrected [unit of a times
@@ -96,11 +91,13 @@ inline IntensityMeasures intensity_measures(std::span<const double> acceleration
     for (double& a : shape) {
         a /= measures.pga > 0 ? measures.pga : 1;
     }
-    if (const double energy = energy_of_samples(shape); energy > 0) {
+    const std::vector<double> energies = energies_at(shape);
+    if (const double energy = energies.empty() ? 0 : energies.back(); energy > 0) {
         measures.arias_intensity =
             std::numbers::pi / 2 * gravity * measures.pga * measures.pga * energy * time_step;
-        measures.significant_duration = time_step * (time_of_energy(shape, 0.95 * energy) -
-                                                     time_of_energy(shape, 0.05 * energy));
+        measures.significant_duration =
+            time_step * (time_of_energy(shape, energies, 0.95 * energy) -
+                         time_of_energy(shape, energies, 0.05 * energy));
     }
     return measures;
 }

@@ -21,12 +21,6 @@ struct LowBounces {
     double rate; ///< of |theta'| [rad]
 };
 
-/// What the ground does within a step of bound_of_low_bounces(), for a block on either side.
-struct PullsInStep {
-    std::array<double, 2> weakest; ///< the smallest pull towards the ground
-    std::array<double, 2> rise;    ///< the largest increase of the pull
-};
-
 /// A step of bound_of_low_bounces() on one side, in the letters of its equations.
 struct LowBounceStep {
     double duration; ///< [1/p]
@@ -35,10 +29,13 @@ struct LowBounceStep {
     double tangent; ///< tan(alpha)
     double size;    ///< R
     double growth = duration < 1 ? k * duration * duration : 1;
+    double weakest = 0; ///< g: the smallest pull towards the ground
+    double rise = 0;    ///< the largest increase of the pull
 
-    /// The largest tilt of a flight of the energy e under the pull g.
-    double height(double e, double g) const
+    /// The largest tilt of a flight of the energy e.
+    double height(double e) const
     {
+        const double& g = weakest;
         const double square = g * g - 2 * k * e;
         return g > 0 && square > 0 ? 2 * e / (g + std::sqrt(square)) : 2 * highest;
     }
@@ -62,22 +59,20 @@ struct LowBounceBounds {
 
     /// An energy that is not exceeded by the growth computed from it, and its largest tilt.
     std::optional<LowBounceBounds> after(const std::array<LowBounceStep, 2>& sides,
-                                         const PullsInStep& pulls, double lifting) const
+                                         double lifting) const
     {
         for (double guess = energy + std::numeric_limits<double>::min();; guess *= 1.01) {
             double bound = energy;
             double higher = 0;
-            for (const std::size_t i : {0, 1}) {
-                const LowBounceStep& side = sides[i];
+            for (const LowBounceStep& side : sides) {
                 const double e = guess / side.size;
-                const double here =
-                    std::min(side.tilt_after(e, tilt, lifting), side.height(e, pulls.weakest[i]));
+                const double here = std::min(side.tilt_after(e, tilt, lifting), side.height(e));
                 if (here > side.highest) {
                     return std::nullopt;
                 }
                 higher = std::max(higher, here);
-                bound = std::max(bound, energy + side.size * pulls.rise[i] * here *
-                                                     (1 + here * side.tangent));
+                bound = std::max(bound,
+                                 energy + side.size * side.rise * here * (1 + here * side.tangent));
             }
             if (bound <= guess) {
                 return LowBounceBounds{bound, higher};
@@ -121,7 +116,7 @@ std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const
                 .tangent = theory == Theory::linear ? 0 : std::tan(side.slenderness),
                 .size = side.size};
     };
-    const std::array<LowBounceStep, 2> sides{step_on(seen[0]), step_on(seen[1])};
+    std::array<LowBounceStep, 2> sides{step_on(seen[0]), step_on(seen[1])};
     for (const std::size_t i : {0, 1}) {
         if (most > 2 * uplift_acceleration<theory>(seen[i].slenderness) || sides[i].growth > 0.01) {
             return std::nullopt; // the push is too strong, or the step too long
@@ -139,15 +134,14 @@ std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const
     double rate = 0;
     while (phase < motion.end) {
         const double next = std::min(phase + step, motion.end_of_piece(phase));
-        PullsInStep pulls;
         for (const std::size_t i : {0, 1}) {
             const double first = pull(phase, i);
             const double last = pull(next, i);
-            pulls.weakest[i] = std::min(first, last) - between;
-            pulls.rise[i] = std::max(0.0, last - first) + 2 * between;
+            sides[i].weakest = std::min(first, last) - between;
+            sides[i].rise = std::max(0.0, last - first) + 2 * between;
         }
-        const double lifting = std::max(0.0, -std::min(pulls.weakest[0], pulls.weakest[1]));
-        const auto after = bounds.after(sides, pulls, lifting);
+        const double lifting = std::max(0.0, -std::min(sides[0].weakest, sides[1].weakest));
+        const auto after = bounds.after(sides, lifting);
         if (!after) {
             return std::nullopt;
         }

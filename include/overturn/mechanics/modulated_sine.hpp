@@ -29,17 +29,15 @@ struct ModulatedSine {
     template <Number T>
     T value(const T& phase) const
     {
-        using arithmetic::fma;
         const SineAndCosine<T> fast = oscillation(phase);
         const SineAndCosine<T> slow = sine_and_cosine_of_cycles(T(phase * T(q)));
-        return T(scale) * fma(T(S(1)) + slow.cosine, fast.sine, T(q) * slow.sine * fast.cosine);
+        return T(scale) * fma(T(1) + slow.cosine, fast.sine, T(q) * slow.sine * fast.cosine);
     }
 
     /// The first `count` Taylor coefficients in t of factor f(phase + rate t).
     template <int count, Number T>
     Coefficients<count, T> series(const T& factor, const T& phase, const T& rate) const
     {
-        using arithmetic::fma;
         const SineAndCosine<T> fast = oscillation(phase);
         const SineAndCosine<T> slow = sine_and_cosine_of_cycles(T(phase * T(q)));
         const auto harmonic = [&](const S& weight, const S& speed, const T& sine, const T& cosine) {
@@ -62,10 +60,15 @@ struct ModulatedSine {
     }
 
     /// |f''| is at most this [1].
-    S largest_curvature() const
+    S largest_curvature() const { return abs(scale) * (2 + 3 * q * q); }
+
+    /// The phase at which amplitude |f| reaches 1 between two phases without an extremum between
+    /// them.
+    S phase_at(const Flank<S>& flank, const S& amplitude) const
     {
-        using std::abs;
-        return abs(scale) * (2 + 3 * q * q);
+        const S towards_peak = value(flank.peak) < 0 ? S(-amplitude) : amplitude;
+        const auto excess = [&](const S& phase) -> S { return towards_peak * value(phase) - 1; };
+        return where_it_reaches_zero(excess, flank.foot, flank.peak);
     }
 
     /// The extremum close to this phase, by Newton's method [rad].
@@ -86,7 +89,6 @@ private:
     template <Number T>
     SineAndCosine<T> oscillation(const T& phase) const
     {
-        using arithmetic::fma;
         const auto [sine, cosine] = sine_and_cosine_of_cycles(phase);
         const T s(sine_of_nu);
         const T c(cosine_of_nu);

@@ -11,7 +11,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -25,72 +24,54 @@ struct Flank {
     S peak;
 };
 
-/// A formula without a kink.
-struct SmoothPulse {
-    /// Infinite: there is no kink [rad].
-    template <class S>
-    static S kink()
-    {
-        return std::numeric_limits<S>::infinity();
-    }
-};
-
 /// Type A, Eq. 48: one period of a sine. Its first half is the half-sine pulse.
-struct OneSine : SmoothPulse {
-    static constexpr int lobes = 2;
-
+struct OneSine {
     template <Number T>
     static T value(const T& phase)
     {
         return sine_and_cosine_of_period(phase).sine;
     }
     template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 2> flanks()
     {
         return {{{S(0), pi<S>() / 2}, {pi<S>(), 3 * pi<S>() / 2}}};
     }
-    /// The phase at which |f| reaches `level` on the flank.
+    /// The phase at which amplitude |f| reaches 1 on the flank.
     template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
+    static S phase_at(const Flank<S>& flank, const S& amplitude)
     {
-        using std::asin;
-        return flank.foot + asin(level);
+        return flank.foot + asin(S(1 / amplitude));
     }
 };
 
 /// Type B, Eq. 51: one period of a cosine.
-struct OneCosine : SmoothPulse {
-    static constexpr int lobes = 3;
-
+struct OneCosine {
     template <Number T>
     static T value(const T& phase)
     {
         return sine_and_cosine_of_period(phase).cosine;
     }
     template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 3> flanks()
     {
         return {{{-pi<S>() / 2, S(0)}, {pi<S>() / 2, pi<S>()}, {3 * pi<S>() / 2, 2 * pi<S>()}}};
     }
     template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
+    static S phase_at(const Flank<S>& flank, const S& amplitude)
     {
-        using std::acos;
-        return flank.peak - acos(level);
+        return flank.peak - acos(S(1 / amplitude));
     }
 };
 
 /// A constant acceleration.
-struct Rectangular : SmoothPulse {
-    static constexpr int lobes = 1;
-
+struct Rectangular {
     template <Number T>
     static T value(const T&)
     {
         return T(1);
     }
     template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 1> flanks()
     {
         return {{{S(0), S(0)}}};
     }
@@ -103,29 +84,22 @@ struct Rectangular : SmoothPulse {
 
 /// A triangle: f rises linearly from 0 to 1 at pi/2, and falls to 0 at pi.
 struct Triangular {
-    static constexpr int lobes = 1;
-
     template <Number T>
     static T value(const T& phase)
     {
         using S = scalar_t<T>;
         const T x = phase * T(2 / pi<S>());
-        return lesser<T>(x, T(S(2)) - x);
+        return lesser<T>(x, 2 - x);
     }
     template <class S>
-    static S kink()
-    {
-        return pi<S>() / 2;
-    }
-    template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 1> flanks()
     {
         return {{{S(0), pi<S>() / 2}}};
     }
     template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
+    static S phase_at(const Flank<S>& flank, const S& amplitude)
     {
-        return flank.foot + level * (flank.peak - flank.foot);
+        return flank.foot + 1 / amplitude * (flank.peak - flank.foot);
     }
 };
 
@@ -142,12 +116,12 @@ S where_it_reaches_zero(const Function& increasing, const S& low, const S& high)
 
 /// A wavelet, with one formula for all of its lobes.
 template <class Wavelet>
-struct RickerWavelet : SmoothPulse {
-    /// Searches between the ends of the flank, which must enclose the level.
+struct RickerWavelet {
+    /// Searches between the ends of the flank, which must enclose the phase.
     template <class S>
-    static S phase_at(const Flank<S>& flank, const S& level)
+    static S phase_at(const Flank<S>& flank, const S& amplitude)
     {
-        using std::abs;
+        const S level = 1 / amplitude;
         const auto excess = [&](const S& phase) -> S { return abs(Wavelet::value(phase)) - level; };
         return where_it_reaches_zero(excess, flank.foot, flank.peak);
     }
@@ -155,19 +129,15 @@ struct RickerWavelet : SmoothPulse {
 
 /// Eq. 53: f = (1 - 2 x^2) exp(-x^2), x = phase / 2.
 struct SymmetricRicker : RickerWavelet<SymmetricRicker> {
-    static constexpr int lobes = 3;
-
     template <Number T>
     static T value(const T& phase)
     {
-        using S = scalar_t<T>;
-        const T square = phase * phase * T(S(0.25));
-        return (T(S(1)) - (square + square)) * exponential_decay(square);
+        const T square = phase * phase * T(0.25);
+        return (1 - (square + square)) * exponential_decay(square);
     }
     template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 3> flanks()
     {
-        using std::sqrt;
         const S zero = sqrt(S(2));   // x^2 = 1/2
         const S trough = sqrt(S(6)); // x^2 = 3/2
         return {{{-std::numeric_limits<S>::max(), -trough}, {-zero, S(0)}, {zero, trough}}};
@@ -177,22 +147,18 @@ struct SymmetricRicker : RickerWavelet<SymmetricRicker> {
 /// Eq. 54: f = z (z^2 - 3) exp(-z^2/2) / 1.38, z = phase / sqrt(3). With the paper's 1.38, the peak
 /// is 1.000086.
 struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
-    static constexpr int lobes = 4;
-
     template <Number T>
     static T value(const T& phase)
     {
         using S = scalar_t<T>;
-        using std::sqrt;
         const T z = phase * T(sqrt(S(3)) / 3);
         const T square = z * z;
         const S scale = S(50) / 69; // 1 / 1.38
-        return T(scale) * z * (square - T(S(3))) * exponential_decay(T(square * T(S(0.5))));
+        return T(scale) * z * (square - 3) * exponential_decay(T(square * T(0.5)));
     }
     template <class S>
-    static std::array<Flank<S>, lobes> flanks()
+    static std::array<Flank<S>, 4> flanks()
     {
-        using std::sqrt;
         const S inner = sqrt(9 - 3 * sqrt(S(6))); // z^2 = 3 - sqrt 6
         const S outer = sqrt(9 + 3 * sqrt(S(6)));
         return {{{-std::numeric_limits<S>::max(), -outer},
@@ -204,14 +170,6 @@ struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
 
 template <class Pulse>
 inline constexpr bool is_wavelet = std::is_base_of_v<RickerWavelet<Pulse>, Pulse>;
-
-/// Calls `visit.template operator()<Wavelet>()` for the formula of this kind of wavelet.
-template <class Visitor>
-auto with_wavelet(PulseKind kind, const Visitor& visit)
-{
-    return kind == PulseKind::symmetric_ricker ? visit.template operator()<SymmetricRicker>()
-                                               : visit.template operator()<AntisymmetricRicker>();
-}
 
 /// Calls `visit.template operator()<Pulse>()` for the formula of this kind of pulse, or
 /// visit_modulated() if it is a ModulatedSine.

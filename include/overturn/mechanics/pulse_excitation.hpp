@@ -19,11 +19,11 @@ struct PulseExcitation {
     template <std::size_t count>
     std::array<T, count> ground(const std::array<T, count>& phases) const
     {
-        std::array<T, count> ground = motion.values(phases);
-        for (T& value : ground) {
-            value = acceleration * value;
-        }
-        return ground;
+        return motion.with_formula([&](const auto& formula) {
+            std::array<T, count> ground;
+            unrolled<count>([&]<int i>() { ground[i] = acceleration * formula.value(phases[i]); });
+            return ground;
+        });
     }
     T ground(const T& phase) const { return ground(std::array{phase})[0]; }
 
@@ -35,11 +35,7 @@ struct PulseExcitation {
     }
 
     /// An upper bound of |ground acceleration| over g [1].
-    T largest_acceleration() const
-    {
-        using std::abs;
-        return abs(acceleration);
-    }
+    T largest_acceleration() const { return abs(acceleration); }
 
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
     /// uplift `latest` [rad]; infinite if there is none.
@@ -60,26 +56,25 @@ struct ScaledPulse {
     PerLobe<S> uplifts; ///< [rad]
 };
 
-/// slenderness: of the sides plus and minus [rad]. amplitude: a = a_p / (g tan alpha), linear
-/// theory a_p / (g alpha) [1], with the smaller alpha; negative: the mirrored pulse.
+/// block: as seen from its side plus. amplitude: a = a_p / (g tan alpha), linear theory
+/// a_p / (g alpha) [1], with the smaller alpha; negative: the mirrored pulse.
 template <Theory theory, class S>
 ScaledPulse<S> scaled_pulse(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
-                            const S& plus, const S& minus, const S& amplitude)
+                            const Block<S>& block, const S& amplitude)
 {
-    using std::abs;
-    const S least = uplift_acceleration<theory>(plus < minus ? plus : minus);
-    const S acceleration = amplitude * least;
+    const S& plus = block.slenderness;
+    const S& minus = block.other.slenderness;
+    const S acceleration = amplitude * uplift_acceleration<theory>(lesser<S>(plus, minus));
     const auto over_uplift = [&](const S& alpha, const S& other) -> S {
         return alpha > other ? S(abs(acceleration) / uplift_acceleration<theory>(alpha))
                              : S(abs(amplitude));
     };
-    const S to_plus = over_uplift(plus, minus);
-    const S to_minus = over_uplift(minus, plus);
     // A positive ground acceleration pushes the block towards its side minus.
-    const bool is_mirrored = amplitude < 0;
-    return {acceleration,
-            uplift_phases(motion, flanks,
-                          {is_mirrored ? to_plus : to_minus, is_mirrored ? to_minus : to_plus})};
+    LobeAmplitudes<S> lobes{over_uplift(minus, plus), over_uplift(plus, minus)};
+    if (amplitude < 0) {
+        std::swap(lobes.positive, lobes.negative);
+    }
+    return {acceleration, uplift_phases(motion, flanks, lobes)};
 }
 
 /// The excitation of a block, as seen from its side plus. amplitude: see scaled_pulse(); frequency:
@@ -88,8 +83,7 @@ template <Theory theory, class S>
 PulseExcitation<S> pulse_excitation(const PulseMotion<S>& motion, const Block<S>& block,
                                     const S& amplitude, const S& frequency)
 {
-    const ScaledPulse<S> scaled = scaled_pulse<theory>(motion, flanks_of(motion), block.slenderness,
-                                                       block.other.slenderness, amplitude);
+    const ScaledPulse<S> scaled = scaled_pulse<theory>(motion, flanks_of(motion), block, amplitude);
     return {motion, scaled.acceleration, frequency, scaled.uplifts};
 }
 

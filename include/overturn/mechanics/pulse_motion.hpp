@@ -60,17 +60,6 @@ struct PulseMotion {
         return select<T>(phase < T(kink), T(kink), T(end));
     }
 
-    /// f at each of these phases.
-    template <std::size_t count, Number T>
-    std::array<T, count> values(const std::array<T, count>& phases) const
-    {
-        return with_formula([&](const auto& formula) {
-            std::array<T, count> f;
-            unrolled<count>([&]<int i>() { f[i] = formula.value(phases[i]); });
-            return f;
-        });
-    }
-
     /// The first `count` Taylor coefficients in t of scale f(phase + rate t), on the smooth piece
     /// that contains or begins at the phase `on`; scale [1], phases [rad], rate [rad per unit of
     /// t].
@@ -106,7 +95,6 @@ struct PulseMotion {
         return monotone;
     }
 
-    static constexpr bool may_be_wavelet = true;
     bool is_wavelet() const { return form == PulseForm::wavelet; }
     S pieces() const { return S(0); } ///< too few to raise the step limit
 
@@ -124,9 +112,9 @@ private:
         if (form == PulseForm::modulated) {
             return sine.template series<count>(scale, phase, rate);
         }
-        return with_wavelet(pulse, [&]<class Wavelet>() {
-            return wavelet_series<Wavelet, count>(scale, phase, rate);
-        });
+        return pulse == PulseKind::symmetric_ricker
+                   ? wavelet_series<PulseKind::symmetric_ricker, count>(scale, phase, rate)
+                   : wavelet_series<PulseKind::antisymmetric_ricker, count>(scale, phase, rate);
     }
 };
 
@@ -134,8 +122,6 @@ private:
 template <class S>
 ModulatedSine<S> modulated_sine(PulseKind pulse, const PulseShape& shape)
 {
-    using std::cos;
-    using std::sin;
     const S half = S(1) / 2;
     return pulse == PulseKind::sine ? ModulatedSine<S>{half, S(0), S(0), S(1)}
            : pulse == PulseKind::cosine
@@ -147,7 +133,6 @@ ModulatedSine<S> modulated_sine(PulseKind pulse, const PulseShape& shape)
 template <class S>
 void find_peaks(PulseMotion<S>& motion, const PulseShape& shape)
 {
-    using std::abs;
     motion.sine = modulated_sine<S>(motion.pulse, shape);
     std::vector<double> extrema;
     append_extrema(modulated_sine<double>(motion.pulse, shape), double(motion.begin),
@@ -165,8 +150,7 @@ void find_peaks(PulseMotion<S>& motion, const PulseShape& shape)
     const auto highest = [&] {
         S value(0);
         for (const S& peak : motion.peaks) {
-            const S height = abs(motion.sine.value(peak));
-            value = height > value ? height : value;
+            value = greater<S>(abs(motion.sine.value(peak)), value);
         }
         return value;
     };
@@ -186,21 +170,17 @@ PulseMotion<S> pulse_motion(PulseKind pulse, const PulseShape& shape = {})
                   : has_number(pulse, &PulseShape::cycles) ? 2 * pi<S>() * S(shape.cycles)
                   : is_centred                             ? pi<S>() * S(shape.gamma)
                                                            : traits_of(pulse).half_turns * pi<S>();
+    const S begin = is_centred ? S(-end) : S(0);
     PulseMotion<S> motion{.pulse = pulse,
                           .form = form,
-                          .begin = is_centred ? S(-end) : S(0),
+                          .begin = begin,
                           .end = end,
-                          .kink = is_centred ? S(-end) : S(0),
+                          .kink = pulse == PulseKind::triangular ? S(pi<S>() / 2) : begin,
                           .fastest = S(form == PulseForm::linear ? 0 : 1),
                           .sine = {},
                           .peaks = {}};
     const auto add_peaks = [&]<class Pulse>() {
-        static_assert(Pulse::lobes <= most_lobes);
-        if (Pulse::template kink<S>() < end) {
-            motion.kink = Pulse::template kink<S>();
-        }
-        const auto flanks = Pulse::template flanks<S>();
-        for (const Flank<S>& flank : flanks) {
+        for (const Flank<S>& flank : Pulse::template flanks<S>()) {
             motion.peaks.push_back(flank.peak);
         }
     };
@@ -216,43 +196,25 @@ struct LobeAmplitudes {
     S negative;
 };
 
-/// uplift_phases() of a ModulatedSine, which is monotone between two peaks.
-template <class S>
-PerLobe<S> uplift_phases_by_peaks(const PulseMotion<S>& motion, const LobeAmplitudes<S>& amplitudes)
-{
-    PerLobe<S> result;
-    S from = motion.begin;
-    for (const S& peak : motion.peaks) {
-        const S towards_peak =
-            motion.sine.value(peak) < 0 ? S(-amplitudes.negative) : amplitudes.positive;
-        const auto excess = [&](const S& phase) -> S {
-            return towards_peak * motion.sine.value(phase) - 1;
-        };
-        const bool lifts_before = from < peak && excess(from) > 0;
-        result.push_back(!(excess(peak) > 0) || lifts_before ? std::numeric_limits<S>::infinity()
-                         : from < peak ? where_it_reaches_zero(excess, from, peak)
-                                       : peak);
-        from = peak;
-    }
-    return result;
-}
-
 /// The part of a flank within the pulse, with |f| at its ends.
 template <class S>
 struct FlankInPulse {
     Flank<S> flank;
-    S foot_height = S(0);     ///< [1]
+    S foot_height = S(0);     ///< negative if f has the other sign than at the peak [1]
     S peak_height = S(0);     ///< 0 if the flank is outside the pulse [1]
     bool is_negative = false; ///< the sign of f at the peak
+    /// The uplift of a block that is lifted at the foot: the foot, or infinite if it was lifted
+    /// before [rad].
+    S uplift_at_foot = flank.foot;
 };
 
-/// The flanks of a pulse; none of a ModulatedSine.
+/// The flanks of a pulse. Those of a ModulatedSine, which is monotone between two peaks, are all
+/// that is between them.
 template <class S>
 PerLobe<FlankInPulse<S>> flanks_of(const PulseMotion<S>& motion)
 {
-    using std::abs;
-    const auto within_pulse = [&]<class Pulse>() {
-        PerLobe<FlankInPulse<S>> result;
+    PerLobe<FlankInPulse<S>> result;
+    const auto of_formula = [&]<class Pulse>() {
         const auto flanks = Pulse::template flanks<S>();
         for (std::size_t i = 0; i < flanks.size(); ++i) {
             const Flank<S>& whole = flanks[i];
@@ -271,9 +233,22 @@ PerLobe<FlankInPulse<S>> flanks_of(const PulseMotion<S>& motion)
             }
             result.push_back(part);
         }
-        return result;
     };
-    return with_pulse(motion.pulse, within_pulse, [] { return PerLobe<FlankInPulse<S>>(); });
+    const auto between_peaks = [&] {
+        S foot = motion.begin;
+        for (const S& peak : motion.peaks) {
+            const bool is_negative = motion.sine.value(peak) < 0;
+            const S sign(is_negative ? -1 : 1);
+            result.push_back({{foot, peak},
+                              sign * motion.sine.value(foot),
+                              sign * motion.sine.value(peak),
+                              is_negative,
+                              foot < peak ? std::numeric_limits<S>::infinity() : peak});
+            foot = peak;
+        }
+    };
+    with_pulse(motion.pulse, of_formula, between_peaks);
+    return result;
 }
 
 /// The largest values of f and of -f; 0 if they are not positive [1].
@@ -281,18 +256,9 @@ template <class S>
 LobeAmplitudes<S> largest_lobes(const PulseMotion<S>& motion)
 {
     LobeAmplitudes<S> largest{S(0), S(0)};
-    const auto note = [&](bool is_negative, const S& height) {
-        S& most = is_negative ? largest.negative : largest.positive;
-        most = height > most ? height : most;
-    };
     for (const FlankInPulse<S>& part : flanks_of(motion)) {
-        note(part.is_negative, part.peak_height);
-    }
-    if (motion.form == PulseForm::modulated) {
-        for (const S& peak : motion.peaks) {
-            const S value = motion.sine.value(peak);
-            note(value < 0, value < 0 ? S(-value) : value);
-        }
+        S& most = part.is_negative ? largest.negative : largest.positive;
+        most = greater<S>(part.peak_height, most);
     }
     return largest;
 }
@@ -304,24 +270,17 @@ template <class S>
 PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
                          const LobeAmplitudes<S>& amplitudes)
 {
-    const auto by_flanks = [&]<class Pulse>() {
+    return motion.with_formula([&](const auto& formula) {
         PerLobe<S> result;
-        for (const auto& [flank, foot_height, peak_height, is_negative] : flanks) {
-            const S& amplitude = is_negative ? amplitudes.negative : amplitudes.positive;
-            result.push_back(!(amplitude * peak_height > 1) ? std::numeric_limits<S>::infinity()
-                             : amplitude * foot_height > 1
-                                 ? flank.foot
-                                 : Pulse::phase_at(flank, S(S(1) / amplitude)));
+        for (const FlankInPulse<S>& part : flanks) {
+            const S& amplitude = part.is_negative ? amplitudes.negative : amplitudes.positive;
+            result.push_back(
+                !(amplitude * part.peak_height > 1) ? std::numeric_limits<S>::infinity()
+                : amplitude * part.foot_height > 1  ? part.uplift_at_foot
+                                                    : formula.phase_at(part.flank, amplitude));
         }
         return result;
-    };
-    return with_pulse(motion.pulse, by_flanks,
-                      [&] { return uplift_phases_by_peaks(motion, amplitudes); });
-}
-template <class S>
-PerLobe<S> uplift_phases(const PulseMotion<S>& motion, const S& amplitude)
-{
-    return uplift_phases(motion, flanks_of(motion), {amplitude, amplitude});
+    });
 }
 
 } // namespace overturn

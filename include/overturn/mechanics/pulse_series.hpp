@@ -1,5 +1,5 @@
-// Taylor coefficients in t of the pulses f(phase + rate t), computed by recurrences. Their values
-// are in pulse.hpp.
+// Taylor coefficients in t of the pulses f(phase + rate t), computed by recurrences, and bounds of
+// the series and the tails of the Ricker wavelets. The values of the pulses are in pulse.hpp.
 #pragma once
 
 #include "overturn/mechanics/pulse.hpp"
@@ -26,11 +26,10 @@ Coefficients<count, T> harmonic_series(const Coefficients<2, T>& start, const T&
 template <int count, Number T>
 Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slope)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     const T linear = -(slope * z);
     const T quadratic = -(slope * slope);
-    Coefficients<count, T> g{scale * exponential_decay(T(z * z * T(S(0.5))))};
+    Coefficients<count, T> g{scale * exponential_decay(T(z * z * T(0.5)))};
     g[1] = linear * g[0];
     unrolled<count - 2>(
         [&]<int k>() { g[k + 2] = fma(linear, g[k + 1], quadratic * g[k]) * T(S(1) / (k + 2)); });
@@ -41,7 +40,6 @@ Coefficients<count, T> gaussian_series(const T& scale, const T& z, const T& slop
 template <std::size_t count, std::size_t terms, Number T>
 std::array<T, count> product(const std::array<T, terms>& p, const std::array<T, count>& g)
 {
-    using arithmetic::fma;
     std::array<T, count> f;
     for (std::size_t k = 0; k < count; ++k) {
         f[k] = p[0] * g[k];
@@ -61,13 +59,13 @@ Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate
 {
     using S = scalar_t<T>;
     if constexpr (std::same_as<Pulse, Rectangular>) {
-        return {scale, T(S(0))};
+        return {scale, T(0)};
     } else if constexpr (std::same_as<Pulse, Triangular>) {
         const T slope(2 / pi<S>());
-        const mask_t<T> rises = on < T(Triangular::kink<S>());
+        const mask_t<T> rises = on < T(pi<S>() / 2);
         const T x = phase * slope;
         const T steep = scale * rate * slope;
-        return {scale * select<T>(rises, x, T(S(2)) - x), select<T>(rises, steep, -steep)};
+        return {scale * select<T>(rises, x, 2 - x), select<T>(rises, steep, -steep)};
     } else {
         const auto [sine, cosine] = sine_and_cosine_of_period(phase);
         if constexpr (std::same_as<Pulse, OneCosine>) {
@@ -79,32 +77,62 @@ Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate
     }
 }
 
+/// The wavelet is the m-th derivative of a Gaussian of z = phase / sqrt(m), scaled.
+constexpr int derivative_of_gaussian(PulseKind wavelet)
+{
+    return wavelet == PulseKind::symmetric_ricker ? 2 : 3;
+}
+
 /// The first `count` Taylor coefficients in t of scale f(phase + rate t) for a wavelet f.
-template <class Wavelet, int count, Number T>
+template <PulseKind wavelet, int count, Number T>
 Coefficients<count, T> wavelet_series(const T& scale, const T& phase, const T& rate)
 {
-    using arithmetic::fma;
-    using std::sqrt;
     using S = scalar_t<T>;
-    static_assert(is_wavelet<Wavelet>);
-    if constexpr (std::same_as<Wavelet, SymmetricRicker>) {
-        // With z = phase / sqrt 2, x^2 = z^2 / 2 and 1 - 2 x^2 = 1 - z^2.
-        const T to_z(sqrt(S(2)) / 2);
-        const T z = phase * to_z;
-        const T slope = rate * to_z;
-        const std::array<T, 3> p{fma(-z, z, T(S(1))), z * slope * T(S(-2)), -(slope * slope)};
+    constexpr int m = derivative_of_gaussian(wavelet);
+    const T to_z(sqrt(S(m)) / m);
+    const T z = phase * to_z;
+    const T slope = rate * to_z;
+    if constexpr (wavelet == PulseKind::symmetric_ricker) {
+        // x^2 = z^2 / 2 and 1 - 2 x^2 = 1 - z^2.
+        const std::array<T, 3> p{fma(-z, z, T(1)), z * slope * -2, -(slope * slope)};
         return product(p, gaussian_series<count>(scale, z, slope));
     } else {
         // z (z^2 - 3) increases by 3 (z^2 - 1) slope t + 3 z slope^2 t^2 + slope^3 t^3.
-        const T to_z(sqrt(S(3)) / 3);
-        const T z = phase * to_z;
-        const T slope = rate * to_z;
-        const T three(S(3));
         const T square = z * z;
-        const std::array<T, 4> p{z * (square - three), three * slope * (square - T(S(1))),
-                                 three * z * slope * slope, slope * slope * slope};
+        const std::array<T, 4> p{z * (square - 3), 3 * slope * (square - 1), 3 * z * slope * slope,
+                                 slope * slope * slope};
         return product(p, gaussian_series<count>(T(scale * T(S(50) / 69)), z, slope));
     }
+}
+
+/// The phase [rad] after which |f| of a wavelet stays below 2^log2_level, to within a percent; at
+/// least 6 sqrt(2). With z = phase / sqrt m, |f| <= z^3 exp(-z^2 / 2).
+template <Number T>
+T end_of_tail(PulseKind wavelet, const T& log2_level)
+{
+    T square(100); // z^2 = 2 ln (z^3 / level), by iteration
+    for (int i = 0; i < 4; ++i) {
+        square = (rough_log2(square) * T(1.5) - log2_level) * T(2 * std::numbers::ln2);
+        square = greater<T>(square, 36);
+    }
+    return sqrt(square * derivative_of_gaussian(wavelet));
+}
+
+/// An upper bound q of the ratio of successive terms of a wavelet's series: if |f[k] t^k| is at
+/// most M / q for k = count - 2 and at most M for k = count - 1, the j-th term after these is at
+/// most M q^j. From the recurrence for the m-th derivative of a Gaussian at z, x = slope t:
+///
+///     k f[k] t^k = -z x f[k-1] t^(k-1) - x^2 (1 + m / (k - 1)) f[k-2] t^(k-2)
+///
+/// phase, step = rate t [rad].
+template <int count, Number T>
+T following_ratio(PulseKind wavelet, const T& phase, const T& step)
+{
+    using S = scalar_t<T>;
+    const int m = derivative_of_gaussian(wavelet); // and z = phase / sqrt(m)
+    const T linear = abs(phase) * step * T(S(1) / m);
+    const T square = step * step * T(S(4 * count) / m * (S(1) + S(m) / (count - 1)));
+    return (linear + sqrt(fma(linear, linear, square))) * T(S(1) / (2 * count));
 }
 
 } // namespace overturn

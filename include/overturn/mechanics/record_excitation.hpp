@@ -5,7 +5,6 @@
 #include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/block.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -17,9 +16,6 @@ struct RecordMotion {
     S begin; ///< phases at which the ground motion begins and ends [samples]
     S end;
 
-    static constexpr bool may_be_wavelet = false;
-    static constexpr bool is_wavelet() { return false; }
-
     /// The number of smooth pieces.
     S pieces() const { return end; }
 
@@ -27,7 +23,6 @@ struct RecordMotion {
     template <Number T>
     T sample_before(const T& phase) const
     {
-        using std::floor;
         const T last(end - S(1));
         return lesser<T>(greater<T>(T(floor(phase)), T(begin)), last);
     }
@@ -36,7 +31,7 @@ struct RecordMotion {
     template <Number T>
     T end_of_piece(const T& phase) const
     {
-        return sample_before(phase) + T(S(1));
+        return sample_before(phase) + T(1);
     }
 
     /// Per lane: whether the accelerations have no extremum between these phases.
@@ -60,8 +55,7 @@ enum class Directions { horizontal, both };
 template <Number T, Directions directions>
 struct RecordExcitation {
     using S = scalar_t<T>;
-    using Push =
-        std::conditional_t<directions == Directions::both, LinearPushAndGravity<T>, LinearPush<T>>;
+    using Push = std::conditional_t<directions == Directions::both, Ground<Ramp<T>>, Ramp<T>>;
 
     RecordMotion<S> motion;
     T acceleration; ///< the factor on the record [1]; negative: mirrored. Named as that of a pulse
@@ -70,10 +64,7 @@ struct RecordExcitation {
     T to_minus;
 
     /// What the ground does at this phase: T, or Ground<T> with a vertical motion.
-    auto ground(const T& phase) const
-    {
-        return series<1>(acceleration, phase, T(S(1))).at(T(S(0)));
-    }
+    auto ground(const T& phase) const { return series<1>(acceleration, phase, T(1)).at(T(0)); }
 
     /// The push on the interval that contains or begins at the phase: the horizontal acceleration
     /// times `towards`, the factor on the record with the sign of the side, over time from the
@@ -90,30 +81,27 @@ struct RecordExcitation {
         };
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
         if constexpr (directions == Directions::both) {
-            using std::abs;
             if (motion.record->upwards().empty()) { // outside the kernels, compiled only for both
-                return {horizontal, {T(S(1)), T(S(0))}};
+                return {horizontal, {T(1), T(0)}};
             }
             Ramp<T> gravity = ramp_of(motion.record->upwards(), T(abs(acceleration)));
-            gravity.start = T(S(1)) + gravity.start;
+            gravity.start = 1 + gravity.start;
             return {horizontal, gravity};
         } else {
-            return {horizontal};
+            return horizontal;
         }
     }
 
     /// An upper bound of the acceleration of the ground over g, in both directions [1].
     T largest_acceleration() const
     {
-        using std::abs;
         return abs(acceleration) * T(S(motion.record->peak()) + S(motion.record->upwards_peak()));
     }
 
     /// An upper bound of the gravity over g [1].
     T strongest_gravity() const
     {
-        using std::abs;
-        return T(S(1)) + abs(acceleration) * T(S(motion.record->upwards_peak()));
+        return 1 + abs(acceleration) * T(S(motion.record->upwards_peak()));
     }
 
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
@@ -121,12 +109,8 @@ struct RecordExcitation {
     /// not be lifting the block at `phase`.
     T next_uplift(const mask_t<T>& lanes, const T& phase, const T& latest) const
     {
-        using std::abs;
-        using std::ceil;
-        const T zero(S(0));
-        const T one(S(1));
         const T scale = abs(acceleration);
-        const auto resting = lanes_of(select<T>(lanes, one, zero));
+        const auto resting = lanes_of(select<T>(lanes, 1, 0));
         const auto first = lanes_of(T(ceil(phase)));
         const auto factors = lanes_of(acceleration);
         const auto plus = lanes_of(to_plus);
@@ -143,32 +127,32 @@ struct RecordExcitation {
         const T sample = load<T>(lifting.data());
         const mask_t<T> lifts = lanes && sample <= T(motion.end);
         // The excess over the threshold, which is linear on the interval before the sample.
-        const T before = greater<T>(select<T>(lifts, sample, one) - one, zero);
-        const T there = select<T>(lifts, sample, one);
+        const T there = select<T>(lifts, sample, 1);
+        const T before = greater<T>(there - 1, 0);
         const T peak = gathered<T>(motion.record->horizontal().data(), there);
-        const T towards = select<T>(peak < zero, -scale, scale);
+        const T towards = select<T>(peak < 0, -scale, scale);
         // A positive acceleration of the ground pushes the block towards minus.
-        const T threshold = select<T>(peak * acceleration < zero, to_plus, to_minus);
+        const T threshold = select<T>(peak * acceleration < 0, to_plus, to_minus);
         const auto excess = [&](const T& number) -> T {
             T needed = threshold;
             if constexpr (directions == Directions::both) {
                 if (!motion.record->upwards().empty()) {
                     const T v = gathered<T>(motion.record->upwards().data(), number);
-                    needed = threshold * (one + scale * v);
+                    needed = threshold * (1 + scale * v);
                 }
             }
             return towards * gathered<T>(motion.record->horizontal().data(), number) - needed;
         };
         const T low = excess(before);
         const T high = excess(there);
-        const mask_t<T> crosses = low < zero && high > low;
-        const T share = select<T>(crosses, -low, zero) / select<T>(crosses, high - low, one);
-        const T reached = select<T>(sample == zero, zero, before + lesser<T>(share, one));
+        const mask_t<T> crosses = low < 0 && high > low;
+        const T share = select<T>(crosses, -low, 0) / select<T>(crosses, high - low, 1);
+        const T reached = select<T>(sample == 0, 0, before + lesser<T>(share, 1));
         const T earliest = greater<T>(reached, phase);
         // Rounding must not lift the block at the same phase again.
-        const T previous = greater<T>(latest, -one);
+        const T previous = greater<T>(latest, -1);
         const T after_latest =
-            previous + T(std::numeric_limits<S>::epsilon()) * (one + abs(previous));
+            previous + T(std::numeric_limits<S>::epsilon()) * (1 + abs(previous));
         const T uplift = select<T>(earliest > latest, earliest, after_latest);
         return select<T>(lifts, uplift, T(std::numeric_limits<S>::infinity()));
     }

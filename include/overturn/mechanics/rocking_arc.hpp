@@ -5,10 +5,8 @@
 
 #include "overturn/mechanics/block.hpp"
 
-#include <boost/math/constants/constants.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -41,42 +39,32 @@ public:
     RockingArc(const State<T>& begin, const T& slenderness, const T& q)
         : slenderness_(slenderness), q_(q), side_(begin.side)
     {
-        using std::abs;
-        using std::sqrt;
         const T y = slenderness - begin.tilt;
         const T gained = square_gained(begin.tilt) + begin.rate * begin.rate;
         impact_speed_ = gained > 0 ? T(sqrt(gained)) : T(0);
         const T inward = -begin.rate;
-        const T one(1);
         root_ = sqrt(abs(q));
-        if constexpr (theory == Theory::nonlinear) {
+        scale_ = root_;
+        if (!is_linear) {
             m_ = q > 0 ? T(q / 4) : T(-q / (4 - q));
             scale_ = q > 0 ? T(sqrt(m_ / (1 - m_))) : T(sqrt(m_));
-            omega_ = q > 0 ? one : T(sqrt(1 - q / 4));
-        } else {
-            m_ = T(0);
-            scale_ = root_;
-            omega_ = one;
+            omega_ = q > 0 ? T(1) : T(sqrt(1 - q / 4));
         }
         if (turns()) {
-            direction_ = y < 0 ? -one : one;
-            sinh_begin_ = direction_ * inward / (root_ * cosine(y));
+            direction_ = y < 0 ? -1 : 1;
+            after_origin_ = elapsed(direction_ * inward / (root_ * cosine(y)));
         } else if (passes()) {
-            direction_ = inward < 0 ? -one : one;
-            sinh_begin_ = direction_ * measure(y) / scale_;
+            direction_ = inward < 0 ? -1 : 1;
+            after_origin_ = elapsed(direction_ * measure(y) / scale_);
         } else {
-            direction_ = (y < 0) == (inward < 0) ? one : -one; // away from the top or towards it
+            direction_ = (y < 0) == (inward < 0) ? 1 : -1; // away from the top or towards it
             begin_ = y;
         }
-        after_origin_ = q == 0 ? T(0) : elapsed(sinh_begin_);
     }
 
     /// The state at `time` after the beginning, which must not exceed the time to impact or fall.
     State<T> at(const T& time) const
     {
-        using std::cosh;
-        using std::exp;
-        using std::sinh;
         if (!turns() && !passes()) {
             const T y = from_quarter(quarter(begin_) * exp(direction_ * time));
             return {.tilt = slenderness_ - y,
@@ -93,7 +81,6 @@ public:
     /// The time until the block strikes the ground; infinite if it does not.
     T time_to_impact() const
     {
-        using std::log;
         const T never = std::numeric_limits<T>::infinity();
         if (turns() || passes()) {
             return direction_ > 0 ? T(elapsed(sinh_at_impact()) - after_origin_) : never;
@@ -105,12 +92,11 @@ public:
     /// The time until |theta| = pi/2; infinite if it is not reached.
     T time_to_fall() const
     {
-        using std::log;
         const T never = std::numeric_limits<T>::infinity();
         if (turns() || passes()) {
             return direction_ < 0 ? T(elapsed(sinh_where_flat()) - after_origin_) : never;
         }
-        const T flat = slenderness_ - half_pi();
+        const T flat = slenderness_ - pi<T>() / 2;
         return direction_ > 0 && begin_ < 0 ? T(log(quarter(flat) / quarter(begin_))) : never;
     }
 
@@ -124,67 +110,25 @@ private:
     bool turns() const { return q_ > 0; }
     bool passes() const { return q_ < 0; }
 
-    static T half_pi() { return boost::math::constants::half_pi<T>(); }
+    static constexpr bool is_linear = theory == Theory::linear;
 
-    /// The value of a function in the nonlinear theory, its argument in the linear theory.
-    template <class Value>
-    static T in_theory(const T& argument, const Value& nonlinear)
-    {
-        if constexpr (theory == Theory::linear) {
-            return argument;
-        } else {
-            return nonlinear();
-        }
-    }
+    /// tan(y/2) and its inverse; cos(y/2). In the linear theory, y and 1.
+    static T measure(const T& y) { return is_linear ? y : T(tan(y / 2)); }
+    static T from_measure(const T& measure) { return is_linear ? measure : T(2 * atan(measure)); }
+    static T cosine(const T& y) { return is_linear ? T(1) : T(cos(y / 2)); }
 
-    /// tan(y/2) and its inverse; cos(y/2).
-    static T measure(const T& y)
-    {
-        using std::tan;
-        return in_theory(y, [&] { return T(tan(y / 2)); });
-    }
-    static T from_measure(const T& measure)
-    {
-        using std::atan;
-        return in_theory(measure, [&] { return T(2 * atan(measure)); });
-    }
-    static T cosine(const T& y)
-    {
-        using std::cos;
-        if constexpr (theory == Theory::linear) {
-            return T(1);
-        } else {
-            return cos(y / 2);
-        }
-    }
-
-    /// On the separatrix: tan(y/4), which is exponential in time; its inverse; |y'|.
-    static T quarter(const T& y)
-    {
-        using std::tan;
-        return in_theory(y, [&] { return T(tan(y / 4)); });
-    }
-    static T from_quarter(const T& quarter)
-    {
-        using std::atan;
-        return in_theory(quarter, [&] { return T(4 * atan(quarter)); });
-    }
-    static T speed_on_separatrix(const T& y)
-    {
-        using std::sin;
-        return in_theory(y, [&] { return T(2 * sin(y / 2)); });
-    }
+    /// On the separatrix: tan(y/4), which is exponential in time; its inverse; |y'|. In the linear
+    /// theory, y.
+    static T quarter(const T& y) { return is_linear ? y : T(tan(y / 4)); }
+    static T from_quarter(const T& quarter) { return is_linear ? quarter : T(4 * atan(quarter)); }
+    static T speed_on_separatrix(const T& y) { return is_linear ? y : T(2 * sin(y / 2)); }
 
     /// The increase of the squared speed from this tilt to the ground,
     /// 4 sin^2(alpha/2) - 4 sin^2((alpha - tilt)/2) (Eq. 5), without cancellation.
     T square_gained(const T& tilt) const
     {
-        using std::sin;
-        if constexpr (theory == Theory::linear) {
-            return tilt * (2 * slenderness_ - tilt);
-        } else {
-            return 4 * sin(tilt / 2) * sin(slenderness_ - tilt / 2);
-        }
+        return is_linear ? T(tilt * (2 * slenderness_ - tilt))
+                         : T(4 * sin(tilt / 2) * sin(slenderness_ - tilt / 2));
     }
 
     T sinh_at_impact() const
@@ -195,8 +139,7 @@ private:
 
     T sinh_where_flat() const
     {
-        using std::sqrt;
-        const T y = half_pi() - slenderness_;
+        const T y = pi<T>() / 2 - slenderness_;
         const T rate = speed_on_separatrix(y);
         return turns() ? T(sqrt(rate * rate - q_) / (root_ * cosine(y))) : T(measure(y) / scale_);
     }
@@ -204,8 +147,7 @@ private:
     /// The time since the turn or the top.
     T elapsed(const T& sinh_s) const
     {
-        if constexpr (theory == Theory::linear) {
-            using std::asinh;
+        if constexpr (is_linear) {
             return asinh(sinh_s);
         } else {
             const T square = sinh_s * sinh_s;
@@ -219,11 +161,8 @@ private:
     /// squares an error below sqrt(epsilon).
     T amplitude_at(const T& since) const
     {
-        using std::abs;
-        using std::sinh;
-        using std::sqrt;
         T s = since * omega_;
-        if constexpr (theory == Theory::nonlinear) {
+        if constexpr (!is_linear) {
             const T close = sqrt(std::numeric_limits<T>::epsilon());
             constexpr int most = 64; // at most seven in practice
             for (int i = 0; i < most; ++i) {
@@ -242,9 +181,6 @@ private:
     /// to alpha.
     T tilt_at(const T& s) const
     {
-        using std::asinh;
-        using std::cosh;
-        using std::sinh;
         if (direction_ < 0) {
             return slenderness_ + from_measure(scale_ * (turns() ? cosh(s) : sinh(s)));
         }
@@ -252,24 +188,19 @@ private:
         const T sum = (at_impact + s) / 2;
         const T difference = (at_impact - s) / 2;
         const T apart = 2 * scale_ * sinh(difference) * (turns() ? sinh(sum) : cosh(sum));
-        if constexpr (theory == Theory::linear) {
-            return apart;
-        } else {
-            const T now = scale_ * (turns() ? cosh(s) : sinh(s));
-            return from_measure(apart / (1 + measure(slenderness_) * now));
-        }
+        const T now = scale_ * (turns() ? cosh(s) : sinh(s));
+        return is_linear ? apart : from_measure(apart / (1 + measure(slenderness_) * now));
     }
 
     T slenderness_;
     T q_;
     T side_;
-    T root_;      // sqrt |q|
-    T m_;         // see above
-    T scale_;     // M
-    T omega_;     // [p]
-    T direction_; // the sign above
+    T root_;         // sqrt |q|
+    T m_ = T(0);     // see above
+    T scale_;        // M
+    T omega_ = T(1); // [p]
+    T direction_;    // the sign above
     T impact_speed_;
-    T sinh_begin_ = T(0);
     T after_origin_ = T(0); // time at which the arc begins, measured from the turn or the top
     T begin_ = T(0);        // y at the beginning, if q = 0
 };

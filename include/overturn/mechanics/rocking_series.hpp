@@ -37,14 +37,13 @@ T coefficient(const std::array<T, count>& push)
 template <int k, Number T>
 T coefficient(const Ramp<T>& ramp)
 {
-    return k == 0 ? ramp.start : k == 1 ? ramp.slope : T(scalar_t<T>(0));
+    return k == 0 ? ramp.start : k == 1 ? ramp.slope : T(0);
 }
 
 /// The k-th coefficient of the product of a push, or a ramp, with a series; k > 0.
 template <int k, Number T, std::size_t count, std::size_t terms>
 T coefficient_of_product(const std::array<T, count>& push, const std::array<T, terms>& c)
 {
-    using arithmetic::fma;
     T sum = push[k] * c[0];
     unrolled<k - 1>([&]<int j>() { sum = fma(push[k - 1 - j], c[j + 1], sum); });
     return fma(push[0], c[k], sum);
@@ -52,7 +51,6 @@ T coefficient_of_product(const std::array<T, count>& push, const std::array<T, t
 template <int k, Number T, std::size_t terms>
 T coefficient_of_product(const Ramp<T>& ramp, const std::array<T, terms>& c)
 {
-    using arithmetic::fma;
     return fma(ramp.start, c[k], ramp.slope * c[k - 1]);
 }
 
@@ -60,7 +58,6 @@ template <int order, Number T, class Push>
 RockingSeries<order, T> linear_rocking_series(const T& tilt, const T& rate, const T& slenderness,
                                               const Push& push, const T& unit)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     const T square = unit * unit;
     const auto& horizontal = horizontal_of(push);
@@ -77,7 +74,7 @@ RockingSeries<order, T> linear_rocking_series(const T& tilt, const T& rate, cons
     } else {
         v[1] = square * (y - push_0);
     }
-    x[2] = v[1] * T(S(0.5));
+    x[2] = v[1] * T(0.5);
     unrolled<order - 1>([&]<int i>() {
         constexpr int k = i + 1;
         T pull = x[k];
@@ -96,13 +93,12 @@ template <int first, int last, int order, Number T>
 void extend(RockingSeries<order, T>& motion, Coefficients<order, T>& s, Coefficients<order, T>& c,
             const auto& push)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     auto& [x, v] = motion;
     unrolled<last - first>([&]<int i>() {
         constexpr int k = first + i;
-        T c_v(S(0));
-        T s_v(S(0));
+        T c_v(0);
+        T s_v(0);
         newest_last<k>([&]<int j>() {
             if constexpr (j == k / 2) { // the first term
                 c_v = v[j] * c[k - 1 - j];
@@ -128,8 +124,6 @@ template <int order, Number T, class Push>
 RockingSeries<order, T> nonlinear_rocking_series(const T& tilt, const T& rate, const T& slenderness,
                                                  const Push& push, const T& unit)
 {
-    using arithmetic::fma;
-    using S = scalar_t<T>;
     const T square = unit * unit;
     const T push_0 = coefficient<0>(horizontal_of(push));
     RockingSeries<order, T> motion; // returned without a copy
@@ -146,7 +140,7 @@ RockingSeries<order, T> nonlinear_rocking_series(const T& tilt, const T& rate, c
         s_0 = push.gravity.start * s_0;
     }
     v[1] = fma(-push_0, c[0], s_0);
-    x[2] = v[1] * T(S(0.5));
+    x[2] = v[1] * T(0.5);
     constexpr int full = std::min(full_terms<T, order + 1>, order);
     extend<1, full>(motion, s, c, push);
     if constexpr (full < order) {
@@ -184,7 +178,7 @@ RockingSeries<order, T> rocking_series(const T& tilt, const T& rate, const T& sl
 }
 
 template <int order, Number T>
-    requires(!std::same_as<T, estimate_t<T>>)
+    requires has_estimate<T>
 RockingSeries<order, estimate_t<T>> estimate_of(const RockingSeries<order, T>& series)
 {
     return {estimate_of(series.tilt), estimate_of(series.rate)};

@@ -17,34 +17,24 @@ struct Variation {
     T rate_by_rate; ///< [1]
     /// Error bound of rate_by_tilt [p]. The bound of the diagonal entries is `unsure` times `time`
     /// [1/p], that of tilt_by_rate is `unsure` times the square of `time`.
-    T unsure = T(scalar_t<T>(0));
-    T time = T(scalar_t<T>(0));
+    T unsure = T(0);
+    T time = T(0);
 };
 
 /// d(|theta|'') / d|theta| of Eq. 47 with y = alpha - |theta| and the push B:
 ///
 ///     k = cos y - B sin y          linear theory: 1
-template <Theory theory, Number T>
-T rocking_stiffness(const T& tilt, const T& slenderness, const T& push)
+///
+/// With a vertical motion, cos y (linear theory: 1) is multiplied by the gravity.
+template <Theory theory, Number T, class Push>
+T rocking_stiffness(const T& tilt, const T& slenderness, const Push& push)
 {
-    using arithmetic::fma;
+    const T gravity = gravity_of(push, T(1));
     if constexpr (theory == Theory::linear) {
-        return T(scalar_t<T>(1));
+        return gravity;
     } else {
         const auto [sine, cosine] = sine_and_cosine(T(slenderness - tilt));
-        return fma(-push, sine, cosine);
-    }
-}
-
-template <Theory theory, Number T>
-T rocking_stiffness(const T& tilt, const T& slenderness, const Ground<T>& push)
-{
-    using arithmetic::fma;
-    if constexpr (theory == Theory::linear) {
-        return push.gravity;
-    } else {
-        const auto [sine, cosine] = sine_and_cosine(T(slenderness - tilt));
-        return fma(-push.horizontal, sine, push.gravity * cosine);
+        return fma(-horizontal_of(push), sine, gravity * cosine);
     }
 }
 
@@ -60,10 +50,8 @@ inline constexpr double longest_variation = 12;
 template <Number T>
 Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T& end)
 {
-    using arithmetic::fma;
-    using std::abs;
     using S = scalar_t<T>;
-    const T one(S(1));
+    const T one(1);
     const T square = h * h;
     const T sixth = square * T(S(1) / 6);
     const T corner = square * square * T(S(1) / 24) * middle;
@@ -84,9 +72,9 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
     const T varies = abs(begin - middle) + abs(end - middle);
     return {.tilt_by_tilt = fma(corner, begin, fma(sixth, begin + two_middle, one)) + even,
             .tilt_by_rate = tilt_by_rate,
-            .rate_by_tilt = h * fma(T(S(0.5)) * sixth * middle, begin + end, fma(mean, odd, mean)),
+            .rate_by_tilt = h * fma(T(0.5) * sixth * middle, begin + end, fma(mean, odd, mean)),
             .rate_by_rate = fma(corner, end, fma(sixth, two_middle + end, one)) + even,
-            .unsure = tilt_by_rate * varies * fma(square, T(S(0.25)) * varies, T(S(1) / 32)),
+            .unsure = tilt_by_rate * varies * fma(square, T(0.25) * varies, T(S(1) / 32)),
             .time = h};
 }
 
@@ -100,9 +88,8 @@ template <Number T>
 Variation<T> variation_over_impact(const T& rate_ratio, const T& pace, const T& speed,
                                    const T& before, const T& after)
 {
-    using arithmetic::fma;
     return {.tilt_by_tilt = -(pace * rate_ratio),
-            .tilt_by_rate = T(scalar_t<T>(0)),
+            .tilt_by_rate = T(0),
             .rate_by_tilt = -fma(rate_ratio, before, pace * after) / speed,
             .rate_by_rate = -rate_ratio};
 }

@@ -15,7 +15,6 @@ using Digits50 =
 template <>
 struct number_traits<Digits50> : scalar_number_traits<Digits50> {
     static Digits50 pi() { return boost::math::constants::pi<Digits50>(); }
-    static Digits50 ln_two() { return boost::math::constants::ln_two<Digits50>(); }
 };
 
 } // namespace overturn

@@ -19,7 +19,7 @@
 namespace overturn {
 
 /// 1 / n! for n = 2, 3, ..., 21: the high and the low part.
-inline constexpr double inverse_factorials[][2] = {
+inline constexpr double inverse_factorials_in_two_parts[][2] = {
     {0x1p-1, 0x0p+0},
     {0x1.5555555555555p-3, 0x1.5555555555555p-57},
     {0x1.5555555555555p-5, 0x1.5555555555555p-59},
@@ -61,13 +61,6 @@ public:
     DoubleDouble(const DoubleDouble<Lane>& value) : high_(value.high()), low_(value.low())
     {}
 
-    static DoubleDouble select(const Mask& condition, const DoubleDouble& yes,
-                               const DoubleDouble& no)
-    {
-        return {overturn::select<D>(condition, yes.high_, no.high_),
-                overturn::select<D>(condition, yes.low_, no.low_)};
-    }
-
     explicit DoubleDouble(const D& high)
         requires(!std::same_as<D, double>)
         : high_(high), low_(0.0)
@@ -103,7 +96,6 @@ public:
     [[gnu::always_inline]] friend DoubleDouble operator*(const DoubleDouble& a,
                                                          const DoubleDouble& b)
     {
-        using arithmetic::fma;
         const DoubleDouble high = exact_product(a.high_, b.high_);
         const D low = fma(a.high_, b.low_, a.low_ * b.high_);
         return exact_sum_of_ordered(high.high_, high.low_ + low);
@@ -121,7 +113,6 @@ public:
     [[gnu::always_inline]] friend DoubleDouble fma(const DoubleDouble& a, const DoubleDouble& b,
                                                    const DoubleDouble& c)
     {
-        using arithmetic::fma;
         const DoubleDouble product = exact_product(a.high_, b.high_);
         const DoubleDouble sum = exact_sum(product.high_, c.high_);
         const D low = fma(a.high_, b.low_, fma(a.low_, b.high_, product.low_));
@@ -130,7 +121,6 @@ public:
 
     friend Mask operator==(const DoubleDouble& a, const DoubleDouble& b)
     {
-        using std::abs;
         return a.high_ == b.high_ &&
                (a.low_ == b.low_ || abs(a.high_) == D(std::numeric_limits<double>::infinity()));
     }
@@ -146,34 +136,33 @@ public:
     }
     friend Mask operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
 
-    friend DoubleDouble abs(const DoubleDouble& x) { return select(x.high_ < D(0.0), -x, x); }
+    friend DoubleDouble abs(const DoubleDouble& x)
+    {
+        return select<DoubleDouble>(x.high_ < D(0.0), -x, x);
+    }
     friend DoubleDouble floor(const DoubleDouble& x)
     {
-        using std::floor;
         const D high = floor(x.high_);
-        return select(high == x.high_, exact_sum_of_ordered(high, floor(x.low_)),
-                      DoubleDouble(high));
+        return select<DoubleDouble>(high == x.high_, exact_sum_of_ordered(high, floor(x.low_)),
+                                    DoubleDouble(high));
     }
     friend DoubleDouble ceil(const DoubleDouble& x) { return -floor(-x); }
     friend DoubleDouble sqrt(const DoubleDouble& x)
     {
-        using std::sqrt;
         const D root = sqrt(x.high_);
         const D rest = (x - exact_product(root, root)).high_;
-        return select(x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)),
-                      DoubleDouble(root));
+        return select<DoubleDouble>(
+            x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)), DoubleDouble(root));
     }
 
     /// To the accuracy of a double.
     friend DoubleDouble cbrt(const DoubleDouble& x) { return std::cbrt(x.high_); }
 
     /// sin x and cos x for |x| < 2^20 [rad]; the errors are below 1e-31.
-    static std::array<DoubleDouble, 2> of_angle(const DoubleDouble& x)
+    friend SineAndCosine<DoubleDouble> sine_and_cosine(const DoubleDouble& x)
     {
         // Reduced by multiples of pi/2 in three parts, of which the first two have so few bits that
         // their products are exact; then by a quarter of the rest, whose angle is doubled twice.
-        using std::floor;
-        using std::nearbyint;
         constexpr std::array half_pi{0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
         const D turns = nearbyint(x.high_ * D(0x1.45f306dc9c883p-1));
         const DoubleDouble rest =
@@ -184,19 +173,19 @@ public:
         const DoubleDouble cosine = cosine_less_one + DoubleDouble(1);
         const D quadrant = turns - D(4.0) * floor(turns * D(0.25));
         const Mask is_odd = quadrant == D(1.0) || quadrant == D(3.0);
-        const DoubleDouble of_sine = select(is_odd, cosine, sine);
-        const DoubleDouble of_cosine = select(is_odd, sine, cosine);
-        return {select(quadrant >= D(2.0), -of_sine, of_sine),
-                select(quadrant == D(1.0) || quadrant == D(2.0), -of_cosine, of_cosine)};
+        const DoubleDouble of_sine = select<DoubleDouble>(is_odd, cosine, sine);
+        const DoubleDouble of_cosine = select<DoubleDouble>(is_odd, sine, cosine);
+        return {
+            select<DoubleDouble>(quadrant >= D(2.0), -of_sine, of_sine),
+            select<DoubleDouble>(quadrant == D(1.0) || quadrant == D(2.0), -of_cosine, of_cosine)};
     }
 
     /// exp(-x) for 0 <= x <= 700; the relative error is below 1e-30 up to x = 600, where the low
     /// part is not yet subnormal.
-    static DoubleDouble decay(const DoubleDouble& x)
+    friend DoubleDouble exponential_decay(const DoubleDouble& x)
     {
         // exp(-x) = 2^-k exp(rest). ln 2 has three parts, as pi/2 above; a 32nd of the rest, at
         // most 0.011, is doubled five times.
-        using std::nearbyint;
         constexpr std::array ln_two{0x1.62e42fefa2p-1, 0x1.9ef35793c6p-41, 0x1.673007e5ed5e8p-81};
         const D k = nearbyint(x.high_ * D(0x1.71547652b82fep+0));
         const DoubleDouble rest =
@@ -232,13 +221,12 @@ private:
     }
     [[gnu::always_inline]] static DoubleDouble exact_product(const D& a, const D& b)
     {
-        using arithmetic::fma;
         const D product = a * b;
         return {product, fma(a, b, -product)};
     }
 
     /// sin x and cos x - 1 for |x| <= 0.2.
-    static std::array<DoubleDouble, 2> series_of_sine(const DoubleDouble& x)
+    static SineAndCosine<DoubleDouble> series_of_sine(const DoubleDouble& x)
     {
         const DoubleDouble minus_square = -(x * x);
         DoubleDouble sine = inverse_factorial(21);
@@ -254,12 +242,12 @@ private:
     /// 1 / n! for 2 <= n <= 21.
     [[gnu::always_inline]] static DoubleDouble inverse_factorial(int n)
     {
-        const auto& [high, low] = inverse_factorials[std::size_t(n - 2)];
+        const auto& [high, low] = inverse_factorials_in_two_parts[std::size_t(n - 2)];
         return {D(high), D(low)};
     }
 
     /// The sine, and the cosine less 1, of the double angle.
-    static std::array<DoubleDouble, 2> doubled(const std::array<DoubleDouble, 2>& of_half)
+    static SineAndCosine<DoubleDouble> doubled(const SineAndCosine<DoubleDouble>& of_half)
     {
         const auto& [sine, cosine_less_one] = of_half;
         const DoubleDouble product = sine * cosine_less_one;
@@ -277,16 +265,17 @@ template <class D>
 struct number_traits<DoubleDouble<D>> {
     using number = DoubleDouble<D>;
     using scalar = Digits31;
+    using estimate = D;
     using mask = mask_t<D>;
     static constexpr int lanes = lanes_v<D>;
     static number select(const mask& condition, const number& yes, const number& no)
     {
-        return number::select(condition, yes, no);
+        return {overturn::select<D>(condition, yes.high(), no.high()),
+                overturn::select<D>(condition, yes.low(), no.low())};
     }
     static number lesser(const number& a, const number& b) { return select(a < b, a, b); }
     static number greater(const number& a, const number& b) { return select(a > b, a, b); }
     static number pi() { return {D(0x1.921fb54442d18p+1), D(0x1.1a62633145c07p-53)}; }
-    static number ln_two() { return {D(0x1.62e42fefa39efp-1), D(0x1.abc9e3b39803fp-56)}; }
     static bool any(const mask& condition) { return overturn::any<D>(condition); }
     static number load(const scalar* from)
     {
@@ -315,17 +304,8 @@ struct number_traits<DoubleDouble<D>> {
         const auto [here, next] = overturn::gathered_pair<D>(from, index.high());
         return {number(here), number(next)};
     }
-    template <class Body>
-    static auto straight_line(const Body& body)
-    {
-        return body();
-    }
 };
 
-template <class D>
-struct estimate_traits<DoubleDouble<D>> {
-    using type = D;
-};
 template <class D>
 const D& estimate_of(const DoubleDouble<D>& x)
 {
@@ -337,36 +317,6 @@ std::array<D, count> estimate_of(const std::array<DoubleDouble<D>, count>& x)
     std::array<D, count> high;
     std::ranges::transform(x, high.begin(), [](const auto& each) { return each.high(); });
     return high;
-}
-
-template <class D>
-SineAndCosine<DoubleDouble<D>> sine_and_cosine(const DoubleDouble<D>& x)
-{
-    const auto [sine, cosine] = DoubleDouble<D>::of_angle(x);
-    return {sine, cosine};
-}
-
-template <class D>
-DoubleDouble<D> exponential_decay(const DoubleDouble<D>& x)
-{
-    return DoubleDouble<D>::decay(x);
-}
-
-// To the accuracy of a double: for step sizes.
-template <class D>
-DoubleDouble<D> rough_log2(const DoubleDouble<D>& x)
-{
-    return DoubleDouble<D>(rough_log2(x.high()));
-}
-template <class D>
-DoubleDouble<D> rough_power_of_two(const DoubleDouble<D>& x)
-{
-    return DoubleDouble<D>(rough_power_of_two(x.high()));
-}
-template <class D>
-DoubleDouble<D> power_of_two_below(const DoubleDouble<D>& x)
-{
-    return DoubleDouble<D>(power_of_two_below(x.high()));
 }
 
 } // namespace overturn

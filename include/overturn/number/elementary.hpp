@@ -24,11 +24,21 @@ inline constexpr std::array<double, 7> cosine{
 
 } // namespace minimax
 
+/// 1 / n! for n = 0, 1, ..., 13.
+inline constexpr auto inverse_factorials = [] {
+    std::array<double, 14> inverses{1};
+    double factorial = 1;
+    for (std::size_t n = 1; n < inverses.size(); ++n) {
+        factorial *= double(n);
+        inverses[n] = 1 / factorial;
+    }
+    return inverses;
+}();
+
 /// c[0] + c[1] t + c[2] t^2 + ... by Horner's rule.
 template <Number T, std::size_t N>
 T polynomial(const std::array<double, N>& c, const T& t)
 {
-    using arithmetic::fma;
     T sum(c[N - 1]);
     for (std::size_t i = N - 1; i-- > 0;) {
         sum = fma(sum, t, T(c[i]));
@@ -53,9 +63,6 @@ T power(const T& x)
 template <Number T>
 SineAndCosine<T> sine_and_cosine(const T& x)
 {
-    using arithmetic::fma;
-    using std::cos;
-    using std::sin;
     if constexpr (std::same_as<scalar_t<T>, double>) {
         const T t = x * x;
         const T sine = fma(x * t, polynomial(minimax::sine, t), x);
@@ -66,24 +73,25 @@ SineAndCosine<T> sine_and_cosine(const T& x)
     }
 }
 
+/// pi in two parts: with fma, the product of the first with a small integer is exact.
+inline constexpr double pi_high = 0x1.921fb54442d18p+1;
+inline constexpr double pi_low = 0x1.1a62633145c07p-53;
+
+/// sin x and cos x in double from those of x - k pi; sign: (-1)^k.
+template <Number T>
+SineAndCosine<T> less_half_turns(const T& x, const T& k, const T& sign)
+{
+    const auto [sine, cosine] = sine_and_cosine(T(fma(k, T(-pi_low), fma(k, T(-pi_high), x))));
+    return {sign * sine, sign * cosine};
+}
+
 /// sin x and cos x for -pi/2 <= x <= 5 pi/2 [rad], the range of a pulse of one period.
 template <Number T>
 SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 {
-    using arithmetic::fma;
-    using S = scalar_t<T>;
-    if constexpr (std::same_as<S, double>) {
-        // pi is split into two parts; for up to 2 half turns, the first product is exact with fma.
-        constexpr double pi_high = 0x1.921fb54442d18p+1;
-        constexpr double pi_low = 0x1.1a62633145c07p-53;
-        const T one(1);
-        const T zero(0);
-        const T half_turns =
-            select<T>(x > T(0.5 * pi_high), one, zero) + select<T>(x > T(1.5 * pi_high), one, zero);
-        const T reduced = fma(half_turns, T(-pi_low), fma(half_turns, T(-pi_high), x));
-        const auto [sine, cosine] = sine_and_cosine(reduced);
-        const T sign = select<T>(half_turns == one, T(-1), one);
-        return {sign * sine, sign * cosine};
+    if constexpr (std::same_as<scalar_t<T>, double>) {
+        const T k = select<T>(x > 0.5 * pi_high, 1, 0) + select<T>(x > 1.5 * pi_high, 1, 0);
+        return less_half_turns<T>(x, k, select<T>(k == 1, -1, 1));
     } else {
         return sine_and_cosine(x);
     }
@@ -94,28 +102,19 @@ SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 template <Number T>
 SineAndCosine<T> sine_and_cosine_of_cycles(const T& x)
 {
-    using arithmetic::fma;
-    using S = scalar_t<T>;
-    if constexpr (std::same_as<S, double>) {
+    if constexpr (std::same_as<scalar_t<T>, double>) {
         // A number is rounded to an integer at 1.5 * 2^52. In any rounding mode, this is one of the
-        // two integers next to x / pi; the nearest is at most one off. The products with pi_high
-        // are exact with fma, as are the differences: multiples of 2^-51.
-        constexpr double pi_high = 0x1.921fb54442d18p+1;
-        constexpr double pi_low = 0x1.1a62633145c07p-53;
+        // two integers next to x / pi; the nearest is at most one off. The differences are exact,
+        // too: multiples of 2^-51.
         constexpr double inverse_pi = 0x1.45f306dc9c882p-2; // rounded down: pi/2 to k = 0
         constexpr double rounder = 0x1.8p+52;
-        const T one(1);
-        const T zero(0);
-        const T guess = fma(x, T(inverse_pi), T(rounder)) - T(rounder);
+        const T guess = fma(x, T(inverse_pi), T(rounder)) - rounder;
         const T rest = fma(guess, T(-pi_high), x);
-        const T above = select<T>(rest > T(0.5 * pi_high), one, zero);
-        const T below = select<T>(rest < T(-0.5 * pi_high), one, zero);
+        const T above = select<T>(rest > 0.5 * pi_high, 1, 0);
+        const T below = select<T>(rest < -0.5 * pi_high, 1, 0);
         const T k = guess + (above - below);
-        const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
-        const auto [sine, cosine] = sine_and_cosine(reduced);
-        const T odd = k - T(2.0) * (fma(k, T(0.5), T(rounder)) - T(rounder)); // -1, 0 or 1
-        const T sign = fma(T(-2.0) * odd, odd, T(1.0));
-        return {sign * sine, sign * cosine};
+        const T odd = k - 2 * (fma(k, T(0.5), T(rounder)) - rounder); // -1, 0 or 1
+        return less_half_turns<T>(x, k, fma(-2 * odd, odd, T(1)));
     } else {
         return sine_and_cosine(x);
     }
@@ -125,32 +124,16 @@ SineAndCosine<T> sine_and_cosine_of_cycles(const T& x)
 template <Number T>
 T exponential_decay(const T& x)
 {
-    using arithmetic::fma;
-    using std::exp;
     if constexpr (std::same_as<scalar_t<T>, double>) {
         // exp(-x) = 2^-k exp(k ln 2 - x), k the integer nearest to x / ln 2, rounded at 1.5 * 2^52.
         // |k ln 2 - x| <= ln(2)/2, where the series up to 1/13! has an error of 4e-18.
-        constexpr std::array<double, 14> series{1.0,
-                                                1.0,
-                                                1.0 / 2,
-                                                1.0 / 6,
-                                                1.0 / 24,
-                                                1.0 / 120,
-                                                1.0 / 720,
-                                                1.0 / 5040,
-                                                1.0 / 40320,
-                                                1.0 / 362880,
-                                                1.0 / 3628800,
-                                                1.0 / 39916800.,
-                                                1.0 / 479001600.,
-                                                1.0 / 6227020800.};
         constexpr double rounder = 0x1.8p+52;
         constexpr double log2_of_e = 0x1.71547652b82fep+0;
         constexpr double ln2_high = 0x1.62e42fefa39efp-1;
         constexpr double ln2_low = 0x1.abc9e3b39803fp-56;
         const T k = fma(x, T(log2_of_e), T(rounder)) - T(rounder);
         const T rest = fma(k, T(ln2_low), fma(k, T(ln2_high), -x));
-        return polynomial(series, rest) * number_traits<T>::power_of_two(-k);
+        return polynomial(inverse_factorials, rest) * number_traits<T>::power_of_two(-k);
     } else {
         return exp(-x);
     }
@@ -166,9 +149,10 @@ T rough_log2(const T& x)
         constexpr std::array<double, 4> cubic{-2.13623207, 3.01116215, -1.02680491, 0.15270028};
         const auto [mantissa, exponent] = number_traits<T>::split(x);
         return polynomial(cubic, mantissa) + exponent;
+    } else if constexpr (has_estimate<T>) {
+        return T(rough_log2(estimate_of(x)));
     } else {
-        using std::log2;
-        return x == T(0) ? T(-200000) : T(log2(x)); // log2(0) is infinite
+        return x == 0 ? T(-200000) : T(log2(x)); // log2(0) is infinite
     }
 }
 
@@ -182,8 +166,9 @@ T rough_power_of_two(const T& x)
         constexpr double rounder = 0x1.8p+52;
         const T k = (x + T(rounder)) - T(rounder);
         return polynomial(cubic, T(x - k)) * number_traits<T>::power_of_two(k);
+    } else if constexpr (has_estimate<T>) {
+        return T(rough_power_of_two(estimate_of(x)));
     } else {
-        using std::pow;
         return pow(T(2), x);
     }
 }
@@ -194,9 +179,9 @@ T power_of_two_below(const T& x)
 {
     if constexpr (std::same_as<scalar_t<T>, double>) {
         return number_traits<T>::power_of_two(number_traits<T>::split(x).exponent);
+    } else if constexpr (has_estimate<T>) {
+        return T(power_of_two_below(estimate_of(x)));
     } else {
-        using std::ilogb;
-        using std::ldexp;
         return ldexp(T(1), int(ilogb(x)));
     }
 }

@@ -18,6 +18,13 @@ namespace arithmetic {
     return std::fma(a, b, c);
 }
 } // namespace arithmetic
+using arithmetic::fma;
+
+/// The elementary functions of double; those of other numbers are found in their namespaces.
+using std::abs, std::ceil, std::exp, std::expm1, std::floor, std::ilogb, std::isinf, std::ldexp,
+    std::log, std::log2, std::nearbyint, std::pow, std::sqrt;
+using std::acos, std::asin, std::asinh, std::atan, std::cos, std::cosh, std::sin, std::sinh,
+    std::tan;
 
 template <class T>
 struct number_traits;
@@ -26,13 +33,13 @@ struct number_traits;
 template <class T>
 struct scalar_number_traits {
     using scalar = T;
+    using estimate = T;
     using mask = bool;
     static constexpr int lanes = 1;
     static T select(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
     static T lesser(const T& a, const T& b) { return a < b ? a : b; }
     static T greater(const T& a, const T& b) { return a > b ? a : b; }
     static T pi() { return std::numbers::pi_v<T>; }
-    static T ln_two() { return std::numbers::ln2_v<T>; }
     static bool any(bool mask) { return mask; }
     static T load(const T* from) { return *from; }
     static void store(T* to, const T& number) { *to = number; }
@@ -40,11 +47,6 @@ struct scalar_number_traits {
     static std::array<T, 2> gathered_pair(const double* from, const T& index)
     {
         return {T(from[std::size_t(index)]), T(from[std::size_t(index) + 1])};
-    }
-    template <class Body>
-    static auto straight_line(const Body& body)
-    {
-        return body();
     }
 };
 
@@ -71,12 +73,6 @@ struct number_traits<double> : scalar_number_traits<double> {
         const auto bits = std::bit_cast<std::uint64_t>(x);
         return {std::bit_cast<double>((bits & mantissa_bits) | one_bits),
                 std::bit_cast<double>((bits >> 52) | two_to_52_bits) - exponent_shifter};
-    }
-
-    template <class Body>
-    [[gnu::flatten]] static auto straight_line(const Body& body)
-    {
-        return body();
     }
 
     static constexpr std::uint64_t mantissa_bits = 0x000fffffffffffff;
@@ -108,16 +104,14 @@ concept Number = requires(T a, T b) {
 /// The number type of errors, peaks and step sizes: T itself, except that those of a DoubleDouble
 /// are in double.
 template <class T>
-struct estimate_traits {
-    using type = T;
-};
+using estimate_t = typename number_traits<T>::estimate;
 template <class T>
-using estimate_t = typename estimate_traits<T>::type;
+inline constexpr bool has_estimate = !std::same_as<T, estimate_t<T>>;
 
 /// The number of terms of a power series that are computed in all digits of T. The others are so
 /// small that doubles suffice; steps are chosen accordingly.
 template <class T, int count>
-inline constexpr int full_terms = std::same_as<T, estimate_t<T>> ? count : count / 2;
+inline constexpr int full_terms = has_estimate<T> ? count / 2 : count;
 
 template <class T>
 const T& estimate_of(const T& x)
@@ -125,7 +119,7 @@ const T& estimate_of(const T& x)
     return x;
 }
 
-template <Number T>
+template <class T>
 struct SineAndCosine {
     T sine;
     T cosine;
@@ -182,12 +176,23 @@ T greater(const T& a, const T& b)
     return number_traits<T>::greater(a, b);
 }
 
-/// Calls body(). If a number fits in a register, all functions that body() calls are inlined: calls
-/// would pass registers through memory and limit out-of-order execution.
+/// Calls body(). All functions that it calls are inlined.
+template <Number T, class Body>
+[[gnu::flatten]] auto flattened(const Body& body)
+{
+    return body();
+}
+
+/// Calls body(), flattened if a number fits in a register: calls would pass registers through
+/// memory and limit out-of-order execution.
 template <Number T, class Body>
 auto straight_line(const Body& body)
 {
-    return number_traits<T>::straight_line(body);
+    if constexpr (std::same_as<scalar_t<T>, double>) {
+        return flattened<T>(body);
+    } else {
+        return body();
+    }
 }
 
 /// Whether the mask is true in at least one lane. T cannot be deduced: any<T>(mask).

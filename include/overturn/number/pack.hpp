@@ -31,6 +31,7 @@ template <class Architecture>
 struct number_traits<xsimd::batch<double, Architecture>> {
     using pack = xsimd::batch<double, Architecture>;
     using scalar = double;
+    using estimate = pack;
     using mask = xsimd::batch_bool<double, Architecture>;
     using integers = xsimd::batch<std::uint64_t, Architecture>;
     static constexpr int lanes = int(pack::size);
@@ -55,11 +56,6 @@ struct number_traits<xsimd::batch<double, Architecture>> {
         const integers exponent = (bits >> 52) | integers(Lane::two_to_52_bits);
         return {xsimd::bitwise_cast<pack>(mantissa),
                 xsimd::bitwise_cast<pack>(exponent) - pack(Lane::exponent_shifter)};
-    }
-    template <class Body>
-    [[gnu::flatten]] static auto straight_line(const Body& body)
-    {
-        return body();
     }
     static pack load(const double* from) { return pack::load_unaligned(from); }
     static void store(double* to, const pack& number) { number.store_unaligned(to); }
