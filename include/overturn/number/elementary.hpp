@@ -77,21 +77,16 @@ SineAndCosine<T> sine_and_cosine(const T& x)
 inline constexpr double pi_high = 0x1.921fb54442d18p+1;
 inline constexpr double pi_low = 0x1.1a62633145c07p-53;
 
-/// sin x and cos x in double from those of x - k pi; sign: (-1)^k.
-template <Number T>
-SineAndCosine<T> less_half_turns(const T& x, const T& k, const T& sign)
-{
-    const auto [sine, cosine] = sine_and_cosine(T(fma(k, T(-pi_low), fma(k, T(-pi_high), x))));
-    return {sign * sine, sign * cosine};
-}
-
 /// sin x and cos x for -pi/2 <= x <= 5 pi/2 [rad], the range of a pulse of one period.
 template <Number T>
 SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 {
     if constexpr (std::same_as<scalar_t<T>, double>) {
         const T k = select<T>(x > 0.5 * pi_high, 1, 0) + select<T>(x > 1.5 * pi_high, 1, 0);
-        return less_half_turns<T>(x, k, select<T>(k == 1, -1, 1));
+        const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
+        const auto [sine, cosine] = sine_and_cosine(reduced);
+        const T sign = select<T>(k == 1, -1, 1);
+        return {sign * sine, sign * cosine};
     } else {
         return sine_and_cosine(x);
     }
@@ -114,7 +109,10 @@ SineAndCosine<T> sine_and_cosine_of_cycles(const T& x)
         const T below = select<T>(rest < -0.5 * pi_high, 1, 0);
         const T k = guess + (above - below);
         const T odd = k - 2 * (fma(k, T(0.5), T(rounder)) - rounder); // -1, 0 or 1
-        return less_half_turns<T>(x, k, fma(-2 * odd, odd, T(1)));
+        const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
+        const auto [sine, cosine] = sine_and_cosine(reduced);
+        const T sign = fma(-2 * odd, odd, T(1));
+        return {sign * sine, sign * cosine};
     } else {
         return sine_and_cosine(x);
     }
