@@ -46,8 +46,7 @@ Tile sample_tile(const Grid& grid, std::int64_t i)
 }
 
 /// Estimated time [s] to compute this many points or tiles on one rank, from samples:
-/// compute_sample(i) returns the size of sample i, whose order is fixed. Samples are computed
-/// for 0.3 s.
+/// compute_sample(i) computes sample i and returns how many it contains.
 template <class ComputeSample>
 double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample)
 {

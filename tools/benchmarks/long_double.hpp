@@ -1,4 +1,6 @@
-// long double as a number type of overturn, for references. To be included before other headers.
+// long double as a number type of overturn, for references. To be included before other headers of
+// overturn: their templates find only the fma of numbers without a namespace that is declared
+// before them.
 #pragma once
 
 #include <cmath>

@@ -118,6 +118,7 @@ def boundaries(block, highest):
     """Returns the lines between the regions: angles and velocities, nan where equal regions are on both sides."""
     def edge(angle, velocity, across, along):
         """The part of a line at which the regions just across it differ."""
+        # Steps far above round-off, and far below a pixel.
         before, after = (regions_of_states(block, angle + step * across, velocity + step * along)
                          for step in (-1e-9, 1e-9))
         return np.where(before != after, angle, np.nan), velocity

@@ -83,6 +83,8 @@ SineAndCosine<T> sine_and_cosine_of_period(const T& x)
 {
     if constexpr (std::same_as<scalar_t<T>, double>) {
         const T k = select<T>(x > 0.5 * pi_high, 1, 0) + select<T>(x > 1.5 * pi_high, 1, 0);
+        // As in the next function, but written again: in a function of its own, to which the sign
+        // is passed, these lines make Runge-Kutta steps with AVX-512 4 % slower.
         const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
         const auto [sine, cosine] = sine_and_cosine(reduced);
         const T sign = select<T>(k == 1, -1, 1);
