@@ -29,4 +29,10 @@ int complain(const std::exception& error)
     return exit_code_of(error);
 }
 
+Error stopped_by_signal(const std::string& when)
+{
+    return {exit_code::stopped,
+            "stopped by a signal" + when + ". Run the same command again to resume."};
+}
+
 } // namespace overturn

@@ -17,4 +17,7 @@ std::string message_of(const std::exception& error);
 /// Prints `overturn: message` to stderr and returns the exit code.
 int complain(const std::exception& error);
 
+/// `when` is appended to "stopped by a signal".
+Error stopped_by_signal(const std::string& when);
+
 } // namespace overturn

@@ -2,19 +2,17 @@
 // compute and write each of them.
 #include "commands.hpp"
 #include "complain.hpp"
-#include "guarded_reading.hpp"
 #include "job_lines.hpp"
 #include "output_lines.hpp"
+#include "prepare_output.hpp"
 #include "progress.hpp"
 #include "remarks.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/sole_writer.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/file/stored_result.hpp"
-#include "overturn/job/job.hpp"
 #include "overturn/problem/problem_bytes.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
@@ -31,7 +29,6 @@ namespace overturn {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Clock = std::chrono::system_clock; // the sidecar file contains the date
 
 /// The data that each rank needs to take part in a run.
@@ -52,74 +49,6 @@ struct Task {
         return std::int64_t(double(items.count) * (double(tiles) / double(tiling.size())));
     }
 };
-
-std::string output_path(const RunOptions& options)
-{
-    const std::string ending = options.boundary ? "_boundary.h5" : ".h5";
-    return options.output.empty() ? fs::path(options.job.path).stem().string() + ending
-                                  : options.output;
-}
-
-/// `when` is appended to "stopped by a signal".
-Error stopped_by_signal(const std::string& when)
-{
-    return {exit_code::stopped,
-            "stopped by a signal" + when + ". Run the same command again to resume."};
-}
-
-void expect_no_stop(const char* when)
-{
-    if (StopSignals::requested()) {
-        throw stopped_by_signal(when);
-    }
-}
-
-/// Checks all finished tiles: after a power failure, the checksum of a tile may be on the disk but
-/// not its values.
-std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
-{
-    const auto start = std::chrono::steady_clock::now();
-    bool announced = false;
-    return stored.damaged_tiles([&] {
-        if (!announced && std::chrono::steady_clock::now() - start > std::chrono::seconds(2)) {
-            say(stored.path() + ": verifying finished tiles");
-            announced = true;
-        }
-        expect_no_stop(" before the computation started");
-    });
-}
-
-/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns the
-/// numbers of its damaged tiles; nullopt if it is complete. Throws Error.
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
-                                                        const SoleWriter& writer)
-{
-    std::optional<std::vector<std::int64_t>> damaged;
-    bool is_complete = false;
-    {
-        const GuardedReading guarded(path, writer.lock());
-        if (const auto stored = existing_result(path, job)) {
-            damaged = find_damaged_tiles(*stored);
-            is_complete = damaged->empty() && stored->tiles().tiles_done == stored->tiles().tiles;
-        }
-    }
-    if (is_complete) {
-        clear_open_mark(path);
-        say(path + " is already complete.");
-        return std::nullopt;
-    }
-    demand_place_for_sidecar(path);
-    if (!damaged) {
-        const auto bytes = double(spectrum_file_bytes(job));
-        constexpr double made_at_once = 1e8;
-        if (bytes > made_at_once) {
-            say(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
-        }
-        create_spectrum_file(path, job, [] { expect_no_stop(" before the file was created"); });
-        damaged.emplace();
-    }
-    return damaged;
-}
 
 std::string start_line(const Task& task, std::int64_t tiles_before)
 {
@@ -233,7 +162,8 @@ int report_end(const Task& task, const FarmReport& report, double seconds)
 int compute_missing_tiles(const Task& task)
 {
     // The path on rank 0, because other ranks may have been started in other working directories.
-    const std::string path = task.session.from_rank_0(fs::absolute(task.path).string());
+    const std::string path =
+        task.session.from_rank_0(std::filesystem::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {
             const std::vector<std::string>& hosts = task.session.hosts();
@@ -289,7 +219,7 @@ int run(const RunOptions& options)
             if (options.boundary) {
                 job = boundary_of(std::move(*job));
             }
-            demand_path_for_mpi(fs::absolute(path).string());
+            demand_path_for_mpi(std::filesystem::absolute(path).string());
             sole_writer.emplace(path);
             if (const auto found = prepare_output(*job, path, *sole_writer)) {
                 warn_of_probable_mistakes(*job);

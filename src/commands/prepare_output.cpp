@@ -1,0 +1,82 @@
+#include "prepare_output.hpp"
+
+#include "complain.hpp"
+#include "guarded_reading.hpp"
+#include "output_lines.hpp"
+
+#include "overturn/farm/stop_signals.hpp"
+#include "overturn/file/provenance.hpp"
+#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/stored_result.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+namespace overturn {
+
+namespace {
+
+void expect_no_stop(const char* when)
+{
+    if (StopSignals::requested()) {
+        throw stopped_by_signal(when);
+    }
+}
+
+/// Checks all finished tiles: after a power failure, the checksum of a tile may be on the disk but
+/// not its values.
+std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
+{
+    const auto start = std::chrono::steady_clock::now();
+    bool announced = false;
+    return stored.damaged_tiles([&] {
+        if (!announced && std::chrono::steady_clock::now() - start > std::chrono::seconds(2)) {
+            say(stored.path() + ": verifying finished tiles");
+            announced = true;
+        }
+        expect_no_stop(" before the computation started");
+    });
+}
+
+} // namespace
+
+std::string output_path(const RunOptions& options)
+{
+    const std::string ending = options.boundary ? "_boundary.h5" : ".h5";
+    return options.output.empty() ? std::filesystem::path(options.job.path).stem().string() + ending
+                                  : options.output;
+}
+
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+                                                        const SoleWriter& writer)
+{
+    std::optional<std::vector<std::int64_t>> damaged;
+    bool is_complete = false;
+    {
+        const GuardedReading guarded(path, writer.lock());
+        if (const auto stored = existing_result(path, job)) {
+            damaged = find_damaged_tiles(*stored);
+            is_complete = damaged->empty() && stored->tiles().tiles_done == stored->tiles().tiles;
+        }
+    }
+    if (is_complete) {
+        clear_open_mark(path);
+        say(path + " is already complete.");
+        return std::nullopt;
+    }
+    demand_place_for_sidecar(path);
+    if (!damaged) {
+        const auto bytes = double(spectrum_file_bytes(job));
+        constexpr double made_at_once = 1e8;
+        if (bytes > made_at_once) {
+            say(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
+        }
+        create_spectrum_file(path, job, [] { expect_no_stop(" before the file was created"); });
+        damaged.emplace();
+    }
+    return damaged;
+}
+
+} // namespace overturn

@@ -1,0 +1,24 @@
+// The result file of a run, before the computation.
+#pragma once
+
+#include "commands.hpp"
+
+#include "overturn/file/sole_writer.hpp"
+#include "overturn/job/job.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace overturn {
+
+/// The result file of a run.
+std::string output_path(const RunOptions& options);
+
+/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns the
+/// numbers of its damaged tiles; nullopt if it is complete. Throws Error.
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+                                                        const SoleWriter& writer);
+
+} // namespace overturn
