@@ -19,7 +19,7 @@ LABELS = {
 }
 OURS = {"overturn_rk45": "#1b6ca8", "overturn_taylor": "#c8422b"}
 PEERS = "#767676"
-RAISED = {"arkode_dopri5": 5, "cvode_adams": -5}  # labels that would overlap [points]
+RAISED = {"arkode_dopri5": 5, "cvode_adams": -5, "gsl_rk8pd": 3, "heyoka_taylor": -3}  # labels that would overlap [points]
 COMPARED_AT = 1e-9  # [rad]
 MARKERS = {"odeint_dopri5": "o", "gsl_rk8pd": "s", "arkode_dopri5": "^", "cvode_adams": "v",
            "scipy_rk45": "D", "heyoka_taylor": "P"}
