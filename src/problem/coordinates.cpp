@@ -2,6 +2,7 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 
@@ -335,9 +336,8 @@ const CoordinateValues& Coordinates::of(std::string_view name) const
                 points[i][k] = values[i];
             }
         }
-        for (const Values& of : points) {
-            result.values.push_back(derivation.value(scene_, of));
-        }
+        result.values =
+            mapped(points, [&](const Values& of) { return derivation.value(scene_, of); });
     }
     return known_.emplace(name, std::move(result)).first->second;
 }
@@ -346,15 +346,11 @@ std::vector<double> Coordinates::along(const std::vector<std::size_t>& dimension
                                        std::string_view name) const
 {
     const CoordinateValues& coordinate = of(name);
-    Shape count;
-    for (const std::size_t dimension : dimensions) {
-        count.push_back(count_[dimension]);
-    }
-    std::vector<std::size_t> places; // of its dimensions among these
-    for (const std::size_t dimension : coordinate.dimensions) {
-        places.push_back(
-            std::size_t(std::ranges::find(dimensions, dimension) - dimensions.begin()));
-    }
+    const Shape count = mapped(dimensions, [&](std::size_t each) { return count_[each]; });
+    const auto place_of = [&](std::size_t dimension) {
+        return std::size_t(std::ranges::find(dimensions, dimension) - dimensions.begin());
+    };
+    const std::vector<std::size_t> places = mapped(coordinate.dimensions, place_of);
     std::vector<double> values;
     values.reserve(std::size_t(count_points(count)));
     for_each_offset(count, places,

@@ -1,6 +1,7 @@
 #include "overturn/problem/fields.hpp"
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/text/mapped.hpp"
 
 namespace overturn {
 
@@ -101,11 +102,7 @@ const FieldTraits& traits_of(Field field)
 
 std::vector<std::string_view> field_names()
 {
-    std::vector<std::string_view> names;
-    for (const FieldTraits& field : fields) {
-        names.push_back(field.name);
-    }
-    return names;
+    return mapped(fields, &FieldTraits::name);
 }
 
 std::vector<std::string_view> spectrum_field_names()

@@ -1,16 +1,14 @@
 #include "overturn/problem/grid.hpp"
 
+#include "overturn/text/mapped.hpp"
+
 #include <algorithm>
 
 namespace overturn {
 
 Shape Grid::shape() const
 {
-    Shape shape;
-    for (const Dimension& dimension : dimensions) {
-        shape.push_back(dimension.size());
-    }
-    return shape;
+    return mapped(dimensions, &Dimension::size);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "overturn/problem/problem.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,10 @@ namespace overturn {
 
 std::vector<StoredDimension> stored_dimensions(const Problem& problem)
 {
-    std::vector<StoredDimension> dimensions;
-    for (const Dimension& dimension : problem.grid.dimensions) {
-        dimensions.push_back({dimension.name, dimension.size()});
-    }
+    const auto stored = [](const Dimension& dimension) {
+        return StoredDimension{dimension.name, dimension.size()};
+    };
+    std::vector<StoredDimension> dimensions = mapped(problem.grid.dimensions, stored);
     if (problem.product == Product::boundary) {
         dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
                                                                   most_flips(problem.scene)};
@@ -23,11 +24,7 @@ std::vector<StoredDimension> stored_dimensions(const Problem& problem)
 
 Shape stored_shape(const Problem& problem)
 {
-    Shape shape;
-    for (const StoredDimension& dimension : stored_dimensions(problem)) {
-        shape.push_back(dimension.size);
-    }
-    return shape;
+    return mapped(stored_dimensions(problem), &StoredDimension::size);
 }
 
 std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
@@ -78,11 +75,9 @@ Shape filled_tile_of(const Grid& grid)
     const bool is_fine = std::ranges::any_of(grid.dimensions, [&](const Dimension& dimension) {
         return is_side(dimension) && dimension.size() >= 1024;
     });
-    Shape tile;
-    for (const Dimension& dimension : grid.dimensions) {
-        tile.push_back(!is_side(dimension) ? 1 : is_fine ? 256 : 128);
-    }
-    return tile;
+    return mapped(grid.dimensions, [&](const Dimension& dimension) -> std::int64_t {
+        return !is_side(dimension) ? 1 : is_fine ? 256 : 128;
+    });
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/fill.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -101,11 +102,8 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
          .steps = wanted(Field::steps),
          .phase = wanted(Field::fall_time),
          .contact = has_contact});
-    TileFields result;
-    for (const Field field : fields) {
-        result.values.push_back(values_of(field, points, outcomes));
-    }
-    return result;
+    const auto computed = [&](Field field) { return values_of(field, points, outcomes); };
+    return {.values = mapped(fields, computed)};
 }
 
 TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel,
@@ -149,11 +147,7 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
         {Field::flip_pga, std::move(pga)},
         {Field::unsafe_share, std::vector{boundary.unsafe_share}},
         {Field::undecided_share, std::vector{boundary.undecided_share}}};
-    TileFields result;
-    for (const Field field : fields) {
-        result.values.push_back(computed.at(field));
-    }
-    return result;
+    return {.values = mapped(fields, [&](Field field) { return computed.at(field); })};
 }
 
 } // namespace

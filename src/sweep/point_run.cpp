@@ -5,6 +5,7 @@
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
 #include "overturn/problem/fields.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <algorithm>
 #include <map>
@@ -22,13 +23,11 @@ std::vector<std::shared_ptr<const Accelerogram>> records_of(const Scene& scene,
                                                             const std::vector<Point>& points)
 {
     std::map<std::pair<int, double>, std::shared_ptr<const Accelerogram>> known;
-    std::vector<std::shared_ptr<const Accelerogram>> records;
-    for (const Point& point : points) {
+    return mapped(points, [&](const Point& point) {
         auto& record = known[{point.record, point.direction}];
         record = record ? record : directed_record(scene, point);
-        records.push_back(record);
-    }
-    return records;
+        return record;
+    });
 }
 
 Digits31 in_31_digits(const Digits50& x)
