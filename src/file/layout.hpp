@@ -1,15 +1,13 @@
-// The layout of result files: names and fill values, shared by writers and readers.
+// The layout of result files: names and types, shared by writers and readers.
 #pragma once
 
 #include "hdf5_handles.hpp"
 
 #include "overturn/file/stored_result.hpp"
-#include "overturn/mechanics/region.hpp"
 #include "overturn/problem/fields.hpp"
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <variant>
 
@@ -48,21 +46,6 @@ inline constexpr char coordinate_checksums[] = "coordinate_checksums"; ///< line
 // Attributes of the checksums.
 inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
 inline constexpr char tile_shape[] = "tile_shape";
-
-/// The value of a point that is not computed yet, in the type of the field.
-inline std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field)
-{
-    switch (traits_of(field).type) {
-    case FieldType::uint8:
-        static_assert(status::not_computed == std::uint8_t(Region::not_computed) &&
-                      status::not_computed == point_origin::not_computed);
-        return status::not_computed;
-    case FieldType::uint16: return impact_count::not_computed;
-    case FieldType::uint32: return step_count::not_computed;
-    case FieldType::float64: break;
-    }
-    return std::numeric_limits<double>::quiet_NaN();
-}
 
 inline hdf5::Type type_of(Field field)
 {

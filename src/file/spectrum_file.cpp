@@ -115,7 +115,7 @@ StoredField add_field(hid_t file, Field field, const Problem& problem,
     }
     const hdf5::Type type = layout::type_of(field);
     std::visit([&](auto value) { check(H5Pset_fill_value(creation, type.memory, &value)); },
-               layout::fill_value(field));
+               fill_value(field));
     Handle dataset =
         create_dataset(file, std::string(name_of(field)), type.file,
                        stored_dimensions_of(field, stored_dimensions(problem), crossing), creation);

@@ -1,7 +1,5 @@
 #include "tile_access.hpp"
 
-#include "layout.hpp"
-
 #include <xxhash.h>
 
 #include <bit>
@@ -40,13 +38,6 @@ Handle in_memory(const Tile& tile)
 
 } // namespace
 
-FieldValues not_computed(Field field, std::int64_t count)
-{
-    return std::visit(
-        [&](auto value) { return FieldValues(std::vector(std::size_t(count), value)); },
-        layout::fill_value(field));
-}
-
 void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values)
 {
     const Tile part = stored.part_of(tile);
@@ -79,7 +70,7 @@ void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& 
 FieldValues read_tile(const StoredField& stored, const Tile& tile)
 {
     const Tile part = stored.part_of(tile);
-    FieldValues values = make_field_values(stored.field, std::size_t(part.points()));
+    FieldValues values = not_computed(stored.field, part.points());
     std::visit(
         [&](auto& list) {
             check(H5Dread(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),

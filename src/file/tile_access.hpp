@@ -44,9 +44,6 @@ struct StoredField {
     }
 };
 
-/// The fill values of a field that is not computed yet.
-FieldValues not_computed(Field field, std::int64_t count);
-
 /// Writes the whole chunk of a tile for the first time. Not available with MPI-IO.
 void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues& values);
 

@@ -3,6 +3,8 @@
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/mapped.hpp"
 
+#include <limits>
+
 namespace overturn {
 
 namespace {
@@ -112,21 +114,30 @@ std::vector<std::string_view> spectrum_field_names()
     return names;
 }
 
-FieldValues make_field_values(Field field, std::size_t points)
+std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field)
 {
     switch (traits_of(field).type) {
-    case FieldType::uint8: return std::vector<std::uint8_t>(points);
-    case FieldType::uint16: return std::vector<std::uint16_t>(points);
-    case FieldType::uint32: return std::vector<std::uint32_t>(points);
+    case FieldType::uint8:
+        static_assert(status::not_computed == std::uint8_t(Region::not_computed) &&
+                      status::not_computed == point_origin::not_computed);
+        return status::not_computed;
+    case FieldType::uint16: return impact_count::not_computed;
+    case FieldType::uint32: return step_count::not_computed;
     case FieldType::float64: break;
     }
-    return std::vector<double>(points);
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+FieldValues not_computed(Field field, std::int64_t points)
+{
+    return std::visit(
+        [&](auto value) { return FieldValues(std::vector(std::size_t(points), value)); },
+        fill_value(field));
 }
 
 std::size_t bytes_per_point(Field field)
 {
-    return std::visit([](const auto& values) { return sizeof values[0]; },
-                      make_field_values(field, 0));
+    return std::visit([](auto value) { return sizeof value; }, fill_value(field));
 }
 
 } // namespace overturn

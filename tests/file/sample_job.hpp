@@ -63,7 +63,7 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
     };
     TileFields result;
     for (const Field field : job.problem.fields) {
-        FieldValues values = make_field_values(field, std::size_t(tile.points()));
+        FieldValues values = not_computed(field, tile.points());
         std::visit(
             [&](auto& list) {
                 using Value = typename std::decay_t<decltype(list)>::value_type;

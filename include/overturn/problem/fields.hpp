@@ -91,8 +91,11 @@ constexpr bool is_of_line(Field field)
     return field == line_fields[0] || field == line_fields[1];
 }
 
-/// An array for `points` values of a field.
-FieldValues make_field_values(Field field, std::size_t points);
+/// The value of a point that is not computed yet, in the type of the field.
+std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field);
+
+/// This value for `points` points.
+FieldValues not_computed(Field field, std::int64_t points);
 
 /// Size of one value of the field [bytes].
 std::size_t bytes_per_point(Field field);
