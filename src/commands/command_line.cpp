@@ -71,9 +71,11 @@ void add_run_arguments(CLI::App& command, RunOptions& options)
     add_text(command, "-o,--output", options.output, "OUT.h5",
              fmt::format("Result file; default: JOB{}.h5 in the working directory",
                          options.boundary ? "_boundary" : ""));
+    std::vector<std::string> kernels{"auto"};
+    kernels.insert(kernels.end(), names_of<Kernel>.begin(), names_of<Kernel>.end());
     command
         .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
-        ->check(CLI::IsMember({"auto", "double", "neon", "avx2", "avx512"}))
+        ->check(CLI::IsMember(kernels))
         ->capture_default_str();
     command.add_flag("--durable", options.durable,
                      "Sync each tile to disk, so that it survives a power failure; slower");

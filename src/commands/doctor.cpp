@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 std::string kernels_text()
 {
     std::string text;
-    for (int i = 0; i < int(kernel_names.size()); ++i) {
+    for (int i = 0; i < int(names_of<Kernel>.size()); ++i) {
         const auto kernel = Kernel(i);
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name_of(kernel),
                             !is_compiled(kernel)      ? "not in this build"

@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "job_lines.hpp"
+#include "kernel_choice.hpp"
 #include "output_lines.hpp"
 #include "prepare_output.hpp"
 #include "progress.hpp"

@@ -3,24 +3,13 @@
 
 #include "hdf5_handles.hpp"
 
-#include "overturn/file/stored_result.hpp"
 #include "overturn/problem/fields.hpp"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
 
 namespace overturn::layout {
-
-/// Values of the global attribute `kind`, in the order of FileKind.
-inline constexpr std::array<const char*, 4> kinds{"overturning spectrum", "overturning boundary",
-                                                  "rocking history", "accuracy study"};
-
-inline constexpr const char* name_of(FileKind kind)
-{
-    return kinds[std::size_t(kind)];
-}
 
 /// Global attribute: the version of the layout. Files of format 3, in which every quantity is a
 /// dimension and coordinates have no checksums, can be read but not resumed.

@@ -107,13 +107,13 @@ FileOrigin read_origin(hid_t file, const std::string& path)
 {
     FileOrigin origin;
     origin.bytes = std::filesystem::file_size(path);
-    const std::string kind = hdf5::read_text_attribute(file, "kind");
-    const auto* found = std::find(layout::kinds.begin(), layout::kinds.end(), kind);
-    if (found == layout::kinds.end()) {
+    const std::string name = hdf5::read_text_attribute(file, "kind");
+    const auto kind = enumerator_named<FileKind>(name);
+    if (!kind) {
         throw Error(exit_code::output, "\"{}\" is an HDF5 file, but not a result of overturn{}.",
-                    path, kind.empty() ? "" : fmt::format(": its kind is \"{}\"", kind));
+                    path, name.empty() ? "" : fmt::format(": its kind is \"{}\"", name));
     }
-    origin.kind = FileKind(found - layout::kinds.begin());
+    origin.kind = *kind;
     const auto format = hdf5::read_integers_attribute(file, layout::format_version);
     origin.format = format.empty() ? 1 : format.front();
     if (origin.format < layout::oldest_format || origin.format > layout::newest_format) {
@@ -246,7 +246,7 @@ const TilesSummary& StoredResult::tiles() const
     if (!origin_.has_tiles()) {
         throw Error(exit_code::output,
                     "\"{}\" is an HDF5 file, but not a spectrum of overturn: its kind is \"{}\".",
-                    path_, layout::name_of(origin_.kind));
+                    path_, name_of(origin_.kind));
     }
     return open_->tiles;
 }
@@ -383,9 +383,8 @@ void expect_result_of(const Job& job, const StoredResult& stored)
     const FileOrigin& origin = stored.origin();
     if (origin.kind != FileKind(problem.product)) {
         refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
-                           origin.kind == FileKind::history ? "a" : "an",
-                           layout::name_of(origin.kind),
-                           layout::name_of(FileKind(problem.product))));
+                           origin.kind == FileKind::history ? "a" : "an", name_of(origin.kind),
+                           name_of(FileKind(problem.product))));
     }
     if (origin.format != layout::newest_format) {
         refuse(fmt::format("has the format of an earlier version ({}), which can be read but not "

@@ -215,11 +215,11 @@ void expect_room_for(const std::string& path, FileKind kind)
         is_own = is_as_written(file, kind);
     } catch (const hdf5::Hdf5Error&) { // it has none
     }
-    if (found != layout::name_of(kind)) {
+    if (found != name_of(kind)) {
         throw Error(exit_code::output,
                     "\"{}\" exists but its kind is not \"{}\". Remove it, or "
                     "choose another name with -o.",
-                    path, layout::name_of(kind));
+                    path, name_of(kind));
     }
     if (!is_own) {
         throw Error(

@@ -39,7 +39,7 @@ Scene read_scene(const Entry& job)
     require(job, "scene", "Add [scene] with a pulse or a record.");
     const Entry entry = table_of(job, "scene");
     Scene scene;
-    scene.theory = choice_of(entry, "theory", theory_names, scene.theory);
+    scene.theory = choice_of(entry, "theory", scene.theory);
     scene.gravity = quantity_of(entry, "gravity", scene.gravity);
     const bool is_recorded = find(entry, "record").has_value();
     for (const std::string_view key :
@@ -55,8 +55,8 @@ Scene read_scene(const Entry& job)
         const Entry pulse =
             require(entry, "pulse",
                     fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
-                                fmt::join(pulse_names, ", ")));
-        scene.pulse = choice_of<PulseKind>(pulse, pulse_names);
+                                fmt::join(names_of<PulseKind>, ", ")));
+        scene.pulse = choice_of<PulseKind>(pulse);
         scene.shape = read_shape(entry, scene.pulse);
     }
     return scene;
@@ -67,8 +67,7 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
 {
     const Entry entry = table_of(job, "numerics");
     Numerics numerics;
-    numerics.method =
-        choice_of(entry, "method", method_names, is_recorded ? Method::taylor : numerics.method);
+    numerics.method = choice_of(entry, "method", is_recorded ? Method::taylor : numerics.method);
     if (is_recorded && numerics.method != Method::taylor) {
         refuse(*find(entry, "method"),
                " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",

@@ -126,10 +126,9 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
                          [&](const Quantity& other) { return !applies_to(other, is_record); });
     }
     const auto pulse =
-        std::ranges::find(pulse_names, given["scene"]["pulse"].value_or<std::string_view>(""));
+        enumerator_named<PulseKind>(given["scene"]["pulse"].value_or<std::string_view>(""));
     for (const auto& [number, member] : shape_numbers) {
-        if (pulse != pulse_names.end() &&
-            !has_number(PulseKind(pulse - pulse_names.begin()), member)) {
+        if (pulse && !has_number(*pulse, member)) {
             erase(job, "scene", number);
         }
     }

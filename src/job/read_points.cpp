@@ -29,7 +29,7 @@ AxisRange read_range(const Entry& entry, const Quantity& rule)
     const Entry last = require(entry, "last", advice);
     const Entry count = require(entry, "count", advice);
     const AxisRange range{quantity_of(first, rule), quantity_of(last, rule), integer_of(count),
-                          choice_of(entry, "spacing", spacing_names, Spacing::linear)};
+                          choice_of(entry, "spacing", Spacing::linear)};
     if (range.count < 1 || range.count > most_values) {
         refuse(count, " = {} is outside [1, {}], the numbers of values that an axis may have.",
                range.count, most_values);

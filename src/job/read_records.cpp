@@ -242,7 +242,7 @@ RecordOptions read_options(const Entry& scene)
         options.time_step = quantity_of(*step, quantity("time_step"));
     }
     if (const auto units = find(scene, "units")) {
-        options.unit = choice_of<AccelerationUnit>(*units, acceleration_unit_names);
+        options.unit = choice_of<AccelerationUnit>(*units);
     }
     return options;
 }

@@ -4,6 +4,7 @@
 
 #include "overturn/problem/quantity.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/names.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
@@ -95,19 +96,19 @@ std::string float_text(double value);
 /// The index of the string in `names`.
 std::size_t index_of_name(const Entry& entry, Names names);
 
-/// The enumerator whose index in `names` is that of the string.
+/// The enumerator of this name.
 template <class Enumeration>
-Enumeration choice_of(const Entry& entry, Names names)
+Enumeration choice_of(const Entry& entry, Names names = names_of<Enumeration>)
 {
     return Enumeration(index_of_name(entry, names));
 }
 
 /// The same for a key of a table; `otherwise` if it is missing.
 template <class Enumeration>
-Enumeration choice_of(const Entry& table, std::string_view name, Names names, Enumeration otherwise)
+Enumeration choice_of(const Entry& table, std::string_view name, Enumeration otherwise)
 {
     const auto entry = find(table, name);
-    return entry ? choice_of<Enumeration>(*entry, names) : otherwise;
+    return entry ? choice_of<Enumeration>(*entry) : otherwise;
 }
 
 } // namespace overturn

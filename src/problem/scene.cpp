@@ -17,7 +17,7 @@ std::string pulses_with(ShapeNumber number)
     std::vector<std::string_view> names;
     for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
         if (has_number(PulseKind(kind), number)) {
-            names.push_back(pulse_names[kind]);
+            names.push_back(name_of(PulseKind(kind)));
         }
     }
     return fmt::format("{}", fmt::join(names, ", "));

@@ -33,15 +33,15 @@ std::vector<double> vector_of(const Values& values)
     return {values.data(), values.data() + values.size()};
 }
 
-template <class Enumeration, class Names>
-Enumeration choice_of(const char* argument, const std::string& text, const Names& names)
+template <class Enumeration>
+Enumeration choice_of(const char* argument, const std::string& name)
 {
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end()) {
-        throw std::invalid_argument(
-            fmt::format("{} = \"{}\" is not one of {}.", argument, text, fmt::join(names, ", ")));
+    const auto found = enumerator_named<Enumeration>(name);
+    if (!found) {
+        throw std::invalid_argument(fmt::format("{} = \"{}\" is not one of {}.", argument, name,
+                                                fmt::join(names_of<Enumeration>, ", ")));
     }
-    return Enumeration(found - names.begin());
+    return *found;
 }
 
 double allowed(const char* name, double value)
@@ -58,8 +58,8 @@ Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double
                      const std::map<std::string, double>& shape)
 {
     Scene scene;
-    scene.pulse = choice_of<PulseKind>("pulse", pulse, pulse_names);
-    scene.theory = choice_of<Theory>("theory", theory, theory_names);
+    scene.pulse = choice_of<PulseKind>("pulse", pulse);
+    scene.theory = choice_of<Theory>("theory", theory);
     scene.gravity = allowed("gravity", gravity);
     for (const auto& [name, number] : shape_numbers) {
         const auto given = shape.find(std::string(name));
@@ -79,7 +79,7 @@ Scene scene_of_record(const Values& horizontal, const Values& second, const Valu
                       double time_step, const std::string& theory, double gravity)
 {
     Scene scene;
-    scene.theory = choice_of<Theory>("theory", theory, theory_names);
+    scene.theory = choice_of<Theory>("theory", theory);
     scene.gravity = allowed("gravity", gravity);
     scene.records.push_back(
         std::make_shared<const Accelerogram>(vector_of(horizontal), vector_of(upwards),
@@ -92,7 +92,7 @@ Numerics numerics_of(const Scene& scene, const std::string& method, std::optiona
                      bool resolve)
 {
     Numerics numerics;
-    numerics.method = choice_of<Method>("method", method, method_names);
+    numerics.method = choice_of<Method>("method", method);
     numerics.resolve = resolve;
     if (tolerance || resolve) {
         numerics.tolerance = allowed("tolerance", tolerance.value_or(tolerance_to_resolve_from));
@@ -197,7 +197,7 @@ py::list components_of(const std::string& path, std::optional<double> time_step,
     RecordOptions options;
     options.time_step = time_step;
     if (units) {
-        options.unit = choice_of<AccelerationUnit>("units", *units, acceleration_unit_names);
+        options.unit = choice_of<AccelerationUnit>("units", *units);
     }
     allowed("gravity", gravity);
     const RecordFile file = [&] {

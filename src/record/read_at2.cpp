@@ -108,7 +108,7 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         title.refuse(
             "{} does not state a unit that is understood, such as UNITS OF G or CM/SEC/SEC, "
             "as the only one of the header and without a factor. Give one of {}: {}.",
-            title.quoted(), fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+            title.quoted(), fmt::join(names_of<AccelerationUnit>, ", "), how_to_state("units"));
     }
     const std::string_view station = ahead_by(before, 2).line(); // event, date, station, component
     const std::size_t comma = station.rfind(',');

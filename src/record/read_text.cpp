@@ -201,7 +201,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     if (!options.unit) {
         lines.refuse_file(
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
-            fmt::join(acceleration_unit_names, ", "), how_to_state("units"));
+            fmt::join(names_of<AccelerationUnit>, ", "), how_to_state("units"));
     }
     Lines ahead = lines;
     const bool speaks_of_accelerations = next_line(

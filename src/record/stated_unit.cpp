@@ -11,7 +11,7 @@ namespace overturn {
 
 double units_per_m_per_s2(AccelerationUnit unit)
 {
-    constexpr std::array<double, acceleration_unit_names.size()> numbers{0, 1, 100, 1000, 100};
+    constexpr std::array<double, names_of<AccelerationUnit>.size()> numbers{0, 1, 100, 1000, 100};
     return numbers[std::size_t(unit)];
 }
 
@@ -62,7 +62,7 @@ AccelerationUnit unit_of_samples(const Lines& lines, std::string_view name)
         lines.refuse("the unit {} of the samples is not understood. Understood are {} and their "
                      "usual spellings, such as cm/sec2. Give the file of the acceleration, or the "
                      "values as text with their unit.",
-                     quoted_bytes(name), fmt::join(acceleration_unit_names, ", "));
+                     quoted_bytes(name), fmt::join(names_of<AccelerationUnit>, ", "));
     }
     return *unit;
 }

@@ -2,7 +2,6 @@
 
 #include "overturn/text/error.hpp"
 
-#include <algorithm>
 #include <array>
 
 namespace overturn {
@@ -87,28 +86,6 @@ Kernel widest_kernel()
     throw Error(exit_code::usage,
                 "this processor supports neither AVX2 with FMA nor AVX-512, of which "
                 "overturn requires one (Intel processors since 2013, AMD since 2015).");
-}
-
-Kernel kernel_called(std::string_view name)
-{
-    if (name == "auto") {
-        return widest_kernel();
-    }
-    const auto found = std::ranges::find(kernel_names, name);
-    const auto kernel = Kernel(found - kernel_names.begin());
-    if (!processor_runs(kernel)) {
-        throw Error(exit_code::usage,
-                    "--kernel {}: this processor does not support it. The widest "
-                    "kernel that it supports is {}.",
-                    name, name_of(widest_kernel()));
-    }
-    if (!is_compiled(kernel)) {
-        throw Error(exit_code::usage,
-                    "--kernel {}: this build has no kernel {}. Configure it with "
-                    "-DOVERTURN_KERNELS=all.",
-                    name, name);
-    }
-    return kernel;
 }
 
 } // namespace overturn

@@ -1,5 +1,6 @@
 // A build without kernels for this processor: src/sweep/kernel.cpp is compiled with none.
-#include "overturn/sweep/kernel.hpp"
+#include "commands/kernel_choice.hpp"
+
 #include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>

@@ -35,9 +35,7 @@ RecordOptions take_options(std::string_view& bytes)
 {
     RecordOptions options;
     if (const auto name = take_line(bytes, "unit ")) {
-        const auto& names = acceleration_unit_names;
-        const auto found = std::find(names.begin(), names.end(), *name);
-        options.unit = AccelerationUnit((found - names.begin()) % std::ptrdiff_t(names.size()));
+        options.unit = enumerator_named<AccelerationUnit>(*name).value_or(AccelerationUnit::g);
     }
     if (const auto text = take_line(bytes, "time_step ")) {
         double step = 0;

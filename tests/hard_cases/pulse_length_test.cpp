@@ -58,7 +58,7 @@ TEST(LongPulse, OfAConstantPushTerminates)
 
 TEST(LongPulse, OfEveryShapeGivesAVerdict)
 {
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+    for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         for (const double amplitude : {1 + 1e-8, 1.001, 3.0}) {
             expect_right_verdicts(
                 {.pulse = PulseKind(pulse), .frequency = 1e-3, .amplitude = amplitude});
@@ -68,7 +68,7 @@ TEST(LongPulse, OfEveryShapeGivesAVerdict)
 
 TEST(ShortPulse, OfEveryShapeGivesAVerdict)
 {
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+    for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         for (const double amplitude : {1 + 1e-7, 5.0, 1e4, 1e8}) {
             expect_right_verdicts(
                 {.pulse = PulseKind(pulse), .frequency = 1e4, .amplitude = amplitude});

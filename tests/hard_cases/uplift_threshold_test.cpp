@@ -23,7 +23,7 @@ double peak_of(PulseKind pulse)
 template <class Visitor>
 void for_every_pulse_and_theory(const Visitor& visit)
 {
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+    for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
             visit(HardCase{.pulse = PulseKind(pulse), .theory = theory});
         }

@@ -10,7 +10,7 @@ namespace overturn {
 inline std::vector<Scene> every_scene()
 {
     std::vector<Scene> scenes;
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+    for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
             scenes.push_back({PulseKind(pulse), theory});
         }

@@ -42,7 +42,7 @@ Swept sweep(const Scene& scene, const Numerics& numerics, int mode)
 
 TEST(RoundingModes, ChangeNoCertainVerdict)
 {
-    for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+    for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         const Scene scene{.pulse = PulseKind(pulse)};
         for (const Numerics& numerics :
              {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-6},

@@ -231,7 +231,7 @@ bool study(std::int64_t points, std::uint64_t seed)
     std::vector<BoundCheck> checks = all_bound_checks();
     bool right = true;
     for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-        for (std::size_t pulse = 0; pulse < pulse_names.size(); ++pulse) {
+        for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
             const Scene scene{.pulse = PulseKind(pulse), .theory = theory};
             right = study_scene(scene, points, generator, checks) && right;
         }

@@ -128,7 +128,7 @@ Number number_from(std::string_view text)
 }
 
 template <class Kind>
-Kind kind_from(std::string_view text, std::span<const std::string_view> names)
+Kind kind_from(std::string_view text, std::span<const std::string_view> names = names_of<Kind>)
 {
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) {
@@ -149,16 +149,16 @@ Work work_from(const std::vector<std::string>& words)
     }
     Work work;
     auto& [scene, grid, numerics, product, fields] = work.problem;
-    numerics.method = kind_from<Method>(words[1], method_names);
+    numerics.method = kind_from<Method>(words[1]);
     const std::size_t sizes = by_hand ? 2 : 5;
     const int side = number_from<int>(words[sizes]);
     numerics.tolerance = number_from<double>(words[sizes + 1]);
     if (by_hand) {
         work.by_hand = kind_from<ByHand>(words[4], by_hand_names);
     } else {
-        scene.pulse = kind_from<PulseKind>(words[2], pulse_names);
-        scene.theory = kind_from<Theory>(words[3], theory_names);
-        work.kernel = kind_from<Kernel>(words[4], kernel_names);
+        scene.pulse = kind_from<PulseKind>(words[2]);
+        scene.theory = kind_from<Theory>(words[3]);
+        work.kernel = kind_from<Kernel>(words[4]);
         for (std::size_t i = 7; i < words.size(); ++i) {
             fields.push_back(kind_from<Field>(words[i], field_names()));
         }
@@ -175,7 +175,7 @@ Work work_from(const std::vector<std::string>& words)
 int run(const std::vector<std::string>& words)
 {
     if (words == std::vector<std::string>{"pulses"}) {
-        for (const std::string_view name : pulse_names) {
+        for (const std::string_view name : names_of<PulseKind>) {
             std::cout << name << "\n";
         }
         return 0;

@@ -29,15 +29,15 @@ void compute_one_tile(benchmark::State& state, const Numerics& numerics, Kernel 
 
 void register_all()
 {
-    for (std::size_t method = 0; method < method_names.size(); ++method) {
+    for (std::size_t method = 0; method < names_of<Method>.size(); ++method) {
         for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
             if (!runs_here(kernel)) {
                 continue;
             }
             for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
                 const Numerics numerics{.method = Method(method), .tolerance = tolerance};
-                const std::string name =
-                    fmt::format("{}/{:.0e}/{}", method_names[method], tolerance, name_of(kernel));
+                const std::string name = fmt::format("{}/{:.0e}/{}", name_of(numerics.method),
+                                                     tolerance, name_of(kernel));
                 benchmark::RegisterBenchmark(name.c_str(), compute_one_tile, numerics, kernel)
                     ->Unit(benchmark::kMillisecond);
             }

@@ -60,12 +60,12 @@ std::vector<PointEffort> efforts_of_overturn(const PeerProblem& problem, const N
 std::vector<Solver> overturn_solvers(bool recorded)
 {
     std::vector<Solver> solvers;
-    for (std::size_t i = 0; i < method_names.size(); ++i) {
+    for (std::size_t i = 0; i < names_of<Method>.size(); ++i) {
         const auto solve = [method = Method(i)](const PeerProblem& problem, double tolerance) {
             return solve_by_overturn(problem, {.method = method, .tolerance = tolerance});
         };
         if (!recorded || Method(i) == Method::taylor) {
-            solvers.push_back({"overturn_" + std::string(method_names[i]), solve});
+            solvers.push_back({"overturn_" + std::string(name_of(Method(i))), solve});
         }
     }
     return solvers;

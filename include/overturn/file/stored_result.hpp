@@ -3,6 +3,7 @@
 
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
+#include "overturn/text/names.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -23,6 +24,11 @@ struct AxisSummary {
 
 /// The first two correspond to Product.
 enum class FileKind { spectrum, boundary, history, accuracy };
+
+/// Values of the global attribute `kind`.
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<FileKind>{
+    "overturning spectrum", "overturning boundary", "rocking history", "accuracy study"};
 
 /// The metadata that every kind of result file contains.
 struct FileOrigin {

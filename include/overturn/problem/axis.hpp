@@ -1,9 +1,9 @@
 // The values of one quantity: an axis, a single number, or a column of a table.
 #pragma once
 
-#include <array>
+#include "overturn/text/names.hpp"
+
 #include <cstdint>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -11,13 +11,9 @@ namespace overturn {
 
 enum class Spacing { linear, log };
 
-/// Names in job files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 2> spacing_names{"linear", "log"};
-
-constexpr std::string_view name_of(Spacing spacing)
-{
-    return spacing_names[std::size_t(spacing)];
-}
+/// In job files.
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Spacing>{"linear", "log"};
 
 /// first + (last - first) i / (count - 1), or the same for the logarithms; the last value is exact.
 struct AxisRange {

@@ -2,6 +2,8 @@
 // values that mean "not computed".
 #pragma once
 
+#include "overturn/text/names.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,13 +45,9 @@ using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uin
 /// The types of a value, in the order of FieldValues.
 enum class FieldType { uint8, uint16, uint32, float64 };
 
-inline constexpr std::array<std::string_view, 4> field_type_names{"uint8", "uint16", "uint32",
-                                                                  "float64"};
-
-constexpr std::string_view name_of(FieldType type)
-{
-    return field_type_names[std::size_t(type)];
-}
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<FieldType>{"uint8", "uint16", "uint32",
+                                                                     "float64"};
 
 /// A code or a bit of a field, with its name in the result file.
 struct FieldFlag {

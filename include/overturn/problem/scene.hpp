@@ -4,6 +4,7 @@
 #include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/pulse_kind.hpp"
 #include "overturn/mechanics/theory.hpp"
+#include "overturn/text/names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,28 +22,18 @@ enum class Method { rk45, taylor };
 /// The ground motions under which something applies.
 enum class Under { any_motion, pulse, record, two_components };
 
-/// Names in job files and result files, in the order of the enumerators.
-inline constexpr auto pulse_names = [] {
+/// In job files and result files.
+template <>
+inline constexpr auto names_of<PulseKind> = [] {
     std::array<std::string_view, pulses.size()> names;
     std::transform(pulses.begin(), pulses.end(), names.begin(),
                    [](const PulseTraits& pulse) { return pulse.name; });
     return names;
 }();
-inline constexpr std::array<std::string_view, 2> theory_names{"nonlinear", "linear"};
-inline constexpr std::array<std::string_view, 2> method_names{"rk45", "taylor"};
-
-constexpr std::string_view name_of(PulseKind pulse)
-{
-    return traits_of(pulse).name;
-}
-constexpr std::string_view name_of(Theory theory)
-{
-    return theory_names[std::size_t(theory)];
-}
-constexpr std::string_view name_of(Method method)
-{
-    return method_names[std::size_t(method)];
-}
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Theory>{"nonlinear", "linear"};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Method>{"rk45", "taylor"};
 
 struct Scene {
     PulseKind pulse = PulseKind::one_sine;

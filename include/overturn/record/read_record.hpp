@@ -3,7 +3,8 @@
 // or corrected. Only counts of a digitiser are converted, and lose their mean.
 #pragma once
 
-#include <array>
+#include "overturn/text/names.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -14,14 +15,10 @@ namespace overturn {
 
 enum class AccelerationUnit { g, m_per_s2, cm_per_s2, mm_per_s2, gal };
 
-/// Names in job files, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 5> acceleration_unit_names{"g", "m/s2", "cm/s2",
-                                                                         "mm/s2", "gal"};
-
-constexpr std::string_view name_of(AccelerationUnit unit)
-{
-    return acceleration_unit_names[std::size_t(unit)];
-}
+/// In job files.
+template <>
+inline constexpr std::array<std::string_view, 5> names_of<AccelerationUnit>{"g", "m/s2", "cm/s2",
+                                                                            "mm/s2", "gal"};
 
 /// One component of a recorded motion.
 struct RecordComponent {

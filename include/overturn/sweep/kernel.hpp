@@ -3,8 +3,7 @@
 // src/sweep/sweep_kernel.hpp.
 #pragma once
 
-#include <array>
-#include <string_view>
+#include "overturn/text/names.hpp"
 
 namespace overturn {
 
@@ -15,11 +14,9 @@ namespace overturn {
 enum class Kernel { one_lane, neon, avx2, avx512 };
 
 /// From the narrowest to the widest.
-inline constexpr std::array<std::string_view, 4> kernel_names{"double", "neon", "avx2", "avx512"};
-constexpr std::string_view name_of(Kernel kernel)
-{
-    return kernel_names[std::size_t(kernel)];
-}
+template <>
+inline constexpr std::array<std::string_view, 4> names_of<Kernel>{"double", "neon", "avx2",
+                                                                  "avx512"};
 
 /// Whether the kernel is part of this build; see the CMake option OVERTURN_KERNELS.
 bool is_compiled(Kernel kernel);
@@ -32,9 +29,5 @@ bool runs_here(Kernel kernel);
 
 /// The widest kernel that runs here. Throws Error.
 Kernel widest_kernel();
-
-/// The kernel of this name, one of kernel_names; of "auto", the widest one. Throws Error if it does
-/// not run here.
-Kernel kernel_called(std::string_view name);
 
 } // namespace overturn
