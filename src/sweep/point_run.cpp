@@ -66,7 +66,7 @@ PulseExcitation<Digits31> in_31_digits(const PulseExcitation<Digits50>& exact)
 /// The outcome of a point that cannot be integrated because gravity vanishes.
 constexpr Outcome free_fall = [] {
     Outcome outcome{};
-    outcome.flags = outcome_flag::free_fall;
+    outcome.flags = status::free_fall;
     outcome.region = Region::undecided;
     outcome.margin = unknown;
     outcome.error = infinity;
@@ -244,9 +244,9 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         const bool in_doubt = !(error < std::abs(margin));
         const auto flag = [](bool holds, std::uint8_t bit) { return holds ? bit : 0; };
         const int flags =
-            flag(end.fell, outcome_flag::fell) | flag(end.rested, outcome_flag::rested) |
-            flag(end.capped, outcome_flag::capped) |
-            flag(end.not_finite, outcome_flag::not_finite) | flag(in_doubt, outcome_flag::in_doubt);
+            flag(end.fell, outcome_flag::fell) | flag(end.rested, status::came_to_rest) |
+            flag(end.capped, status::cap_was_hit) | flag(end.not_finite, status::not_finite) |
+            flag(in_doubt, outcome_flag::in_doubt);
         Outcome& outcome = outcomes[point];
         outcome.tilt = double(end.state.tilt);
         outcome.rate = double(end.state.rate);
@@ -310,7 +310,7 @@ bool PointRun::settle_low_bounces(int point, Outcome& outcome) const
     if (!(error < margin)) {
         return false;
     }
-    if (outcome.has(outcome_flag::capped)) {
+    if (outcome.has(status::cap_was_hit)) {
         outcome.flags = 0;
         outcome.tilt = 0;
         outcome.rate = 0;

@@ -79,7 +79,7 @@ public:
     const ScaledPulse<double>& pulse_of(int point) const { return pulses_[point]; }
 
     /// Integrates the chosen points, which must be in ascending order. Points where the ground
-    /// falls as fast as the block are not integrated and get outcome_flag::free_fall.
+    /// falls as fast as the block are not integrated and get status::free_fall.
     void run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
              UncertainImpact uncertain_impact = UncertainImpact::go_on) const;
 
@@ -134,7 +134,7 @@ private:
 };
 
 /// Integrates again, with more and more digits, the points whose verdict is in doubt; those that
-/// remain in doubt get outcome_flag::unresolved. most_in_50_digits: the largest number of points
+/// remain in doubt get status::unresolved. most_in_50_digits: the largest number of points
 /// computed in 50 digits. Defined in resolve.cpp.
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes);
 

@@ -12,7 +12,7 @@ namespace {
 
 void give_up(Outcome& outcome)
 {
-    outcome.flags |= outcome_flag::unresolved;
+    outcome.flags |= status::unresolved;
     outcome.region = Region::undecided;
 }
 
@@ -29,11 +29,11 @@ std::vector<int> settle_capped(const PointRun& run, const std::vector<int>& poin
     std::vector<int> in_doubt;
     for (const int point : points) {
         Outcome& outcome = outcomes[point];
-        if (outcome.has(outcome_flag::capped)) {
+        if (outcome.has(status::cap_was_hit)) {
             if (!run.settle_low_bounces(point, outcome)) {
                 give_up(outcome);
             }
-        } else if (!outcome.has(outcome_flag::free_fall) &&
+        } else if (!outcome.has(status::free_fall) &&
                    !(safety * outcome.error < std::abs(outcome.margin))) {
             in_doubt.push_back(point);
         }

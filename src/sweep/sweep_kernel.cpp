@@ -53,9 +53,9 @@ template <Theory theory, Outputs outputs>
     put(end.state.tilt, &Outcome::tilt);
     put(end.state.rate, &Outcome::rate);
     put(end.state.side, &Outcome::side);
-    T flags = flagged(end.fell, outcome_flag::fell) + flagged(end.rested, outcome_flag::rested) +
-              flagged(end.capped, outcome_flag::capped) +
-              flagged(end.not_finite, outcome_flag::not_finite);
+    T flags = flagged(end.fell, outcome_flag::fell) + flagged(end.rested, status::came_to_rest) +
+              flagged(end.capped, status::cap_was_hit) +
+              flagged(end.not_finite, status::not_finite);
     if constexpr (has_31_digits) {
         // The margin is rounded to double.
         using std::abs;

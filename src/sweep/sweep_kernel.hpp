@@ -17,18 +17,17 @@
 
 namespace overturn {
 
-/// The bits of Outcome::flags; most are those of the field `status`.
+/// The bits of Outcome::flags besides those of the field `status`, and sets of bits.
 namespace outcome_flag {
-inline constexpr std::uint8_t rested = status::came_to_rest;
-inline constexpr std::uint8_t capped = status::cap_was_hit;
-inline constexpr std::uint8_t not_finite = status::not_finite;
-inline constexpr std::uint8_t unresolved = status::unresolved; ///< set by resolve()
-inline constexpr std::uint8_t free_fall = status::free_fall;   ///< not integrated, see PointRun
-inline constexpr std::uint8_t of_status = rested | capped | not_finite | unresolved | free_fall;
 inline constexpr std::uint8_t fell = 64;
 inline constexpr std::uint8_t in_doubt = 128; ///< only if the error is an output, see ForcedEnd
+/// The stored ones. resolve() sets `unresolved`; a point in `free_fall` is not integrated.
+inline constexpr std::uint8_t of_status = status::came_to_rest | status::cap_was_hit |
+                                          status::not_finite | status::unresolved |
+                                          status::free_fall;
 /// The integration was stopped, or did not begin: the state is meaningless.
-inline constexpr std::uint8_t without_end = capped | not_finite | free_fall;
+inline constexpr std::uint8_t without_end =
+    status::cap_was_hit | status::not_finite | status::free_fall;
 } // namespace outcome_flag
 
 /// The outcome of the forced stage of a point. A kernel writes the values of the second group only
@@ -37,7 +36,7 @@ struct Outcome {
     double tilt;        ///< |theta| [rad]
     double rate;        ///< d|theta| / d tau [rad]
     double side;        ///< +1 or -1: the sign of theta
-    std::uint8_t flags; ///< see outcome_flag
+    std::uint8_t flags; ///< of the field `status`, and outcome_flag
 
     Region region;
     double margin;         ///< [1]
@@ -59,7 +58,7 @@ struct Outcome {
     /// which a block may be lifted again after a bounce series.
     std::uint16_t stored_impacts(bool recorded) const
     {
-        return !recorded && has(outcome_flag::rested)
+        return !recorded && has(status::came_to_rest)
                    ? impact_count::bounce_series
                    : std::uint16_t(std::min(impacts, double(impact_count::largest)));
     }

@@ -142,8 +142,7 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
         const Outcomes outcomes = outcomes_of(run, resolved_taylor, {.region = true}, most);
         EXPECT_EQ(outcomes.in_50_digits, most);
         for (int i = 0; i < run.size(); ++i) {
-            const std::uint8_t flags =
-                i < most ? 0 : outcome_flag::unresolved | outcome_flag::in_doubt;
+            const std::uint8_t flags = i < most ? 0 : status::unresolved | outcome_flag::in_doubt;
             EXPECT_EQ(outcomes[std::size_t(i)].flags, flags) << i;
             EXPECT_EQ(outcomes[std::size_t(i)].region == Region::undecided, i >= most);
         }
@@ -324,7 +323,7 @@ TEST(ResolvedVerdicts, AreNotSoughtWhereGravityVanishes)
     EXPECT_NE(outcomes[0].region, Region::undecided);
     for (const std::size_t i : {1, 2}) {
         EXPECT_EQ(outcomes[i].region, Region::undecided);
-        EXPECT_EQ(outcomes[i].flags, outcome_flag::free_fall);
+        EXPECT_EQ(outcomes[i].flags, status::free_fall);
     }
 }
 

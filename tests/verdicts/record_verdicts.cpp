@@ -115,7 +115,7 @@ void check_verdicts(const PointRun& run, const Outcomes& truth, Counts& counts)
     for (int i = 0; i < resolved.size(); ++i) {
         ++counts.points;
         const bool known = truth[i].error < std::abs(truth[i].margin);
-        if (resolved[i].flags & outcome_flag::unresolved) {
+        if (resolved[i].flags & status::unresolved) {
             ++counts.unresolved;
         } else if (known && is_safe(resolved[i].region) != (truth[i].margin > 0)) {
             ++counts.wrong;

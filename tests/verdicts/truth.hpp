@@ -24,7 +24,7 @@ inline Outcomes truth_of(const PointRun& run)
     for (int point = 0; point < outcomes.size(); ++point) {
         const auto i = std::size_t(point);
         // Half a million impacts in 50 digits would take hours.
-        const bool hopeless = outcomes[i].flags & outcome_flag::capped;
+        const bool hopeless = outcomes[i].flags & status::cap_was_hit;
         const double margin = std::abs(outcomes[i].margin);
         if (!hopeless && !(margin >= margin_that_wants_digits && outcomes[i].error < margin)) {
             run.run_in_more_digits<Digits50>(point, outcomes);
