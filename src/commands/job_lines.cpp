@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <ranges>
 #include <utility>
@@ -26,7 +25,8 @@ std::optional<Extent> extent_of(const Job& job, std::string_view name)
 {
     const Grid corners = corners_of(job.problem.grid);
     const Coordinates coordinates(job.problem.scene, corners);
-    return coordinates.has(name) ? std::optional(extent_of(coordinates.of(name))) : std::nullopt;
+    return coordinates.has(name) ? std::optional(extent_of(coordinates.of(name).values))
+                                 : std::nullopt;
 }
 
 namespace {
@@ -121,20 +121,15 @@ std::string block_line(const Job& job)
 std::string contact_line(const Job& job)
 {
     constexpr double large = 0.7;
-    constexpr double never = std::numeric_limits<double>::infinity();
-    Extent lift{never, 0};
-    Extent impact{never, 0};
-    const auto include = [](Extent& extent, double value) {
-        extent = {std::min(extent.first, value), std::max(extent.last, value)};
-    };
+    Extent lift, impact;
     const Grid corners = corners_of(job.problem.grid);
     for (const Point& point : Coordinates(job.problem.scene, corners).points()) {
         const ContactSides<double> sides(point.block, point.gyration);
         const Block<double> other = point.block.turned();
-        include(lift, friction_to_lift(sides.plus, point.block.slenderness));
-        include(lift, friction_to_lift(sides.minus, other.slenderness));
-        include(impact, friction_of_impact(point.block, sides.plus, sides.minus));
-        include(impact, friction_of_impact(other, sides.minus, sides.plus));
+        lift.include(friction_to_lift(sides.plus, point.block.slenderness));
+        lift.include(friction_to_lift(sides.minus, other.slenderness));
+        impact.include(friction_of_impact(point.block, sides.plus, sides.minus));
+        impact.include(friction_of_impact(other, sides.minus, sides.plus));
     }
     const auto text = [](const Extent& extent) {
         const std::string first = fmt::format("{:.3g}", extent.first);
@@ -198,10 +193,10 @@ std::vector<std::string> free_fall_lines(const Job& job)
     if (!scene.is_recorded()) {
         return lines;
     }
-    const std::vector<ScaleRange> scales = scales_of(scene, job.problem.grid);
+    const std::vector<Extent> scales = scales_of(scene, job.problem.grid);
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const double largest = scene.records[i]->free_fall_scale();
-        if (std::isfinite(largest) && !(scales[i].largest < largest)) {
+        if (std::isfinite(largest) && !(scales[i].last < largest)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
                 "are undecided (status 16, free_fall)",

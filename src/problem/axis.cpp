@@ -1,5 +1,7 @@
 #include "overturn/problem/axis.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace overturn {
@@ -59,6 +61,18 @@ Axis Axis::thinned(std::int64_t count) const
         chosen.push_back((*this)[count == 1 ? size() / 2 : i * (size() - 1) / (count - 1)]);
     }
     return Axis(chosen);
+}
+
+std::string Extent::text(std::string_view unit) const
+{
+    return first == last ? fmt::format("{:.4g}{}", first, unit)
+                         : fmt::format("{:.4g} to {:.4g}{}", first, last, unit);
+}
+
+Extent extent_of(const std::vector<double>& values)
+{
+    const auto [first, last] = std::minmax_element(values.begin(), values.end());
+    return {*first, *last};
 }
 
 } // namespace overturn

@@ -445,17 +445,4 @@ std::vector<Point> Coordinates::points() const
     return points;
 }
 
-std::string Extent::text(std::string_view unit) const
-{
-    return first == last ? fmt::format("{:.4g}{}", first, unit)
-                         : fmt::format("{:.4g} to {:.4g}{}", first, last, unit);
-}
-
-Extent extent_of(const CoordinateValues& coordinate)
-{
-    const auto [first, last] =
-        std::minmax_element(coordinate.values.begin(), coordinate.values.end());
-    return {*first, *last};
-}
-
 } // namespace overturn

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace overturn {
 
@@ -244,14 +243,14 @@ void expect_directions(const Scene& scene, const Grid& grid)
 /// Refuses strengths at all of which the vertical motion of every record cancels gravity.
 void expect_gravity(const Scene& scene, const Grid& grid)
 {
-    const std::vector<ScaleRange> scales = scales_of(scene, grid);
+    const std::vector<Extent> scales = scales_of(scene, grid);
     const Accelerogram* weakest = nullptr; // of those with points
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const Accelerogram& record = *scene.records[i];
-        if (scales[i].smallest < record.free_fall_scale()) {
+        if (scales[i].first < record.free_fall_scale()) {
             return;
         }
-        if (std::isfinite(scales[i].smallest) && weakest == nullptr) {
+        if (std::isfinite(scales[i].first) && weakest == nullptr) {
             weakest = &record;
         }
     }
@@ -260,7 +259,7 @@ void expect_gravity(const Scene& scene, const Grid& grid)
            fmt::format(" = {:.6g}: from here on, the vertical motion cancels gravity under "
                        "every record. Choose a value below the scale {:.6g}, at which the "
                        "horizontal peak is {:.6g} g.",
-                       extent_of(Coordinates(scene, grid).of(name)).first,
+                       extent_of(Coordinates(scene, grid).of(name).values).first,
                        weakest->free_fall_scale(), weakest->free_fall_scale() * weakest->peak()));
 }
 
@@ -334,7 +333,7 @@ Grid corners_of(const Grid& grid)
     return corners;
 }
 
-std::vector<ScaleRange> scales_of(const Scene& scene, const Grid& grid)
+std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
 {
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
@@ -344,13 +343,11 @@ std::vector<ScaleRange> scales_of(const Scene& scene, const Grid& grid)
     const std::vector<std::size_t>& dimensions = coordinates.of(derived).dimensions;
     const std::vector<double> scale = coordinates.along(dimensions, "scale");
     const std::vector<double> motion = coordinates.along(dimensions, "motion");
-    std::vector<ScaleRange> ranges(scene.records.size(),
-                                   {std::numeric_limits<double>::infinity(), 0});
+    std::vector<Extent> scales(scene.records.size());
     for (std::size_t i = 0; i < scale.size(); ++i) {
-        ScaleRange& range = ranges[Scene::record_index(motion[i])];
-        range = {std::min(range.smallest, scale[i]), std::max(range.largest, scale[i])};
+        scales[Scene::record_index(motion[i])].include(scale[i]);
     }
-    return ranges;
+    return scales;
 }
 
 } // namespace overturn

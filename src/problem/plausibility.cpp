@@ -99,8 +99,8 @@ std::string finding_about_restitution(const Coordinates& coordinates, bool has_t
                    : "";
     };
     if (!has_table) {
-        const Extent extent = extent_of(coordinates.of(shape));
-        return finding(extent_of(coordinates.of("restitution")).last,
+        const Extent extent = extent_of(coordinates.of(shape).values);
+        return finding(extent_of(coordinates.of("restitution").values).last,
                        has_two_sides ? extent.last : extent.first);
     }
     std::vector<std::size_t> both;
@@ -139,18 +139,18 @@ std::string text_of(const Findings& findings)
 
 void judge_records(const Scene& scene, Findings& findings)
 {
-    CoordinateValues peaks, time_steps, means;
+    std::vector<double> peaks, time_steps, means;
     for (const auto& record : scene.records) {
         for (const auto* component :
              {&record->horizontal(), &record->second(), &record->upwards()}) {
             if (!component->empty()) {
                 const auto [least, most] = std::ranges::minmax(*component);
-                peaks.values.push_back(std::max(-least, most));
+                peaks.push_back(std::max(-least, most));
                 findings.push_back(finding_about_spikes(*component, record->time_step()));
             }
         }
-        means.values.push_back(record->upwards_mean());
-        time_steps.values.push_back(record->time_step());
+        means.push_back(record->upwards_mean());
+        time_steps.push_back(record->time_step());
     }
     findings.push_back(finding_about(vertical_mean, extent_of(means)));
     findings.push_back(finding_about(peak, extent_of(peaks)));
@@ -168,7 +168,7 @@ void judge_directions(const Grid& grid, const Coordinates& coordinates, Findings
                    : "");
         return;
     }
-    const Extent direction = extent_of(coordinates.of("direction"));
+    const Extent direction = extent_of(coordinates.of("direction").values);
     const std::string text = direction.text(" degrees");
     const double largest = std::max(std::abs(direction.first), std::abs(direction.last));
     if (0 < largest && largest < 2 * std::numbers::pi + 0.01) {
@@ -196,7 +196,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     const auto judge = [&](const PlausibleRange& range, std::string_view name,
                            std::string_view dimensionless = "", double unit = 1) {
         if (coordinates.has(name)) {
-            const Extent extent = extent_of(coordinates.of(name));
+            const Extent extent = extent_of(coordinates.of(name).values);
             findings.push_back(finding_about(range, {extent.first / unit, extent.last / unit},
                                              grid.find(dimensionless) != nullptr &&
                                                  !grid.has_table_column(dimensionless)));
@@ -212,7 +212,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     judge(period, "pulse_period", "frequency");
     const bool has_metres = coordinates.has("size") || coordinates.has("size_plus");
     if (has_metres && grid.find("amplitude") != nullptr) {
-        const Extent amplitude = extent_of(coordinates.of("amplitude"));
+        const Extent amplitude = extent_of(coordinates.of("amplitude").values);
         findings.push_back(
             amplitude.last > 1
                 ? ""

@@ -51,5 +51,11 @@ TEST(Axis, CountsBeyondThirtyTwoBits)
               double(std::int64_t(1) << 39) / double((std::int64_t(1) << 40) - 1));
 }
 
+TEST(Extent, IsWrittenAsOneValueOrTwo)
+{
+    EXPECT_EQ(extent_of({2}).text(" m"), "2 m");
+    EXPECT_EQ(extent_of({2, 3, 0.5}).text(" m"), "0.5 to 3 m");
+}
+
 } // namespace
 } // namespace overturn

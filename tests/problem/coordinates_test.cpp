@@ -401,11 +401,5 @@ TEST(LiftingPga, LiftsTheBlockOfThisSlenderness)
     }
 }
 
-TEST(Extent, IsWrittenAsOneValueOrTwo)
-{
-    EXPECT_EQ(extent_of({{}, {2}}).text(" m"), "2 m");
-    EXPECT_EQ(extent_of({{0}, {2, 3, 0.5}}).text(" m"), "0.5 to 3 m");
-}
-
 } // namespace
 } // namespace overturn

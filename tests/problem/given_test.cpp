@@ -345,8 +345,8 @@ TEST(ScalesOf, EveryRecordAreItsSmallestAndLargestFactor)
     const Quantities others = block + loss;
     const auto as_pairs = [&](const Quantities& given) {
         std::vector<std::pair<double, double>> pairs;
-        for (const ScaleRange& range : scales_of(scene, grid_of(scene, others + given))) {
-            pairs.emplace_back(range.smallest, range.largest);
+        for (const Extent& scales : scales_of(scene, grid_of(scene, others + given))) {
+            pairs.emplace_back(scales.first, scales.last);
         }
         return pairs;
     };

@@ -1,9 +1,13 @@
-// The values of one quantity: an axis, a single number, or a column of a table.
+// The values of one quantity: an axis, a single number, or a column of a table; their extent.
 #pragma once
 
 #include "overturn/text/names.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -51,5 +55,22 @@ public:
 private:
     std::variant<AxisRange, AxisList> definition_;
 };
+
+/// The smallest and the largest of some values. Those that are included one by one are not
+/// negative; without any, they are infinity and 0.
+struct Extent {
+    double first = std::numeric_limits<double>::infinity();
+    double last = 0;
+
+    void include(double value)
+    {
+        first = std::min(first, value);
+        last = std::max(last, value);
+    }
+
+    /// "2 m", or "1 to 2 m" if both differ. unit: begins with a blank unless it is empty.
+    std::string text(std::string_view unit) const;
+};
+Extent extent_of(const std::vector<double>& values);
 
 } // namespace overturn

@@ -99,14 +99,4 @@ private:
     mutable std::map<std::string, CoordinateValues, std::less<>> known_;
 };
 
-/// The smallest and the largest value of a coordinate over all points.
-struct Extent {
-    double first;
-    double last;
-
-    /// "2 m", or "1 to 2 m" if both differ. unit: begins with a blank unless it is empty.
-    std::string text(std::string_view unit) const;
-};
-Extent extent_of(const CoordinateValues& coordinate);
-
 } // namespace overturn

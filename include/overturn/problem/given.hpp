@@ -54,12 +54,7 @@ Grid grid_of(const Scene& scene, std::vector<Given> given);
 /// largest values are those of the grid.
 Grid corners_of(const Grid& grid);
 
-/// The smallest and the largest factor on each record [1]; infinity and 0 for one to which no point
-/// is subjected.
-struct ScaleRange {
-    double smallest;
-    double largest;
-};
-std::vector<ScaleRange> scales_of(const Scene& scene, const Grid& grid);
+/// The factors on each record [1]; infinity and 0 for one to which no point is subjected.
+std::vector<Extent> scales_of(const Scene& scene, const Grid& grid);
 
 } // namespace overturn
