@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ranges>
 
 namespace overturn {
 
@@ -153,17 +152,12 @@ void print_scene(const Job& job)
                           numerics.resolve ? ", verdicts resolved" : ""));
 }
 
-/// The coordinates that are not columns of a table, the fastest first.
 void print_coordinates(const Grid& grid)
 {
-    for (const Quantity& quantity : all_quantities() | std::views::reverse) {
-        const Column* column = grid.find(quantity.name);
-        const auto dimension = grid.dimension_of(quantity.name);
-        const bool is_of_table = dimension && grid.dimensions[*dimension].name == table_dimension;
-        if (column != nullptr && !is_of_table && quantity.role != Role::motion) {
-            print_axis(quantity.name, column->values.size(), column->values.first(),
-                       column->values.last(), unit_text(quantity));
-        }
+    for (const Column* column : grid.outside_table()) {
+        const auto& [quantity, values] = *column;
+        print_axis(quantity->name, values.size(), values.first(), values.last(),
+                   unit_text(*quantity));
     }
 }
 

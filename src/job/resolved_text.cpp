@@ -3,8 +3,6 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <span>
-
 namespace overturn {
 
 namespace {
@@ -77,20 +75,14 @@ std::string blocks_text(const BlockTable& blocks)
                        in_quotes(blocks.checksum));
 }
 
-/// The coordinates that are not columns of a table, the fastest first.
 std::string plane_text(const Grid& grid)
 {
     std::string text;
-    const std::span<const Quantity> quantities = all_quantities();
-    for (auto quantity = quantities.rbegin(); quantity != quantities.rend(); ++quantity) {
-        const Column* const column = grid.find(quantity->name);
-        if (column != nullptr && quantity->role != Role::motion &&
-            !grid.has_table_column(quantity->name)) {
-            text +=
-                fmt::format("{} = {}\n", quantity->name,
-                            grid.dimension_of(quantity->name) ? axis_text(column->values)
-                                                              : float_text(column->values.first()));
-        }
+    for (const Column* column : grid.outside_table()) {
+        const std::string_view name = column->quantity->name;
+        text += fmt::format("{} = {}\n", name,
+                            grid.dimension_of(name) ? axis_text(column->values)
+                                                    : float_text(column->values.first()));
     }
     return text.empty() ? "" : "\n[plane]\n" + text;
 }

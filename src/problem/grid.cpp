@@ -53,6 +53,20 @@ const Column* Grid::find(std::string_view name) const
     return found == columns.end() ? nullptr : &*found;
 }
 
+std::vector<const Column*> Grid::outside_table() const
+{
+    std::vector<const Column*> columns;
+    const std::span<const Quantity> quantities = all_quantities();
+    for (auto quantity = quantities.rbegin(); quantity != quantities.rend(); ++quantity) {
+        const Column* const column = find(quantity->name);
+        if (column != nullptr && quantity->role != Role::motion &&
+            !has_table_column(quantity->name)) {
+            columns.push_back(column);
+        }
+    }
+    return columns;
+}
+
 const Column* Grid::axis_or_number(Role role) const
 {
     for (const Quantity& quantity : all_quantities()) {

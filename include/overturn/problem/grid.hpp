@@ -51,6 +51,9 @@ struct Grid {
     /// Whether the table has a column of this name.
     bool has_table_column(std::string_view name) const;
 
+    /// The coordinates that are not columns of the table, without the motion; the fastest first.
+    std::vector<const Column*> outside_table() const;
+
     /// The first quantity of this role, other than a column of a table; nullptr if there is none.
     const Column* axis_or_number(Role role) const;
 
