@@ -9,6 +9,7 @@
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ At read_at(const std::string& given)
     const std::string_view text = given;
     const std::string axis(trimmed(text.substr(0, equals)));
     const std::string_view value = trimmed(text.substr(std::min(equals + 1, given.size())));
-    if (std::ranges::count(axis_names(), axis) == 0 || value.empty()) {
+    if (!is_one_of(axis, axis_names()) || value.empty()) {
         throw Error(exit_code::usage,
                     "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
                     "--at frequency=3,amplitude=1.5.",

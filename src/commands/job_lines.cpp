@@ -6,6 +6,7 @@
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <boost/algorithm/string/predicate.hpp>
@@ -284,9 +285,6 @@ void warn_of_probable_mistakes(const Job& job)
         fmt::print(stderr, "overturn: warning: {}.\n", printable(text));
     };
     const Grid& grid = job.problem.grid;
-    const auto is_key_of_scene = [](const std::string& name) {
-        return std::ranges::count(keys_of("scene"), name) > 0;
-    };
     if (const std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
         warn(values);
     }
@@ -295,7 +293,7 @@ void warn_of_probable_mistakes(const Job& job)
         if (grid.has_table_column(column.name)) {
             continue;
         }
-        if (is_key_of_scene(column.name) || find_quantity(column.name) != nullptr) {
+        if (is_one_of(column.name, keys_of("scene")) || find_quantity(column.name) != nullptr) {
             warn(fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
                              "property of the blocks under this ground motion",
                              in_quotes(column.name), job.blocks->file));

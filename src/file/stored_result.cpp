@@ -9,6 +9,7 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/ranges.h>
@@ -195,7 +196,7 @@ struct StoredResult::Open {
         };
         checksums = read_numbers(dataset);
         tiles.tiles_done = tiles.tiles - std::ranges::count(checksums, not_computed_checksum);
-        if (std::ranges::count(tiles.fields, Field::evaluated) == 0) {
+        if (!is_one_of(Field::evaluated, tiles.fields)) {
             return;
         }
         const std::vector<std::uint64_t> checked = read_numbers(open_number(layout::audit_checked));
@@ -292,7 +293,7 @@ std::vector<std::int64_t> StoredResult::damaged_tiles(const BetweenTiles& betwee
 BoundaryLines StoredResult::count_lines() const
 {
     BoundaryLines lines;
-    lines.has_shares = std::ranges::count(tiles().fields, Field::unsafe_share) > 0;
+    lines.has_shares = is_one_of(Field::unsafe_share, tiles().fields);
     std::vector<Field> fields{Field::region_below, Field::region_above};
     if (lines.has_shares) {
         fields.insert(fields.end(), line_fields.begin(), line_fields.end());

@@ -1,6 +1,7 @@
 #include "read_steps.hpp"
 
 #include "overturn/record/text_file.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -55,10 +56,10 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
     const auto refuse_name = [&](const std::string& reason) {
         refuse(blocks, {GivenError::no_row, name, reason});
     };
-    const auto is_one_of = [&](const auto& names) { return std::ranges::count(names, name) > 0; };
     const Quantity* const same = find_quantity(name);
-    if ((same != nullptr && same->role == Role::derived) || is_one_of(reserved_names) ||
-        is_one_of(field_names()) || (is_recorded && is_one_of(reserved_under_records))) {
+    if ((same != nullptr && same->role == Role::derived) || is_one_of(name, reserved_names) ||
+        is_one_of(name, field_names()) ||
+        (is_recorded && is_one_of(name, reserved_under_records))) {
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
     for (const TableColumn& other : blocks.table.columns) {

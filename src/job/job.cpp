@@ -4,9 +4,9 @@
 
 #include "read_steps.hpp"
 
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -98,7 +98,7 @@ std::vector<Field> read_fields(const Entry& job)
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
         const auto field = choice_of<Field>(element(*entry, i), names);
-        if (std::ranges::count(fields, field) > 0) {
+        if (is_one_of(field, fields)) {
             refuse(element(*entry, i), " = \"{}\" is listed twice. List each field once.",
                    name_of(field));
         }
@@ -115,8 +115,7 @@ void expect_computable(const Entry& job, const Problem& problem)
     const auto key = [&](std::string_view table, std::string_view name) {
         return *find(*find(job, table), name);
     };
-    const auto stores = [&](Field field) { return std::ranges::count(problem.fields, field) > 0; };
-    if ((numerics.resolve || stores(Field::error)) && !knows_errors(numerics)) {
+    if ((numerics.resolve || is_one_of(Field::error, problem.fields)) && !knows_errors(numerics)) {
         refuse(key("numerics", "tolerance"),
                " = {} is too loose for {}: above {} the steps of \"rk45\" are too long for "
                "reliable error bounds. Lower it, or use method = \"taylor\".",
@@ -124,7 +123,7 @@ void expect_computable(const Entry& job, const Problem& problem)
                largest_rk45_tolerance_with_error);
     }
     for (const Field field : {Field::friction, Field::normal}) {
-        if (problem.scene.theory == Theory::linear && stores(field)) {
+        if (problem.scene.theory == Theory::linear && is_one_of(field, problem.fields)) {
             refuse(key("output", "fields"),
                    " contains \"{}\", but the linear theory has no forces of the contact. Remove "
                    "it, or use theory = \"nonlinear\".",

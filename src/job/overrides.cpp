@@ -1,6 +1,7 @@
 #include "read_steps.hpp"
 
-#include <algorithm>
+#include "overturn/text/is_one_of.hpp"
+
 #include <cctype>
 #include <string_view>
 #include <vector>
@@ -89,7 +90,7 @@ void erase(toml::table& job, std::string_view table, std::string_view key)
 
 bool is_coordinate(const Path& path)
 {
-    return path.size() > 1 && std::ranges::count(coordinate_tables, path[0]) > 0 &&
+    return path.size() > 1 && is_one_of(path[0], coordinate_tables) &&
            find_quantity(path[1]) != nullptr;
 }
 

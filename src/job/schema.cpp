@@ -1,6 +1,7 @@
 #include "overturn/job/schema.hpp"
 
 #include "overturn/job/job.hpp"
+#include "overturn/text/is_one_of.hpp"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ std::vector<std::string> override_keys()
         for (const std::string_view name : keys_of(table)) {
             const std::string key = fmt::format("{}.{}", table, name);
             all.push_back(key);
-            if (std::ranges::count(coordinate_tables, table) > 0) {
+            if (is_one_of(table, coordinate_tables)) {
                 for (const std::string_view part : axis_keys) {
                     all.push_back(fmt::format("{}.{}", key, part));
                 }

@@ -3,6 +3,7 @@
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
 #include "overturn/job/schema.hpp"
+#include "overturn/text/is_one_of.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -150,7 +151,7 @@ void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
         refuse_type(entry, fmt::format("{}a table with the keys {}", or_else, joined(allowed)));
     }
     for (const auto& [key, value] : *table) {
-        if (std::find(allowed.begin(), allowed.end(), key.str()) == allowed.end()) {
+        if (!is_one_of(key.str(), allowed)) {
             const std::string unknown = shortened(dotted(entry.key, key.str()), longest_quotation);
             throw Error(exit_code::job, "{}: unknown key {}.{} Allowed here: {}.",
                         place_of(key.source()), in_quotes(unknown),

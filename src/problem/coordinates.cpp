@@ -2,6 +2,7 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
@@ -234,8 +235,7 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
     path.push_back(name);
     const auto is_known = [&](std::string_view other) {
         return other.empty() || grid.find(other) != nullptr ||
-               (std::ranges::count(path, other) == 0 &&
-                derivation_of(other, scene, grid, path) != nullptr);
+               (!is_one_of(other, path) && derivation_of(other, scene, grid, path) != nullptr);
     };
     using Table = std::span<const Derivation>;
     for (const Table table :

@@ -2,6 +2,7 @@
 
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
+#include "overturn/text/is_one_of.hpp"
 
 #include <fmt/format.h>
 
@@ -130,7 +131,7 @@ std::string text_of(const Findings& findings)
 {
     Findings different;
     for (const std::string& finding : findings) {
-        if (!finding.empty() && std::ranges::count(different, finding) == 0) {
+        if (!finding.empty() && !is_one_of(finding, different)) {
             different.push_back(finding);
         }
     }

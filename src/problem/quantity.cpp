@@ -1,6 +1,7 @@
 #include "overturn/problem/quantity.hpp"
 
 #include "overturn/mechanics/pulse_kind.hpp"
+#include "overturn/text/is_one_of.hpp"
 
 #include <fmt/format.h>
 
@@ -109,33 +110,28 @@ constexpr Quantity quantities[] = {
      "It is the local error per step, relative to the size of the motion."},
 };
 
-using Names = std::initializer_list<std::string_view>;
-
-bool has(const Names& names, std::string_view name)
-{
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
+using NameSet = std::initializer_list<std::string_view>;
 
 /// Quantities of which a point has at most one.
-const Names equivalents[] = {{"width", "half_width"},
-                             {"height", "half_height"},
-                             {"slenderness", "aspect_ratio"},
-                             {"size", "frequency_parameter"},
-                             {"restitution", "restitution_of_maximum"},
-                             {"amplitude", "scale", "pga"},
-                             {"frequency", "pulse_period", "pulse_frequency"}};
+const NameSet equivalents[] = {{"width", "half_width"},
+                               {"height", "half_height"},
+                               {"slenderness", "aspect_ratio"},
+                               {"size", "frequency_parameter"},
+                               {"restitution", "restitution_of_maximum"},
+                               {"amplitude", "scale", "pga"},
+                               {"frequency", "pulse_period", "pulse_frequency"}};
 
 /// The ways to describe a block.
-const Names ways[] = {
+const NameSet ways[] = {
     {"slenderness", "aspect_ratio", "size", "frequency_parameter"},
     {"width", "half_width", "height", "half_height", "center_offset", "center_height",
      "radius_of_gyration", "incline"},
     {"slenderness_plus", "slenderness_minus", "size_plus", "size_minus", "radius_of_gyration"}};
 
 /// What the blocks of the first way, and boxes, lack.
-const Names of_two_sides{"center_offset", "center_height",    "radius_of_gyration",
-                         "incline",       "slenderness_plus", "slenderness_minus",
-                         "size_plus",     "size_minus"};
+const NameSet of_two_sides{"center_offset", "center_height",    "radius_of_gyration",
+                           "incline",       "slenderness_plus", "slenderness_minus",
+                           "size_plus",     "size_minus"};
 
 } // namespace
 
@@ -160,20 +156,21 @@ const Quantity& quantity(std::string_view name)
 bool are_equivalent(std::string_view one, std::string_view other)
 {
     return one == other ||
-           std::any_of(std::begin(equivalents), std::end(equivalents),
-                       [&](const Names& names) { return has(names, one) && has(names, other); });
+           std::any_of(std::begin(equivalents), std::end(equivalents), [&](const NameSet& names) {
+               return is_one_of(one, names) && is_one_of(other, names);
+           });
 }
 
 bool describes_two_sides(std::string_view name)
 {
-    return has(of_two_sides, name);
+    return is_one_of(name, of_two_sides);
 }
 
 bool exclude_each_other(std::string_view one, std::string_view other)
 {
     const auto is_in_a_way = [](const auto&... names) {
         return std::any_of(std::begin(ways), std::end(ways),
-                           [&](const Names& way) { return (has(way, names) && ...); });
+                           [&](const NameSet& way) { return (is_one_of(names, way) && ...); });
     };
     return are_equivalent(one, other) ||
            (is_in_a_way(one) && is_in_a_way(other) && !is_in_a_way(one, other));

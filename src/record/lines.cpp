@@ -2,7 +2,6 @@
 
 #include <boost/algorithm/string/case_conv.hpp>
 
-#include <algorithm>
 #include <locale>
 
 namespace overturn {
@@ -97,11 +96,6 @@ std::vector<std::string_view> words_of(std::string_view text, std::string_view s
         begin += words.back().size();
     }
     return words;
-}
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words)
-{
-    return std::ranges::find(words, word) != words.end();
 }
 
 } // namespace overturn

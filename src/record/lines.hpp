@@ -2,12 +2,12 @@
 #pragma once
 
 #include "overturn/text/error.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -102,8 +102,5 @@ std::size_t place_after(std::string_view text, std::string_view words);
 
 /// The words between separators.
 std::vector<std::string_view> words_of(std::string_view text, std::string_view separators);
-
-/// Whether a word is one of these.
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words);
 
 } // namespace overturn

@@ -5,9 +5,9 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/fill.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -86,9 +86,7 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
                          const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const auto wanted = [&fields = fields](Field field) {
-        return std::find(fields.begin(), fields.end(), field) != fields.end();
-    };
+    const auto wanted = [&fields = fields](Field field) { return is_one_of(field, fields); };
     const bool has_contact = wanted(Field::friction) || wanted(Field::normal);
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
                           !grid.has_two_sides());
