@@ -6,6 +6,7 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/job/nearest_name.hpp"
+#include "overturn/job/schema.hpp"
 #include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
@@ -310,7 +311,7 @@ complete -F _overturn overturn
 std::string choices_of(std::string value)
 {
     if (value == "AXIS=VALUE,...") {
-        return fmt::format("{}=", fmt::join(axis_names(), "= "));
+        return fmt::format("{}=", fmt::join(keys_of("plane"), "= "));
     }
     if (value.ends_with("KEY=VALUE")) {
         const std::string prefix = value.substr(0, value.size() - 9);

@@ -7,6 +7,7 @@
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/job/schema.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"
@@ -37,11 +38,11 @@ At read_at(const std::string& given)
     const std::string_view text = given;
     const std::string axis(trimmed(text.substr(0, equals)));
     const std::string_view value = trimmed(text.substr(std::min(equals + 1, given.size())));
-    if (!is_one_of(axis, axis_names()) || value.empty()) {
+    if (!is_one_of(axis, keys_of("plane")) || value.empty()) {
         throw Error(exit_code::usage,
                     "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
                     "--at frequency=3,amplitude=1.5.",
-                    given, fmt::join(axis_names(), ", "));
+                    given, fmt::join(keys_of("plane"), ", "));
     }
     double number = 0;
     const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);

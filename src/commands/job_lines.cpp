@@ -260,7 +260,7 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
                    return std::ranges::any_of(each.columns, excludes);
                });
     };
-    std::vector<std::string_view> names = axis_names();
+    std::vector<std::string_view> names = keys_of("plane");
     std::erase_if(names, [&](std::string_view name) { return !is_lacking(name); });
     if (const std::string_view nearest = nearest_name(column, names); !nearest.empty()) {
         return nearest;

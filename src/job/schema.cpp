@@ -1,11 +1,8 @@
 #include "overturn/job/schema.hpp"
 
-#include "overturn/job/job.hpp"
 #include "overturn/text/is_one_of.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace overturn {
 
@@ -47,11 +44,6 @@ std::vector<std::string_view> keys_of(std::string_view table, std::optional<Unde
         }
     }
     return names;
-}
-
-std::vector<std::string_view> axis_names()
-{
-    return keys_of("plane");
 }
 
 std::vector<std::string> override_keys()

@@ -44,13 +44,6 @@ struct Job {
     std::string resolved;               ///< the canonical job: equal text, equal results
 };
 
-/// The keys that an override of read_job() may replace, such as "scene.pulse" and
-/// "plane.frequency.count".
-std::vector<std::string> override_keys();
-
-/// The names of all axes of a plane.
-std::vector<std::string_view> axis_names();
-
 /// Reads and checks a job. Each override is `key.path=value` in TOML syntax (a bare word is a
 /// string) and replaces a key of the file; keys that contradict it are dropped. Throws Error.
 Job read_job(const std::string& path, const std::vector<std::string>& overrides = {});

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace overturn {
 /// The names of the keys of a table; of the job if it is empty. motion: only those that belong to
 /// a pulse, or to a record.
 std::vector<std::string_view> keys_of(std::string_view table, std::optional<Under> motion = {});
+
+/// The keys that an override of read_job() may replace, such as "scene.pulse" and
+/// "plane.frequency.count".
+std::vector<std::string> override_keys();
 
 /// The keys of an axis that is a table; that of the restitution also has `of`, which says of what
 /// its values are a share.
