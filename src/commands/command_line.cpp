@@ -5,11 +5,11 @@
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/job/nearest_name.hpp"
 #include "overturn/job/schema.hpp"
 #include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/nearest_name.hpp"
 
 #include <CLI/CLI.hpp>
 #include <boost/algorithm/string/replace.hpp>

@@ -1,12 +1,12 @@
 #include "job_lines.hpp"
 
-#include "overturn/job/nearest_name.hpp"
 #include "overturn/job/schema.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/text/is_one_of.hpp"
+#include "overturn/text/nearest_name.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <boost/algorithm/string/predicate.hpp>

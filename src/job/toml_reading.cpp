@@ -1,9 +1,9 @@
 #include "toml_reading.hpp"
 
 #include "overturn/job/job.hpp"
-#include "overturn/job/nearest_name.hpp"
 #include "overturn/job/schema.hpp"
 #include "overturn/text/is_one_of.hpp"
+#include "overturn/text/nearest_name.hpp"
 
 #include <algorithm>
 #include <cmath>

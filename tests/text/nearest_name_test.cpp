@@ -1,4 +1,4 @@
-#include "overturn/job/nearest_name.hpp"
+#include "overturn/text/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 
