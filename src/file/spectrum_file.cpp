@@ -372,6 +372,11 @@ struct SpectrumFile::Open {
 
 namespace {
 
+[[noreturn]] void refuse_to_open(const std::string& path, std::string_view reason)
+{
+    throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path, reason);
+}
+
 /// Closes the file, which makes the token visible to other hosts over NFS.
 void write_token(const std::string& path, std::uint64_t token)
 {
@@ -381,7 +386,7 @@ void write_token(const std::string& path, std::uint64_t token)
                        H5S_ALL, H5S_ALL, H5P_DEFAULT, &token));
         file.close();
     } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path, error.what());
+        refuse_to_open(path, error.what());
     }
 }
 
@@ -459,8 +464,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     open_->is_filled = problem.numerics.fill;
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
-        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path,
-                    system_reason(errno));
+        refuse_to_open(path, system_reason(errno));
     }
     try {
         start_hdf5();
@@ -482,7 +486,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "cannot open \"{}\" for writing: {}.", path, error.what());
+        refuse_to_open(path, error.what());
     }
 }
 
