@@ -5,9 +5,9 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <regex>
 
 namespace overturn {
 
@@ -16,10 +16,15 @@ namespace {
 /// In few spellings, without the marks of a comment and the points of sentences.
 std::string text_of_comment(std::string_view line)
 {
-    static const std::regex point(R"(\.(?![0-9]))");
     line = trimmed(line);
     line.remove_prefix(std::min(line.find_first_not_of(line.substr(0, 1)), line.size()));
-    std::string text = std::regex_replace(in_few_spellings(line), point, " ");
+    std::string text = in_few_spellings(line);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool precedes_digit = std::isdigit(static_cast<unsigned char>(text[i + 1])) != 0;
+        if (text[i] == '.' && !precedes_digit) {
+            text[i] = ' ';
+        }
+    }
     boost::algorithm::replace_all(text, "%", " percent ");
     return text;
 }
