@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "job_lines.hpp"
-#include "one_point.hpp"
+#include "only_point.hpp"
 #include "output_lines.hpp"
 
 #include "overturn/file/sole_writer.hpp"

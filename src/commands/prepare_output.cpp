@@ -66,7 +66,7 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
         say(path + " is already complete.");
         return std::nullopt;
     }
-    demand_place_for_sidecar(path);
+    expect_place_for_sidecar(path);
     if (!damaged) {
         const auto bytes = double(spectrum_file_bytes(job));
         constexpr double made_at_once = 1e8;

@@ -220,7 +220,7 @@ int run(const RunOptions& options)
             if (options.boundary) {
                 job = boundary_of(std::move(*job));
             }
-            demand_path_for_mpi(std::filesystem::absolute(path).string());
+            expect_path_for_mpi(std::filesystem::absolute(path).string());
             sole_writer.emplace(path);
             if (const auto found = prepare_output(*job, path, *sole_writer)) {
                 warn_of_probable_mistakes(*job);

@@ -3,7 +3,7 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "job_lines.hpp"
-#include "one_point.hpp"
+#include "only_point.hpp"
 #include "output_lines.hpp"
 #include "progress.hpp"
 #include "verdict_ranges.hpp"

@@ -58,7 +58,7 @@ std::string_view program_commit()
     return identity::commit;
 }
 
-void demand_place_for_sidecar(const std::string& spectrum_path)
+void expect_place_for_sidecar(const std::string& spectrum_path)
 {
     const std::string path = spectrum_path + ".json";
     const PartFile place(path);
@@ -80,7 +80,7 @@ void demand_place_for_sidecar(const std::string& spectrum_path)
 
 void write_sidecar(const std::string& spectrum_path, std::string_view text)
 {
-    demand_place_for_sidecar(spectrum_path); // a file may have appeared during the run
+    expect_place_for_sidecar(spectrum_path); // a file may have appeared during the run
     PartFile part(spectrum_path + ".json");
     errno = 0;
     std::ofstream stream(part.path(), std::ios::binary);

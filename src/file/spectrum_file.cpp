@@ -419,7 +419,7 @@ Handle unbuffered_access(MPI_Comm communicator)
 
 } // namespace
 
-void demand_path_for_mpi([[maybe_unused]] const std::string& path)
+void expect_path_for_mpi([[maybe_unused]] const std::string& path)
 {
 #ifndef OMPI_MAJOR_VERSION // MPICH and its derivatives use ROMIO
     if (path.find(':') != std::string::npos) {

@@ -29,7 +29,7 @@ inline constexpr std::string_view sidecar_beginning = "{\n  \"program_version\":
 
 /// Throws Error if the sidecar cannot be written, because another kind of file has its name or
 /// the name is too long. To be called before the computation.
-void demand_place_for_sidecar(const std::string& spectrum_path);
+void expect_place_for_sidecar(const std::string& spectrum_path);
 
 /// Writes the sidecar file spectrum_path + ".json". Replaces an older one atomically. Throws Error.
 void write_sidecar(const std::string& spectrum_path, std::string_view text);

@@ -34,7 +34,7 @@ void create_spectrum_file(
     const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
 
 /// Throws Error if MPI cannot open files of this absolute path.
-void demand_path_for_mpi(const std::string& path);
+void expect_path_for_mpi(const std::string& path);
 
 /// The first rank on which the path names a different file than on rank 0, or nullopt; returned on
 /// all ranks. Collective, before the file is opened. Rank 0 stores a random number in the file, all
