@@ -19,7 +19,6 @@
 #include <cctype>
 #include <cmath>
 #include <concepts>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <sstream>

@@ -1,10 +1,6 @@
 #include "output_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <cstdint>
-#include <string_view>
 #include <utility>
 
 namespace overturn {

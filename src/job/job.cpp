@@ -8,7 +8,6 @@
 #include "overturn/text/mapped.hpp"
 
 #include <filesystem>
-#include <optional>
 
 namespace overturn {
 

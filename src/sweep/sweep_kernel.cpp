@@ -10,7 +10,6 @@
 #include "overturn/number/double_double.hpp"
 #include "overturn/number/pack.hpp"
 
-#include <limits>
 #include <optional>
 
 namespace overturn {
