@@ -1,9 +1,8 @@
 #include "overturn/job/job.hpp"
 
-#include "overturn/record/text_file.hpp"
-
 #include "read_steps.hpp"
 
+#include "overturn/record/text_file.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 

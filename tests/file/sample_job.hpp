@@ -3,8 +3,8 @@
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
-#include "overturn/problem/given.hpp"
 #include "overturn/sweep/compute_tile.hpp"
+#include "support/given_values.hpp"
 
 #include <numeric>
 #include <string>
@@ -17,9 +17,6 @@ namespace overturn {
 /// columns.
 inline Job sample_job()
 {
-    const auto given = [](std::string_view name, Axis values) {
-        return Given{&quantity(name), std::string(name), std::move(values), GivenAs::axis};
-    };
     Job job;
     job.title = "Sample: r = r_max, α = 10°";
     Problem& problem = job.problem;
@@ -27,10 +24,10 @@ inline Job sample_job()
                      .theory = Theory::nonlinear,
                      .shape = {.window = 1.25}};
     problem.grid =
-        grid_of(problem.scene, {given("frequency", Axis(AxisRange{0.5, 12, 131, Spacing::linear})),
-                                given("amplitude", Axis(AxisRange{0.25, 16, 67, Spacing::linear})),
-                                given("restitution_of_maximum", Axis(AxisList{0.7, 0.85, 1})),
-                                given("slenderness", Axis(AxisList{0.1745716, 0.25}))});
+        grid_of(problem.scene, {axis("frequency", AxisRange{0.5, 12, 131, Spacing::linear}),
+                                axis("amplitude", AxisRange{0.25, 16, 67, Spacing::linear}),
+                                axis("restitution_of_maximum", {0.7, 0.85, 1}),
+                                axis("slenderness", {0.1745716, 0.25})});
     problem.numerics = {.method = Method::rk45, .tolerance = 1e-9};
     problem.fields = {Field::region, Field::angle,   Field::velocity,
                       Field::margin, Field::impacts, Field::status};

@@ -1,7 +1,7 @@
 #include "altered_result_file.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/problem/given.hpp"
+#include "support/given_values.hpp"
 #include "support/scratch_folder.hpp"
 
 #include <hdf5.h>
@@ -236,14 +236,10 @@ const std::string& file_to_alter()
 
 Job job_to_alter()
 {
-    const auto given = [](std::string_view name, AxisList values) {
-        const auto as = values.size() == 1 ? GivenAs::number : GivenAs::axis;
-        return Given{&quantity(name), std::string(name), Axis(std::move(values)), as};
-    };
     Job job;
     job.problem.grid =
-        grid_of(job.problem.scene, {given("frequency", {1, 2}), given("amplitude", {1, 2}),
-                                    given("restitution", {0.7}), given("slenderness", {0.2})});
+        grid_of(job.problem.scene, {axis("frequency", {1, 2}), axis("amplitude", {1, 2}),
+                                    number("restitution", 0.7), number("slenderness", 0.2)});
     job.title = "A file to alter";
     job.problem.fields = {Field::region, Field::impacts};
     job.given = "the job file\n";
