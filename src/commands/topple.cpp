@@ -57,9 +57,8 @@ std::string quoted_utf8(const std::string& text)
     return in_quotes(text);
 }
 
-/// The text of a job with a single point, or with these strengths: scales of a record, or peak
-/// accelerations of a pulse. If the command line gives no strength, its motion is 0.
-std::string job_text(const ToppleOptions& options, const std::vector<double>& strengths = {})
+/// The text of a job with a single point. If the command line gives no strength, its motion is 0.
+std::string job_text(const ToppleOptions& options)
 {
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
@@ -73,14 +72,9 @@ std::string job_text(const ToppleOptions& options, const std::vector<double>& st
                             is_number ? options.component : quoted_utf8(options.component));
     }
     text += "[plane]\n";
-    if (!strengths.empty()) {
-        text += fmt::format("{} = {{ values = [{}] }}\n", is_recorded ? "scale" : "pga",
-                            fmt::join(strengths, ", "));
-    } else {
-        text += options.scale || (is_recorded && !options.pga)
-                    ? fmt::format("scale = {}\n", options.scale.value_or(0))
-                    : fmt::format("pga = {}\n", options.pga.value_or(0));
-    }
+    text += options.scale || (is_recorded && !options.pga)
+                ? fmt::format("scale = {}\n", options.scale.value_or(0))
+                : fmt::format("pga = {}\n", options.pga.value_or(0));
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
@@ -119,9 +113,10 @@ void expect_consistent(const ToppleOptions& options)
 }
 
 /// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
-std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene& scene,
-                                       const VerdictRanges& ranges, double unit)
+std::vector<double> friction_to_topple(const Problem& of_one_point, const VerdictRanges& ranges,
+                                       double unit)
 {
+    const Scene& scene = of_one_point.scene;
     const auto toppling = ranges.with(Verdict::topples);
     if (toppling.empty() || scene.theory != Theory::nonlinear) {
         return {};
@@ -141,8 +136,12 @@ std::vector<double> friction_to_topple(const ToppleOptions& options, const Scene
     const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
         return scene.is_recorded() ? acceleration / unit : acceleration;
     });
-    const Job job = read_job_text(job_text(options, strengths), command_line, options.overrides);
-    const std::vector<double> friction = accurate_values(job.problem, Field::friction);
+    Problem problem = of_one_point;
+    std::erase_if(problem.grid.numbers,
+                  [](const Column& number) { return number.quantity->role == Role::strength; });
+    const std::string strength = scene.is_recorded() ? "scale" : "pga";
+    problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
+    const std::vector<double> friction = accurate_values(problem, Field::friction);
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
@@ -208,7 +207,7 @@ ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
              verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
     }
     answer.friction_to_topple =
-        friction_to_topple(options, scene, answer.by_restitution.front().ranges, unit);
+        friction_to_topple(job.problem, answer.by_restitution.front().ranges, unit);
     return answer;
 }
 
