@@ -27,6 +27,8 @@ enum class Switch {
                 ///< sides differ, q0 - q_min
     back,       ///< q0 - q_min: overturning after two impacts, only if the sides differ
     impact,     ///< u + c: an impact after the pulse
+    rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
+                ///< block in region S; if the sides differ: c - u of the other side, before it
     end_tilt,   ///< tilt at the end of the pulse: an impact just before or after the end
     room,       ///< pi/2 - tilt at the end of the pulse: a fall just before the end
     time_left,  ///< phase from the fall to the end of the pulse
@@ -34,10 +36,9 @@ enum class Switch {
     turn,       ///< lowest tilt at which the block turned outward: an impact could appear
     softest,    ///< speed of the softest impact before which it could turn: one could vanish
     last,       ///< speed of the last impact: it depends on all others
-    rebound,    ///< sqrt(r) c - u: if positive, an impact at the end of the pulse leaves a safe
-                ///< block in region S; if the sides differ: c - u of the other side, before it
 };
-inline constexpr std::size_t switches = 12;
+constexpr std::size_t switches = std::size_t(Switch::last) + 1;
+constexpr std::size_t switches_of_safety = std::size_t(Switch::rebound) + 1;
 
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {
@@ -54,13 +55,10 @@ struct Node {
 inline constexpr Outputs node_outputs{
     .impacts = true, .peak = true, .region = true, .phase = true, .grazes = true};
 
-/// The switch functions of these names.
-struct SafetySwitches {
-    double outward, inward, back, impact, rebound;
-};
-
+/// The first switch functions, up to `rebound`.
 template <Theory theory>
-SafetySwitches safety_at(const State<double>& end, const Block<double>& block)
+std::array<double, switches_of_safety> safety_at(const State<double>& end,
+                                                 const Block<double>& block)
 {
     const SafeRates<double> safe = safe_rates<theory>(end.tilt, block);
     const double u = end.rate;
@@ -100,13 +98,9 @@ Node node_of(const PointRun& run, int point, const Outcome& outcome)
         node.lobes |= std::uint32_t(std::isfinite(uplifts.values[std::size_t(lobe)])) << lobe;
     }
     const auto put = [&](Switch f, double value) { node.values[std::size_t(f)] = value; };
-    const SafetySwitches safety = with_theory(run.scene().theory, [&]<Theory theory>() {
-        return safety_at<theory>(outcome.end(), block);
+    with_theory(run.scene().theory, [&]<Theory theory>() {
+        std::ranges::copy(safety_at<theory>(outcome.end(), block), node.values.begin());
     });
-    put(Switch::outward, safety.outward);
-    put(Switch::inward, safety.inward);
-    put(Switch::back, safety.back);
-    put(Switch::impact, safety.impact);
     put(Switch::end_tilt, outcome.tilt);
     put(Switch::room, pi<double>() / 2 - outcome.tilt);
     put(Switch::time_left, run.end_of_pulse() - outcome.phase);
@@ -114,7 +108,6 @@ Node node_of(const PointRun& run, int point, const Outcome& outcome)
     put(Switch::turn, std::min(outcome.lowest_turn, slenderness));
     put(Switch::softest, outcome.softest_impact);
     put(Switch::last, outcome.last_impact);
-    put(Switch::rebound, safety.rebound);
     return node;
 }
 
