@@ -36,11 +36,6 @@ bool is_forced_fall(Region region)
     return region == Region::F_plus || region == Region::F_minus;
 }
 
-bool is_decided(Region region)
-{
-    return std::size_t(region) < decided_regions;
-}
-
 /// All points of a problem, tile by tile.
 std::vector<Point> points_of(const Problem& problem)
 {

@@ -34,8 +34,6 @@ struct Probe {
     double margin;
     double impacts;
     int halving = 0; ///< the halving of the scan that added it
-
-    bool is_settled() const { return is_safe(region) || is_unsafe(region); }
 };
 
 double middle_of(const Probe& below, const Probe& above)
@@ -88,7 +86,7 @@ void add(const std::vector<Probe>& added, std::vector<Probe>& probes)
 /// Removes probes that are not settled, and those above the first flip that exceeds most_flips.
 void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
 {
-    std::erase_if(probes, [](const Probe& probe) { return !probe.is_settled(); });
+    std::erase_if(probes, [](const Probe& probe) { return !is_decided(probe.region); });
     std::size_t flips = 0;
     for (std::size_t i = 1; i < probes.size(); ++i) {
         flips += is_flip(probes[i - 1], probes[i]);
@@ -131,7 +129,7 @@ public:
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
             probes.push_back(
                 {amplitudes[i], outcomes[i].region, outcomes[i].margin, outcomes[i].impacts});
-            if (!probes.back().is_settled()) {
+            if (!is_decided(probes.back().region)) {
                 undecided.push_back(probes.back());
             }
         }
@@ -216,7 +214,7 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
     bool settled = true;
     const auto margin = [&](double amplitude) {
         const Probe probe = line.at(amplitude);
-        settled = settled && probe.is_settled();
+        settled = settled && is_decided(probe.region);
         if (!settled) {
             return 0.0; // ends the search
         }
@@ -244,7 +242,7 @@ std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
         if (is_safe(middle.region)) {
             return {middle};
         }
-        if (!middle.is_settled()) {
+        if (!is_decided(middle.region)) {
             return {below, above};
         }
         (falls_to_plus(middle.region) == falls_to_plus(below.region) ? below : above) = middle;
@@ -265,10 +263,10 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
             return 0.0;
         }
         const Probe probe = line.at(amplitude);
-        if (probe.is_settled() && is_safe(probe.region) != safe) {
+        if (is_decided(probe.region) && is_safe(probe.region) != safe) {
             found = probe;
         }
-        return probe.is_settled() ? std::abs(probe.margin) : 1.0;
+        return is_decided(probe.region) ? std::abs(probe.margin) : 1.0;
     };
     std::uintmax_t most_evaluations = 60;
     constexpr int bits = 26; // half of those of a double, the accuracy of a minimum
@@ -396,7 +394,7 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
         const Probe& below = probes[i - 1];
         const Probe& above = probes[i];
         const double share = (above.amplitude - below.amplitude) / interval;
-        if (!below.is_settled() || !above.is_settled()) {
+        if (!is_decided(below.region) || !is_decided(above.region)) {
             boundary.undecided_share += share;
         } else { // the flip is taken to be halfway between them
             boundary.unsafe_share +=
@@ -447,14 +445,14 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     for (std::size_t i = 1; i < probes.size() && !boundary.has_more; ++i) {
         const Probe& below = probes[i - 1];
         const Probe& above = probes[i];
-        if (!is_flip(below, above) && below.is_settled() == above.is_settled()) {
+        if (!is_flip(below, above) && is_decided(below.region) == is_decided(above.region)) {
             continue;
         }
         boundary.has_more = boundary.flips.size() == most_flips;
         if (!boundary.has_more) {
             // An undecided range extends to the settled amplitudes on both sides.
-            boundary.flips.push_back({below.is_settled() ? below.amplitude : above.amplitude,
-                                      above.is_settled() ? above.amplitude : below.amplitude,
+            boundary.flips.push_back({is_decided(below.region) ? below.amplitude : above.amplitude,
+                                      is_decided(above.region) ? above.amplitude : below.amplitude,
                                       below.region, above.region});
         }
     }

@@ -47,6 +47,11 @@ constexpr bool is_unsafe(Region region)
     return region >= Region::U0_plus && region <= Region::U2_minus;
 }
 
+constexpr bool is_decided(Region region)
+{
+    return is_safe(region) || is_unsafe(region);
+}
+
 /// Whether the block overturns to its positive side.
 constexpr bool falls_to_plus(Region region)
 {
