@@ -2,9 +2,10 @@
 
 #include "point_run.hpp"
 
-#include "overturn/integrate/forced_path.hpp"
+#include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/problem/coordinates.hpp"
 
 #include <algorithm>
@@ -16,6 +17,49 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The order and tolerance of the integration, as accurate as doubles allow.
+constexpr int path_order = 20;
+constexpr double path_tolerance = 1e-13;
+
+/// The path from rest to the end of the pulse, or to the fall.
+struct ForcedPath {
+    std::vector<Event<double>> events; ///< in order
+    ForcedEnd<double> end;
+};
+
+template <Theory theory, class Excitation>
+ForcedPath forced_path(const Block<double>& block, const Excitation& excitation)
+{
+    constexpr Outputs outputs{.impacts = true, .error = true, .events = true};
+    ForcedStage<Taylor<path_order>, theory, outputs, double, Excitation> stage(block, excitation,
+                                                                               path_tolerance);
+    while (stage.is_active()) {
+        stage.advance();
+    }
+    return {stage.events(), stage.end()};
+}
+
+/// The state at a phase [rad] between an event, after which the block rocks, and the next one.
+/// Evaluates the series of the step itself.
+template <Theory theory, class Excitation>
+State<double> state_after(const Event<double>& event, const Block<double>& block,
+                          const Excitation& excitation, double phase)
+{
+    const Rocking<double>& from = event.rocking;
+    const Block<double> seen = seen_from(from.side, block);
+    const double frequency = excitation.frequency / (block.is_symmetric() ? 1 : seen.pace);
+    const double unit = 1 / std::max(1.0, frequency); // as in TaylorStepper
+    const double phase_per_unit = frequency * unit;
+    const auto push = excitation.template series<path_order>(from.side * excitation.acceleration,
+                                                             from.phase, phase_per_unit);
+    const auto series = rocking_series<theory, path_order>(from.tilt, from.rate * unit,
+                                                           seen.slenderness, push, unit);
+    const double time = (phase - from.phase) / phase_per_unit;
+    return {.tilt = std::max(0.0, value_of_series(series.tilt, time)),
+            .rate = value_of_series(series.rate, time) / unit,
+            .side = from.side};
+}
 
 /// Records the state of a block up to the last time shown: at evenly spaced times, and before and
 /// after each event.
@@ -85,15 +129,8 @@ private:
         if (!is_free()) {
             return path_.end.fell ? end_of_path_ : unknown;
         }
-        // A symmetric block can fall only before or after the first impact, others also after the
-        // second one.
-        FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
-        for (int impacts = block_.is_symmetric() ? 1 : 2; impacts > 0; --impacts) {
-            if (std::isfinite(rocking.impact_time())) {
-                rocking.strike();
-            }
-        }
-        return after_path(rocking.fall_time());
+        return after_path(
+            time_to_lie_flat<theory, MoreExact<double>>(path_.end.state, block_at_end_));
     }
 
     double time_worth_showing() const

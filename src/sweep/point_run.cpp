@@ -355,10 +355,10 @@ double PointRun::fall_time(int point, const Outcome& outcome) const
             });
         const Point& at = this->point(point);
         const double forced = (outcome.phase - first_uplift) / at.frequency;
-        const double time =
-            outcome.has(outcome_flag::fell)
-                ? forced
-                : forced + time_to_lie_flat<theory>(outcome.end(), block_at_end(point, outcome));
+        const double time = outcome.has(outcome_flag::fell)
+                                ? forced
+                                : forced + time_to_lie_flat<theory, double>(
+                                               outcome.end(), block_at_end(point, outcome));
         return time * at.block.pace;
     });
 }

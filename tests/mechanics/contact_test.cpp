@@ -326,7 +326,7 @@ TEST(FreeContact, IsThatOfFineSamplesOfTheMotion)
         // Where the block passes alpha, the last sample is up to one interval before.
         constexpr int samples = 500;
         const auto seen = sampled(state, block, sides, 12, samples);
-        overturned += std::isfinite(time_to_lie_flat<Theory::nonlinear>(state, block));
+        overturned += std::isfinite(time_to_lie_flat<Theory::nonlinear, double>(state, block));
         if (std::isfinite(found.friction)) {
             // Both forces have round-off of some 1e-14.
             EXPECT_GE(found.friction, seen.friction * (1 - 1e-13 / seen.normal) - 1e-13) << i;

@@ -235,7 +235,8 @@ TEST(TwoSides, TurnAndLieFlatWhereTheArcsDo)
                         1e-9);
         } else {
             ++fallen;
-            const double fall = time_to_lie_flat<Theory::nonlinear>(start.state, start.block);
+            const double fall =
+                time_to_lie_flat<Theory::nonlinear, double>(start.state, start.block);
             EXPECT_NEAR(fall, rocking.fall_time(), 1e-9 * rocking.fall_time());
         }
     }

@@ -140,12 +140,13 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
 }
 
 /// The time from this state until a block that overturns lies flat, |theta| = pi/2, in the unit of
-/// FreeRocking. Infinite if the state cannot be distinguished from the boundary in T.
-template <Theory theory, Number T>
+/// FreeRocking. Infinite if the state cannot be distinguished from the boundary in Q, the type in
+/// which q is computed.
+template <Theory theory, Number Q, Number T>
 T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 {
     constexpr int most_impacts = 2; // see safe_rates()
-    FreeRocking<theory, T, T> rocking(state, block);
+    FreeRocking<theory, T, Q> rocking(state, block);
     while (!isinf(rocking.impact_time()) && rocking.impacts() < most_impacts) {
         rocking.strike();
     }
