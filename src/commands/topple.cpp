@@ -251,15 +251,28 @@ std::string shape_text(const Scene& scene, const char* format)
     return text;
 }
 
+/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, incline 1.5 degrees, ".
+std::string dimensions_text(const std::map<std::string, double>& given)
+{
+    std::string text;
+    if (given.contains("width") && given.contains("height")) {
+        text = fmt::format("{} m x {} m, ", given.at("width"), given.at("height"));
+    }
+    for (const char* name : {"center_height", "center_offset", "radius_of_gyration"}) {
+        if (given.contains(name)) {
+            text += fmt::format("{} {} m, ", quantity(name).long_name, given.at(name));
+        }
+    }
+    if (given.contains("incline")) {
+        text += fmt::format("incline {:.4g} degrees, ", in_degrees(given.at("incline")));
+    }
+    return text;
+}
+
 void print_question(const Job& job, const ToppleOptions& options)
 {
     const Scene& scene = job.problem.scene;
-    const auto given = [&](const char* name) { return options.block.find(name); };
-    const std::string box =
-        given("width") == options.block.end() || given("height") == options.block.end()
-            ? ""
-            : fmt::format("{} m x {} m, ", given("width")->second, given("height")->second);
-    print_row("block", box + block_line(job));
+    print_row("block", dimensions_text(options.block) + block_line(job));
     const std::string motion = scene.is_recorded()
                                    ? record_lines(job).front()
                                    : fmt::format("{}, period {} s{}", name_of(scene.pulse),
@@ -296,7 +309,8 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
         const std::string_view verdict = verdict_texts[std::size_t(*answer.verdict)];
         print_row("verdict", options.pga
                                  ? fmt::format("{} at {} g", verdict, *options.pga)
-                                 : fmt::format("{} at {:.{}f} g", verdict, answer.pga, decimals));
+                                 : fmt::format("{} at {} times the record, {:.{}f} g", verdict,
+                                               *options.scale, answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
         if (answer.friction) {
             print_row("friction", friction_text(*answer.friction));

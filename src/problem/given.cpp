@@ -169,7 +169,8 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
                                               "half_width"};
     constexpr std::string_view stands = "The block does not stand, or leans by a right angle: its "
                                         "centre of mass must be above the base, between both "
-                                        "corners. Lower the incline or the offset.";
+                                        "corners. Lower the incline, which is in radians, or the "
+                                        "offset, in metres.";
     constexpr std::string_view overflow =
         "The factor on a record, or its vertical motion, exceeds the range of double precision. "
         "Correct the unit of the record, or give a lower value.";
