@@ -23,7 +23,7 @@ def computed_tiles(file):
 def count_tiles(file):
     """Returns the number of computed tiles and of all tiles."""
     tiles = computed_tiles(file)
-    return np.count_nonzero(tiles), tiles.size
+    return int(np.count_nonzero(tiles)), tiles.size
 
 
 def read_field(file, name, index=()):
