@@ -36,7 +36,11 @@ class ARefusal(Refused):
                                     ("theory", "quantum", 'theory = "quantum" is not one of nonlinear, linear'),
                                     ("cycles", 2, "cycles has no meaning for the pulse"),
                                     ("gravity", [1, 2], "gravity has the shape (2,)"),
-                                    ("width", "wide", "width is not a number")):
+                                    ("pulse", ["one_sine"], "pulse = ['one_sine'] is not a word"),
+                                    ("method", None, "method = None is not a word"),
+                                    ("width", True, "width is not a number"),
+                                    ("width", "0.5", "width is not a number"),
+                                    ("width", [0.5, "0.6"], "width is not a number")):
             with self.assertRaises(ValueError) as raised:
                 overturn.evaluate(**{**GOOD, name: value})
             self.assertTrue(str(raised.exception).startswith(phrase), str(raised.exception))

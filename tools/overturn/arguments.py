@@ -33,11 +33,17 @@ def numbers(name, value):
     try:
         array = np.asarray(value)
         kinds = {np.asarray(each).dtype.kind for each in array.flat} if array.dtype.kind == "O" else {array.dtype.kind}
-        if kinds & set("cMmV"):  # complex numbers, dates and times, records
+        if kinds & set("cMmVUSb"):  # complex numbers, dates and times, records, text, truth values
             raise TypeError
         return np.asarray(array, float)
     except (TypeError, ValueError):
         raise ValueError(f"{name} is not a number or an array of numbers.") from None
+
+
+def expect_word(name, value):
+    """Raises ValueError if the value is not text."""
+    if not isinstance(value, str):
+        raise ValueError(f"{name} = {value!r} is not a word. It is the same for all blocks.")
 
 
 def _has_masked_values(value):

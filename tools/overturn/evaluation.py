@@ -10,7 +10,7 @@ import numpy as np
 
 from overturn import core
 from overturn.accelerations import accelerations_of
-from overturn.arguments import ArgumentError, given, number, numbers, refuse
+from overturn.arguments import ArgumentError, expect_word, given, number, numbers, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -115,6 +115,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     shape_numbers = given(window=window, cycles=cycles, gamma=gamma, nu=nu)
     single = {name: number(name, value) for name, value in given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
+    for name, value in {**given(pulse=pulse), "theory": theory, "method": method}.items():
+        expect_word(name, value)
     of_record = given(second_component=second_component, vertical=vertical, time_step=time_step, units=units,
                       scale=scale)
     if record is None:

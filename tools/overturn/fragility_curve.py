@@ -153,10 +153,12 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
 
 
 def expect_records(dataset):
-    for name in ("region", "scale", "motion"):
+    if isinstance(dataset, (str, os.PathLike)):
+        raise ValueError(f"{os.fspath(dataset)!r} is a path. Give the data set that overturn.open() returns for it.")
+    for name, of in (("region", "field"), ("scale", "scale of a record"), ("motion", "record")):
         if name not in dataset:
-            raise ValueError(f"this result has no {name}. A fragility curve needs the field region of a result under "
-                             "records.")
+            raise ValueError(f"this result has no {of}: {name} is missing. A fragility curve needs the field region of a "
+                             "result under records.")
 
 
 def measure_of(dataset, im):

@@ -32,7 +32,9 @@ def add_units_argument(parser, physical=PLANE_IN_PHYSICAL_UNITS):
 
 
 def expect_size(file, units):
-    """Raises an error if physical units need a size of the block that the job does not give."""
+    """Raises an error if the units are unknown, or need a size of the block that the job does not give."""
+    if units not in (JOB, PHYSICAL):
+        raise ToolError(f"units = {units!r} is neither {JOB!r} nor {PHYSICAL!r}.")
     if units == PHYSICAL and not is_recorded(file) and not {"size", "frequency_parameter"} & {*file, *file.attrs}:
         raise ToolError(f"\"{file.filename}\" cannot be drawn in physical units, because its job does "
                         "not give the size of the block. Add [block] with width and height to the "
