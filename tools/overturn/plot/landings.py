@@ -6,6 +6,7 @@ from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_recorded, subtitle
 from overturn.choice import add_choice_arguments, planes_of
 from overturn.output_file import save
+from overturn.plot.spectra import cover, hatch
 from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
@@ -124,13 +125,13 @@ def borders(codes):
 def draw_plane(panel, spectrum):
     codes, = spectrum.sample(PLANE_PIXELS, "region")
     shade = (np.arange(PLANE_PIXELS) + 0.5) / PLANE_PIXELS
-    picture = np.zeros((PLANE_PIXELS, PLANE_PIXELS, 3))
-    picture[..., 0], picture[..., 2] = shade, shade[:, None]
+    picture = np.zeros((PLANE_PIXELS, PLANE_PIXELS, 4))
+    picture[..., 0], picture[..., 2], picture[..., 3] = shade, shade[:, None], 1
     picture[borders(codes)] = 1
-    picture[codes == NOT_COMPUTED] = 0.8
+    picture[codes == NOT_COMPUTED] = 0
     set_axes(panel, spectrum.across, spectrum.up)
-    panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
-                 aspect="auto", interpolation="nearest")
+    hatch(panel)
+    cover(panel, picture)
     across, up = name_axes(spectrum.plane)
     title = "The record and the block" if is_recorded(spectrum.plane.file) else "The pulse"
     panel.set(xlabel=across, ylabel=up, title=title)

@@ -62,9 +62,14 @@ def cover(panel, picture):
     image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
 
 
+def hatch(panel):
+    """Hatches what a picture does not cover: it is not computed."""
+    panel.patch.set(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0)
+
+
 def draw_panel(panel, codes, across, up):
     set_axes(panel, across, up)
-    panel.patch.set(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0)
+    hatch(panel)
     cover(panel, coloured(codes))
 
 
