@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""documented_keys_test.py PROGRAM DOCS: the tables of keys in jobs.md and records.md have exactly the
-keys that the program knows."""
+"""documented_keys_test.py PROGRAM DOCS: the tables of keys in jobs.md and records.md, and that of fields in
+results.md, have exactly the keys and fields that the program knows."""
 
 import pathlib
 import re
@@ -22,10 +22,24 @@ def documented_keys(folder):
     return set(re.findall(r"`((?:scene|plane|block|blocks|numerics|output)\.[a-z_.]+)`", rows)) | {"title"}
 
 
+def known_fields(program, folder):
+    refusal = subprocess.run([program, "check", folder.parent / "jobs" / "smoke.toml", "--set",
+                              'output.fields=["none"]'], capture_output=True, text=True).stderr
+    return set(re.split(r",\s*|\.\s*$", refusal.split("Allowed: ")[1])) - {""} | {"evaluated"}  # added by itself
+
+
+def documented_fields(folder):
+    table = (folder / "results.md").read_text().split("\n## Fields\n")[1].split("\n## ")[0]
+    return {name for row in re.findall(r"^\| (`.*?) \|", table, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
+
+
 def main():
     known, documented = known_keys(sys.argv[1]), documented_keys(pathlib.Path(sys.argv[2]))
     known = {key for key in known if not key.startswith("block.")}  # as in [plane]
     documented = {key for key in documented if not key.startswith("block.")}
+    folder = pathlib.Path(sys.argv[2])
+    known |= known_fields(sys.argv[1], folder)
+    documented |= documented_fields(folder)
     for text, keys in (("not documented", known - documented), ("unknown to the program", documented - known)):
         for key in sorted(keys):
             print(f"{key} is {text}")

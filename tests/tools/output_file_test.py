@@ -4,6 +4,7 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import random
+import re
 import resource
 import shutil
 import signal
@@ -127,6 +128,11 @@ class TestAWrittenFile(InAFolder):
             self.assertNotIn("None", str(raised.exception))
             self.assertEqual(self.files().keys(), {"result.h5", "text"})
             self.assertEqual(path.read_text(), "old")
+
+    def test_may_be_a_table_of_every_field(self):
+        table = (JOBS.parent / "docs" / "results.md").read_text().split("\n## Fields\n")[1].split("\n## ")[0]
+        rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+        self.assertEqual(csv_table.FIELDS, set(re.findall(r"`(\w+)`", " ".join(rows))))
 
     def test_that_cannot_be_created_is_named_with_the_reason(self):
         (self.folder / "folder").mkdir()
