@@ -133,10 +133,11 @@ void add_block(CLI::App& command, std::map<std::string, double>& block)
         command
             .add_option_function<std::string>(
                 option,
-                [&block, &quantity, name](const std::string& given) {
+                [&block, &quantity, name, option](const std::string& given) {
                     double value = 0;
                     if (!CLI::detail::lexical_cast(given, value)) {
-                        throw CLI::ValidationError(fmt::format("{} is not a number.", given));
+                        throw CLI::ValidationError(
+                            fmt::format("{}: {} is not a number.", option, given));
                     }
                     if (!quantity.allows(value)) {
                         throw CLI::ValidationError(name + quantity.refusal_of(value));

@@ -393,7 +393,8 @@ void expect_result_of(const Job& job, const StoredResult& stored)
                            origin.format));
     }
     if (origin.resolved_job != job.resolved) {
-        refuse(fmt::format("belongs to another job: {}Choose another name with -o.",
+        refuse(fmt::format("belongs to another job: {}Repeat the --set arguments of the first run, "
+                           "or choose another name with -o.",
                            first_difference(origin.resolved_job, job.resolved)));
     }
     if (origin.program_version != program_version() || origin.program_commit != program_commit()) {

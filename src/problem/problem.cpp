@@ -128,8 +128,8 @@ std::string reason_not_to_fill(const Problem& problem)
     }
     for (const Field field : problem.fields) {
         if (field != Field::region && field != Field::impacts) {
-            return fmt::format("the field \"{}\" is different at every point; only \"region\" and "
-                               "\"impacts\" can be filled",
+            return fmt::format("the field \"{}\" cannot be filled; only \"region\" and \"impacts\" "
+                               "can",
                                name_of(field));
         }
     }

@@ -172,7 +172,7 @@ TEST(ReasonNotToFill, IsAListARecordATableOrAnotherField)
     problem.fields = {Field::impacts, Field::region};
     EXPECT_THAT(reason_not_to_fill(problem), IsEmpty());
     problem.fields.push_back(Field::margin);
-    EXPECT_THAT(reason_not_to_fill(problem), HasSubstr("\"margin\" is different at every point"));
+    EXPECT_THAT(reason_not_to_fill(problem), HasSubstr("\"margin\" cannot be filled"));
     EXPECT_THAT(reason_not_to_fill(spectrum(pga_axis(100), number("frequency", 3))), IsEmpty());
     EXPECT_THAT(reason_not_to_fill(spectrum(pga_axis(100), axis("frequency", {3}))), IsEmpty());
     EXPECT_THAT(reason_not_to_fill(spectrum(pga_axis(100), axis("frequency", {1, 2, 5}))),
