@@ -9,6 +9,7 @@ from overturn.tool import ToolError
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 FORMATS = (3, 4)
+MOST_LETTERS = 240  # of a title: two to four lines of a picture
 
 
 def job_text(file, name):
@@ -40,8 +41,8 @@ def escaped(text):
     return text.replace("$", r"\$")
 
 
-def plain(title, width=90):
-    """Returns a title that fits, escaped for Matplotlib."""
+def plain(title, width=MOST_LETTERS):
+    """Returns a title in one line of at most `width` characters, escaped for Matplotlib."""
     return escaped(shortened(title, width))
 
 

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_text
 from overturn.output_file import save
+from overturn.plot.headings import wrapped
 from overturn.result_file import damage_reported, open_result, plain, title_of
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
@@ -124,7 +125,8 @@ def draw(file):
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
         name_ticks(axes.xaxis)
-    figure.suptitle(plain(title_of(file) or ground_text(file)), fontsize=12, x=0.02, ha="left")
+    title = wrapped(plain(title_of(file) or ground_text(file)), 12, 11)
+    figure.suptitle("\n".join(title), fontsize=12, x=0.02, ha="left")
     figure.tight_layout()
     return figure
 

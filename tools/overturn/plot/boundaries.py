@@ -17,6 +17,7 @@ from overturn import regions
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
 from overturn.output_file import save
+from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.result_file import damage_reported, open_result, path_of, plain
 from overturn.spectrum_file import Axis
@@ -46,6 +47,8 @@ FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", regions.REGIONS[254][2]
 CODE_OF_UNDECIDED = 254
 ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
+HEIGHT = 6.6  # of the figure of one plane [inches], with one line each for its title and for what is below it
+SIZES, TOPS = (13, 10), (0.297, 0.541)  # of these lines [points], and of their baselines from the top [inches]
 WORDS = {"amplitude": "amplitude", "scale": "scale", "pga": "PGA"}  # for what is scanned
 
 
@@ -162,10 +165,10 @@ def draw_sheet(planes, columns, units):
     """Draws several boundaries and returns their axes."""
     all_lines = [Lines(plane, units) for plane in planes]
     shares = all(np.array_equal(lines.up.edges, all_lines[0].up.edges) for lines in all_lines)
-    sheet = Sheet(panel_titles(planes, units), columns, 120, shares)
+    sheet = Sheet((plain(heading(planes)), subtitle(planes, units)), panel_titles(planes, units), columns, 120, shares)
     for panel, lines in zip(sheet.panels.flat, all_lines):
         draw_panel(panel, lines)
-    sheet.write(plain(heading(planes)), subtitle(planes, units), *name_axes(planes[0], units))
+    sheet.name_axes(*name_axes(planes[0], units))
     handles, labels = legend_entries(all_lines)
     labels = ["\n".join(textwrap.wrap(label, 30)) for label in labels]
     sheet.explain(handles=handles, labels=labels, handler_map={tuple: HandlerTuple(None)},
@@ -176,8 +179,10 @@ def draw_sheet(planes, columns, units):
 
 def draw_column(plane, lines, units):
     """Draws a boundary of a single size or frequency."""
-    figure = pyplot.figure(figsize=(6, 6.6))
-    panel = figure.add_axes((0.13, 0.085, 0.24, 0.755))
+    words = Heading(plain(heading([plane])), subtitle([plane], units), 5.1, SIZES)
+    height = HEIGHT + words.extra
+    figure, share = pyplot.figure(figsize=(6, height)), HEIGHT / height
+    panel = figure.add_axes((0.13, 0.085 * share, 0.24, 0.755 * share))
     draw_panel(panel, lines)
     panel.set_anchor("NW")
     across, up = name_axes(plane, units)
@@ -185,10 +190,9 @@ def draw_column(plane, lines, units):
     handles, labels = legend_entries([lines])
     note = "\n".join(textwrap.wrap(" ".join(note_on_strips(plane, lines)), 40)) if is_recorded(plane.file) else None
     figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left", title=note,
-                  bbox_to_anchor=(0.38, 0.855), frameon=False, fontsize=9.5, handletextpad=0.5,
+                  bbox_to_anchor=(0.38, 0.855 * share), frameon=False, fontsize=9.5, handletextpad=0.5,
                   alignment="left").get_title().set_fontsize(9.5)
-    figure.text(0.13, 0.955, plain(heading([plane]), 48), fontsize=13)
-    figure.text(0.13, 0.918, subtitle([plane], units), fontsize=10)
+    words.write(figure, 0.78, TOPS)
     return panel
 
 
@@ -196,21 +200,22 @@ def draw_figure(plane, units):
     lines = Lines(plane, units)
     if lines.is_column:
         return draw_column(plane, lines, units)
-    figure, panel = pyplot.subplots(figsize=(9.2, 6.6))
+    words = Heading(plain(heading([plane])), subtitle([plane], units), 8.3, SIZES)
+    height = HEIGHT + words.extra
+    (figure, panel), share = pyplot.subplots(figsize=(9.2, height)), HEIGHT / height
     draw_panel(panel, lines)
     across, up = name_axes(plane, units)
     panel.set(xlabel=across, ylabel=up)
     handles, labels = legend_entries([lines])
     one_row = len(labels) <= (4 if lines.overturns_at_once.any() else 5)
-    figure.subplots_adjust(left=0.085, right=0.975, top=0.84 if one_row else 0.81, bottom=0.085)
+    figure.subplots_adjust(left=0.085, right=0.975, top=share * (0.84 if one_row else 0.81), bottom=0.085 * share)
     figure.legend(handles, labels, handler_map={tuple: HandlerTuple(None)}, loc="upper left",
-                  bbox_to_anchor=(0.075, 0.9), ncols=5 if one_row else 4, frameon=False,
+                  bbox_to_anchor=(0.075, 0.9 * share), ncols=5 if one_row else 4, frameon=False,
                   fontsize=9.5, handletextpad=0.5, columnspacing=1.4)
-    figure.text(0.085, 0.955, plain(heading([plane]), 80), fontsize=13)
-    figure.text(0.085, 0.918, subtitle([plane], units), fontsize=10)
+    words.write(figure, 0.78, TOPS)
     if is_recorded(plane.file):
-        figure.text(0.5, 0.013, " ".join(note_on_strips(plane, lines)), ha="center", fontsize=10)
-        figure.subplots_adjust(bottom=0.115)
+        figure.text(0.5, 0.013 * share, " ".join(note_on_strips(plane, lines)), ha="center", fontsize=10)
+        figure.subplots_adjust(bottom=0.115 * share)
     return panel
 
 

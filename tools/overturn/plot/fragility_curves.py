@@ -11,6 +11,7 @@ import overturn
 from matplotlib import pyplot
 from overturn.block_groups import groups_of
 from overturn.output_file import save
+from overturn.plot.headings import wrapped
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -197,5 +198,6 @@ def main(argv=None):
         draw_panel(panel, curves)
     for panel in panels.flat[1:]:
         panel.set_ylabel("")
-    figure.suptitle(plain(title, 58 * len(by_measure)), fontsize=12, x=0.02, ha="left")
+    lines = wrapped(plain(title), 12, 0.96 * figure.get_figwidth())
+    figure.suptitle("\n".join(lines), fontsize=12, x=0.02, ha="left")
     save(figure, arguments.output, dpi=150)

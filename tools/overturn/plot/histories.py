@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from overturn.captions import SIZES, ground_text, ground_word, is_linear, is_recorded, slenderness_text
 from overturn.file_variables import text_of
 from overturn.output_file import save
+from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import damage_reported, open_result, path_of, plain, title_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
@@ -235,7 +236,9 @@ def name_time(panel, file, history):
 
 
 def draw_figure(file, history, units):
-    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction" in history.values)
+    title = title_of(file, ("plane", "block")) or ground_text(file)
+    words = Heading(plain(title), describe(file, units), 8.72, (11, 9))
+    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction" in history.values) + words.extra
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):
@@ -246,10 +249,8 @@ def draw_figure(file, history, units):
         explain(axes, handles, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0, frameon=False,
                 ncols=len(MARKS) + 2)
     name_time(panels[-1], file, history)
-    title = title_of(file, ("plane", "block")) or ground_text(file)
-    figure.suptitle(plain(title), fontsize=11, x=0.02, ha="left", y=1 - 0.092 / height)
-    figure.text(0.02, 1 - 0.3956 / height, describe(file, units), fontsize=9)
-    figure.subplots_adjust(left=0.1, right=0.975, top=1 - 0.598 / height, bottom=0.506 / height,
+    words.write(figure, 0.18, (0.21, 0.3956))
+    figure.subplots_adjust(left=0.1, right=0.975, top=1 - (0.598 + words.extra) / height, bottom=0.506 / height,
                            hspace=0.14)
     return figure
 

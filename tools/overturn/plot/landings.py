@@ -6,8 +6,9 @@ from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_recorded, subtitle
 from overturn.choice import add_choice_arguments, planes_of
 from overturn.output_file import save
-from overturn.plot.spectra import cover, hatch
 from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
+from overturn.plot.headings import Heading
+from overturn.plot.spectra import cover, hatch
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
 from overturn.result_file import damage_reported, plain
@@ -185,17 +186,18 @@ def covered(pixels):
 
 def draw(plane, title, labels):
     spectrum = Spectrum(plane)
-    figure, panels = pyplot.subplots(1, 3, figsize=(17, 6.2))
-    figure.subplots_adjust(left=0.045, right=0.99, bottom=0.1, top=0.82, wspace=0.19)
+    title = heading([plane]) if title is None else title
+    words = Heading(plain(title), subtitle([plane]), 16, (14, 11))
+    height = 6.2 + words.extra
+    figure, panels = pyplot.subplots(1, 3, figsize=(17, height))
+    figure.subplots_adjust(left=0.045, right=0.99, bottom=0.62 / height, top=5.084 / height, wspace=0.19)
+    words.write(figure, 0.765, (0.34, 0.62))
     views = land(spectrum)
     draw_plane(panels[0], spectrum)
     for panel, view, name in zip(panels[1:], views, ("near upright", "full range")):
         title_of_view = f"State at the end of the {ground_word(plane.file)}, {name}"
         draw_landing(panel, spectrum, view, title_of_view)
     write_names(panels, views, spectrum, labels)
-    title = heading([plane]) if title is None else title
-    figure.text(0.045, 0.945, plain(title), fontsize=14)
-    figure.text(0.045, 0.9, subtitle([plane]), fontsize=11)
     return figure
 
 

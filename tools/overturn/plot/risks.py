@@ -10,6 +10,7 @@ from matplotlib import pyplot
 from overturn.output_file import save
 from overturn.plot.fragility_curves import (BAND, COLOURS, NAMES, POINT, UNITS, add_curve_arguments, compute_curve,
                                              draw_bins)
+from overturn.plot.headings import wrapped
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -58,7 +59,8 @@ def risk(hazard, fragility, years=DEFAULT_YEARS, *, title=None):
     notes = [line for note in found.notes for line in textwrap.wrap(note, TEXT_WIDTH)]
     figure.supxlabel(escaped("\n".join(notes)), fontsize=8, x=0.02, ha="left")
     numbers = found.summary(years).splitlines()[:2]
-    figure.suptitle("\n".join([*([title] if title else []), *numbers]), fontsize=10, x=0.02, ha="left")
+    lines = [line for text in ([title] if title else []) + numbers for line in wrapped(text, 10, 6.1)]
+    figure.suptitle("\n".join(lines), fontsize=10, x=0.02, ha="left")
     return panels
 
 
@@ -155,7 +157,7 @@ def main(argv=None):
     title, hazard, curve = compute(arguments)
     try:
         report(arguments, hazard, curve)
-        panels = risk(hazard, curve, arguments.years, title=plain(title, 70))
+        panels = risk(hazard, curve, arguments.years, title=plain(title))
     except ValueError as error:
         raise ToolError(str(error), USAGE) from error
     save(panels[0].figure, arguments.output, dpi=150)

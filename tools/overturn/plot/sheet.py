@@ -1,6 +1,7 @@
 """Sheets of several planes."""
 
 from matplotlib import pyplot
+from overturn.plot.headings import Heading
 
 MOST_PANELS = 12
 
@@ -9,19 +10,22 @@ class Sheet:
     """A figure of equal square panels; lengths in inches fix the number of pixels of a panel. Panels
     with the same vertical axis share the numbers beside it."""
 
-    LEFT, RIGHT, BOTTOM, GAP = 0.85, 3.25, 0.7, 0.45
+    LEFT, RIGHT, BOTTOM, GAP, EDGE = 0.85, 3.25, 0.7, 0.45, 0.1
 
-    def __init__(self, titles, columns, dpi, shares_vertical_axis):
+    def __init__(self, heading, titles, columns, dpi, shares_vertical_axis):
+        """`heading` is a pair, the title of the sheet and the line below it; `titles` are those of the panels."""
         count = len(titles)
-        self.top = 1 + 0.15 * titles[0].count("\n")
         rows = -(-count // columns)
         side = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8}[columns]
         self.pixels = round(side * dpi)
         self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
+        heading = Heading(*heading, self.width - self.LEFT - self.EDGE, (14, 11))
+        self.top = 1 + 0.15 * titles[0].count("\n") + heading.extra
         self.height = self.top + rows * (side + self.GAP) - self.GAP + self.BOTTOM
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
                                                    sharex=True, sharey=shares_vertical_axis,
                                                    figsize=(self.width, self.height))
+        heading.write(self.figure, self.LEFT, (0.4, 0.67))
         for panel, title in zip(self.panels.flat, titles):
             panel.set_title(title, fontsize=9)
         self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
@@ -32,10 +36,7 @@ class Sheet:
         for lowest in self.panels.flat[max(count - columns, 0):count]:
             lowest.tick_params(labelbottom=True)
 
-    def write(self, title, second_line, across, up):
-        left = self.LEFT / self.width
-        self.figure.text(left, 1 - 0.4 / self.height, title, fontsize=14)
-        self.figure.text(left, 1 - 0.67 / self.height, second_line, fontsize=11)
+    def name_axes(self, across, up):
         self.figure.supxlabel(across, fontsize=12, y=0.15 / self.height,
                               x=(self.LEFT + self.width - self.RIGHT) / 2 / self.width)
         self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,

@@ -103,10 +103,10 @@ def draw_sheet(planes, columns, counts, arguments, dpi):
     units, ground = arguments.units, ground_word(planes[0].file)
     axes = [axes_of_plane(plane, units) for plane in planes]
     shares = all(np.array_equal(up.edges, axes[0][1].edges) for _, up in axes)
-    sheet = Sheet(panel_titles(planes, units), columns, dpi, shares)
-    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, counts.get("friction"))
     title = heading(planes) if arguments.title is None else arguments.title
-    sheet.write(plain(title), subtitle(planes, units), *name_axes(planes[0], units))
+    sheet = Sheet((plain(title), subtitle(planes, units)), panel_titles(planes, units), columns, dpi, shares)
+    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, counts.get("friction"))
+    sheet.name_axes(*name_axes(planes[0], units))
     entries = legend_entries(present, ground)
     entries += [count.legend_entry() for count in counts.values()]
     if arguments.boundary:

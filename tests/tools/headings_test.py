@@ -1,0 +1,60 @@
+"""Titles of pictures: they end within the picture, however long they are.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import unittest
+
+import numpy as np
+from tool import JOBS, InAFolder  # first: adds the package to the path
+from matplotlib import pyplot
+from overturn import plot
+from overturn.plot.headings import width_of, wrapped
+
+TITLE = "A marble figure of 2.1 m, which leans by 1.5 degrees, and of which nobody remembers whom it represents"
+JOB = f"""
+    title = "{TITLE}"
+    scene.record = "{JOBS / 'synthetic.AT2'}"
+    [plane]
+    width = 0.5
+    height = 2.0
+    scale = {{ first = 0.5, last = 1.5, count = 11 }}
+    restitution_of_maximum = 0.9
+    """
+
+
+class TestALongTitle(InAFolder):
+    JOB = JOB
+
+    def expect_within(self, axes):
+        figure = axes.figure
+        self.addCleanup(pyplot.close, figure)
+        figure.draw_without_rendering()
+        for text in figure.texts:
+            box = text.get_window_extent()
+            self.assertLess(box.x1, figure.bbox.x1, text.get_text())
+            self.assertLess(box.y1, figure.bbox.y1, text.get_text())
+            for panel in figure.axes:
+                self.assertFalse(box.overlaps(panel.get_window_extent()), text.get_text())
+        heights = figure.bbox.y1 * np.sort([text.get_position()[1] for text in figure.texts])
+        self.assertGreater(np.diff(heights).min(), 9)  # pixels between two baselines
+        self.assertIn(TITLE, " ".join(text.get_text() for text in figure.texts))
+
+    def test_ends_within_the_narrow_picture_of_one_boundary(self):
+        self.overturn("boundary", "boundary.h5", "plane.incline=0.02")
+        self.expect_within(plot.boundary(self.folder / "boundary.h5"))
+
+    def test_ends_within_the_picture_of_a_history(self):
+        self.overturn("history", "history.h5", "plane.scale=1.1", "plane.center_offset=0.02", "plane.incline=0.02",
+                      "plane.direction=180", f"scene.vertical=\"{JOBS / 'synthetic_vertical.AT2'}\"")
+        self.expect_within(plot.history(self.folder / "history.h5")[0])
+
+    def test_is_broken_after_commas_if_possible(self):
+        first, *others = wrapped("one two, three four, five", 10, width_of("one two, three", 10))
+        self.assertEqual([first, *others], ["one two,", "three four,", "five"])
+        self.assertEqual(wrapped("one two three", 10, width_of("one two", 10)), ["one two", "three"])
+        self.assertEqual(wrapped("", 10, 1), [""])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,47 @@
+"""Titles of pictures, in as many lines as the width of the picture needs."""
+
+import re
+
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
+
+POINTS = 72  # per inch
+LINE = 1.3  # height of a line over the size of the font
+
+
+def width_of(text, size):
+    """Returns the width [inches] of a line in a font of this size [points]."""
+    return TextPath((0, 0), text, size=size, prop=FontProperties()).get_extents().x1 / POINTS
+
+
+def wrapped(text, size, width):
+    """Returns the lines of a text, not wider than `width` [inches]: broken after commas, and between words where a part
+    without commas is too wide. A single word may be wider."""
+    lines = [""]
+    for part in re.split(r"(?<=,)(?= )", text):
+        for piece in [part] if width_of(part, size) <= width else re.split(r"(?<=\S)(?= )", part):
+            if lines[-1] and width_of(lines[-1] + piece, size) > width:
+                lines.append("")
+            lines[-1] += piece if lines[-1] else piece.lstrip()
+    return lines
+
+
+class Heading:
+    """A title and a second line, each wrapped to the width [inches] of what is below it. Sizes are in points."""
+
+    def __init__(self, title, second, width, sizes):
+        self.texts = [wrapped(text, size, width) for text, size in zip((title, second), sizes)]
+        self.sizes = sizes
+        #: height [inches] of all lines but the first of both
+        self.extra = sum((len(lines) - 1) * LINE * size / POINTS for lines, size in zip(self.texts, sizes))
+
+    def write(self, figure, left, tops):
+        """Writes the lines from the left edge [inches] on; tops [inches] are the distances of the baselines of both
+        from the top of the figure if each has one line."""
+        width, height = figure.get_size_inches()
+        lower = 0.0
+        for lines, size, top in zip(self.texts, self.sizes, tops):
+            for line in lines:
+                figure.text(left / width, 1 - (top + lower) / height, line, fontsize=size)
+                lower += LINE * size / POINTS
+            lower -= LINE * size / POINTS
