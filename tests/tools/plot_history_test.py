@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 import numpy as np
-from tool import InAFolder  # first: adds the package to the path
+from tool import JOBS, InAFolder  # first: adds the package to the path
 import overturn
 from matplotlib import pyplot
 from overturn.plot import histories
@@ -28,6 +28,43 @@ IMPACT = 1  # as numbered in the file
 
 def open_history(path):
     return open_result(path, "rocking history", "a history")
+
+
+class TestTheMotionOfAHistory(InAFolder):
+    """The line below the title says what moves the ground."""
+
+    TOOL, FILE = "plot_history", "history.h5"
+    JOB = f"""
+        scene.record = "{JOBS / 'synthetic.AT2'}"
+        [plane]
+        width = 0.5
+        height = 2.0
+        scale = 1.0
+        restitution_of_maximum = 0.9
+        """
+
+    def words_of(self, *settings):
+        self.overturn("history", "history.h5", *settings)
+        with open_history(self.folder / "history.h5") as file:
+            return histories.describe(file)
+
+    def test_has_components_direction_and_vertical_motion(self):
+        other = f"\"{JOBS / 'synthetic_vertical.AT2'}\""
+        self.assertIn("synthetic.AT2, scale", self.words_of())
+        self.assertIn("synthetic.AT2, direction 180° (mirrored), scale", self.words_of("plane.direction=180"))
+        self.assertIn("synthetic.AT2, vertical motion synthetic_vertical.AT2, scale",
+                      self.words_of(f"scene.vertical={other}"))
+        self.assertIn("synthetic.AT2, components 1 and synthetic_vertical.AT2, direction 0°, scale",
+                      self.words_of(f"scene.second_component={other}", "plane.direction=0"))
+        self.assertIn("components 1 and synthetic_vertical.AT2, direction 210°, scale",
+                      self.words_of(f"scene.second_component={other}", "plane.direction=210"))
+
+    def test_is_followed_by_both_sides_of_a_block(self):
+        words = self.words_of("plane.center_offset=0.05")
+        self.assertRegex(words, r"1/s \(\+\).*1/s \(−\).*rad \(\+\).*rad \(−\)")
+        with open_history(self.folder / "history.h5") as file:
+            labels = {name: label for name, label, _ in histories.History(file, 0, 9).panels}
+        self.assertIn(r"\theta/\alpha_+", labels["angle"])
 
 
 class TestAHistoryUnderARecord(InAFolder):

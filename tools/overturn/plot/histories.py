@@ -3,17 +3,18 @@ and q; under a record the ground and the tilt; and the friction coefficient that
 
 from __future__ import annotations
 
+import tomllib
 from types import SimpleNamespace
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from overturn.captions import SIZES, ground_text, ground_word, is_linear, is_recorded, slenderness_text
+from overturn.captions import SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, slenderness_text
 from overturn.file_variables import text_of
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import damage_reported, open_result, path_of, plain, title_of
+from overturn.result_file import damage_reported, job_text, open_result, path_of, plain, title_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
@@ -91,6 +92,8 @@ class History:
         slenderness = sides[0]
         per_time = float(file.attrs["frequency_parameter"]) if self.is_in_seconds else 1
         per_angle = slenderness if self.is_recorded else 1
+        if len(sides) > 1 and self.is_recorded:
+            self.panels = [(name, label.replace(r"\alpha", r"\alpha_+"), share) for name, label, share in self.panels]
         if units == PHYSICAL:
             self.panels = [(name, PHYSICAL_LABELS[name], share) for name, _, share in self.panels]
             per_angle = np.radians(1)
@@ -191,6 +194,25 @@ def mark_events(axes, history):
     return handles
 
 
+def motion_words(file):
+    """Returns what determines the ground motion besides its scale and its time: the record, its components, and the
+    direction if it is not that of the record or pulse."""
+    words, second, direction = [], "", float(file.attrs.get("direction", 0))
+    if is_recorded(file):
+        record = tomllib.loads(job_text(file, "job_resolved")).get("scene", {}).get("record", {})
+        first, second, vertical = (file_name(record.get(key, ""))
+                                   for key in ("component", "second_component", "vertical"))
+        words = [ground_text(file)]
+        if second:
+            words += [f"components {first or 1} and {second}"]
+        elif first:
+            words += [f"component {first}"]
+        words += [f"vertical motion {vertical}"] * bool(vertical)
+    if second or direction:
+        words += [f"direction {direction:g}°" + " (mirrored)" * (direction == 180 and not second)]
+    return words
+
+
 def point_of(file, units):
     """Returns the names of the quantities of the point: of each kind the first, which is the one that the job gives."""
     kinds = (STRENGTHS, SIZES) if is_recorded(file) else (RATES, STRENGTHS)
@@ -219,12 +241,14 @@ def describe(file, units=JOB):
     shown = point_of(file, units)
     point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
              for name, symbol, unit in AXES if name in shown]
+    if "frequency_parameter_minus" in attributes and "frequency_parameter" in shown:
+        minus = attributes["frequency_parameter_minus"]
+        point[-1:] = [point[-1].replace(", ", " (+), "), f"$p$ = {minus:.4g} 1/s (−), "]
     alpha = ", ".join((slenderness_text(attributes[name], units) if units == PHYSICAL
                        else rf"$\alpha$ = {attributes[name]:.4g} rad") + side
                       for name, side in zip(slendernesses(file), (" (+)", " (−)") if len(slendernesses(file)) > 1
                                             else ("",)))
-    record = [plain(ground_text(file), 40) + ", "] * is_recorded(file)
-    return ("".join([*record, *point]) +
+    return ("".join([*(plain(word, 60) + ", " for word in motion_words(file)), *point]) +
             rf"{alpha}, $r$ = {attributes['restitution']:.4g}: "
             f"{outcome}")
 
