@@ -150,6 +150,14 @@ class TheFit(unittest.TestCase):
         deviation = np.sqrt(repetitions * 0.95 * 0.05)
         np.testing.assert_array_less(abs(hits - 0.95 * repetitions), 3 * deviation, err_msg=f"{hits}")
 
+    def test_has_a_band_that_rises_also_with_few_motions(self):
+        # Of 40 suites of 11 motions whose blocks hardly differ, intervals of a + b s, point by point, fall in 16.
+        at = np.log(MEDIAN) + BETA * np.linspace(-6, 6, 49)
+        bands = [found.band for found in (fit(simulated(seed, motions=11, shared=0.9), at, 200, seed)
+                                          for seed in range(40)) if found and np.isfinite(found.band).all()]
+        self.assertGreater(len(bands), 30)
+        self.assertGreaterEqual(min(np.diff(band).min() for band in bands), 0)
+
     def test_has_samples_whose_quantiles_are_the_intervals(self):
         found = fit(simulated(1), AT, 200, 1)
         self.assertEqual(found.samples.shape, (200, 2))

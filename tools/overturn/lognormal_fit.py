@@ -6,8 +6,9 @@
 (J. Baker, Earthquake Spectra 31 (2015) 579-599). Points under one motion are not independent. Motions
 are therefore drawn with replacement; intervals are those of the studentized bootstrap (A. Davison,
 D. Hinkley, Bootstrap methods (1997), section 5.2), with the sandwich estimate of the covariance of a and
-b, whose scores are summed by motion. They are computed for ln(median), ln(beta) and a + b s, which are
-unbounded."""
+b, whose scores are summed by motion. They are computed for ln(median) and ln(beta), which are unbounded.
+The band consists of quantiles of the curves of all samples; each of them rises with x, and so does the
+band. Intervals of a + b s would not: with few motions, they include curves that fall."""
 
 import dataclasses
 import math
@@ -56,40 +57,41 @@ def fit(counts, log_at, samples, seed):
     total = np.asarray(counts.points.sum(axis=0)).ravel()
     center = np.average(counts.log_measure, weights=total)
     width = math.sqrt(np.average((counts.log_measure - center) ** 2, weights=total)) or 1.0
-    frame = center, width, log_at
-    estimate, error = (rows[0] for rows in estimates(counts, np.ones((1, motions)), *frame))
+    estimate, error = (rows[0] for rows in estimates(counts, np.ones((1, motions)), center, width))
     if np.isnan(estimate[1]):
         return None
-    without_fit, interval, kept = 0, np.full((2, len(estimate)), np.nan), np.empty((0, 2))
+    without_fit, interval, kept = 0, np.full((2, 2), np.nan), np.empty((0, 2))
+    band = np.full((2, len(log_at)), np.nan)
     if motions >= LEAST_MOTIONS:
         weights = np.random.default_rng(seed).multinomial(motions, np.full(motions, 1 / motions), samples)
         chunks = np.array_split(weights, -(-samples * values // CHUNK))
-        drawn, errors = map(np.concatenate, zip(*(estimates(counts, chunk, *frame) for chunk in chunks)))
+        drawn, errors = map(np.concatenate, zip(*(estimates(counts, chunk, center, width) for chunk in chunks)))
         deviation = (drawn - estimate) / errors
         without_fit = int(np.isnan(deviation).any(axis=1).sum())
         if without_fit <= MOST_WITHOUT_FIT * samples:
             ends = np.nanquantile(deviation, [(1 + LEVEL) / 2, (1 - LEVEL) / 2], axis=0)
             interval = estimate - ends * error
-            kept = (estimate - deviation * error)[:, :2]
+            kept = estimate - deviation * error
             kept = np.exp(np.clip(kept[~np.isnan(kept).any(axis=1)], -LARGEST_LOG, LARGEST_LOG))
+            band = np.quantile(ndtr((log_at - np.log(kept[:, :1])) / kept[:, 1:]),
+                               [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
     with np.errstate(over="ignore"):  # few different motions may give an interval without an upper end
-        ends = np.exp(interval[:, :2])
-    return Fit(*map(float, np.exp(estimate[:2])), ends[:, 0], ends[:, 1], ndtr(interval[:, 2:]), kept, without_fit)
+        ends = np.exp(interval)
+    return Fit(*map(float, np.exp(estimate)), ends[:, 0], ends[:, 1], band, kept, without_fit)
 
 
-def estimates(counts, weights, center, width, log_at):
-    """Returns ln(median), ln(beta) and a + b s at log_at of each sample, and their standard errors;
-    weights (samples, motions) are how often a motion was drawn. NaN in samples without a fit."""
+def estimates(counts, weights, center, width):
+    """Returns ln(median) and ln(beta) of each sample, and their standard errors; weights (samples, motions)
+    are how often a motion was drawn. NaN in samples without a fit."""
     points, exceeding = weights @ counts.points, weights @ counts.exceeding
     s = (counts.log_measure - center) / width
     ab = np.full((len(weights), 2), np.nan)
     fitted = has_maximum(points, exceeding)
     ab[fitted] = maximum(s, points[fitted], exceeding[fitted])
     a, b = ab[:, 0], np.where(ab[:, 1] > 0, ab[:, 1], np.nan)
-    at = (log_at - center) / width
-    values = np.column_stack([center - width * a / b, np.log(width / b), a[:, None] + b[:, None] * at])
-    by_a = np.column_stack([-width / b, np.zeros_like(b), np.ones((len(b), len(at)))])
-    by_b = np.column_stack([width * a / b**2, -1 / b, np.broadcast_to(at, (len(b), len(at)))])
+    values = np.column_stack([center - width * a / b, np.log(width / b)])
+    by_a = np.column_stack([-width / b, np.zeros_like(b)])
+    by_b = np.column_stack([width * a / b**2, -1 / b])
     aa, ab_, bb = covariance(counts, s, ab, weights, points)[:, :, None]
     variance = by_a**2 * aa + 2 * by_a * by_b * ab_ + by_b**2 * bb
     return values, np.sqrt(np.where(variance > 0, variance, np.nan))
