@@ -113,7 +113,7 @@ class TheRate(unittest.TestCase):
         self.assertTrue(found.interval[0] < found.rate[0] < found.interval[1])
         np.testing.assert_allclose(found.survival_interval(100), np.exp(-100 * found.interval[::-1]))
         of_bins = risk.annual_rate(power_law(), risk.shares_of(curve)).rate  # without an upper bound
-        self.assertIn(f"without the fit, from the shares in the 10 bins of the fragility: {of_bins[0]:.4g} to inf",
+        self.assertIn(f"without the fit, from the shares in the 10 bins of the fragility: {of_bins[0]:.4g} or more a year",
                       found.summary())
         self.assertTrue(np.isnan(risk.annual_rate(power_law(), CURVE).interval).all())
 
@@ -149,8 +149,21 @@ class TheBounds(unittest.TestCase):
         found = risk.annual_rate(power_law(0.3, 10), risk.binned([0.3, 1, 10], [0.2, 0.9], **PGA))
         self.assertEqual(found.rate[1], np.inf)
         self.assertEqual(found.survival(50)[0], 0)
+        self.assertIn("pga = 0.3 g: unbounded", found.summary())
+        self.assertIn("the rate has no upper end: if the hazard continued", found.summary())
         flat = risk.Hazard([0.3, 0.5, 10], [0.1, 0.1, 1e-4], **PGA)  # nothing is weaker than its first level
         self.assertEqual(risk.annual_rate(flat, risk.binned([0.3, 1, 10], [0.2, 0.9], **PGA)).contribution[1, 0], 0)
+
+    def test_have_no_upper_end_if_weak_shaking_would_overturn_more_often_than_the_first_level_is_exceeded(self):
+        steep = risk.Hazard([0.02, 0.05, 4], [47, 0.03, 1e-8], **PGA)  # below 0.02 g, x^-8
+        samples = [(1.5, 0.5)] * 90 + [(3.0, 2.0)] * 10  # the latter would overturn 1e40 times a year
+        found = risk.annual_rate(steep, risk.lognormal(1.5, 0.5, samples=samples, **PGA))
+        self.assertLess(found.rate[1], 1e-3)
+        self.assertEqual(found.interval[1], np.inf)
+        self.assertIn("or more)", found.summary())
+        self.assertIn("the confidence has no upper end", found.summary())
+        self.assertIn("than this level is exceeded, 47 a year, in some samples", found.summary())
+        self.assertNotIn("upper end", risk.annual_rate(power_law(), CURVE).summary())
 
     def test_of_bins_without_points_are_those_of_their_neighbours(self):
         shares = risk.binned([0.1, 0.2, 0.4, 0.8, 1.6, 3], [np.nan, 0.3, np.nan, 0.2, np.nan], **PGA)
@@ -203,7 +216,7 @@ class TheBounds(unittest.TestCase):
     def test_are_not_those_of_shaking_outside_the_data_which_is_mentioned(self):
         inside = np.diff([between_levels(power_law(1e-4, end), MEDIAN, BETA) for end in (0.6, 0.8)])[0]
         outside = risk.annual_rate(power_law(), risk.lognormal(MEDIAN, BETA, edges=[0.6, 0.8], unknown=[0, 0], **PGA))
-        self.assertIn(f"{1 - inside / EXACT:.2g} of this is from shaking outside the data of the fragility, "
+        self.assertIn(f"{100 * (1 - inside / EXACT):.2g} % of the rate is from shaking outside the data of the fragility, "
                       "pga = 0.6 to 0.8 g", outside.summary())
         np.testing.assert_allclose(outside.rate, EXACT, rtol=2e-7)
         self.assertNotIn("outside the data", risk.annual_rate(power_law(), CURVE).summary())

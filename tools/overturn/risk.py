@@ -46,7 +46,7 @@ class Risk:
 
     im: str  #: name of the intensity measure
     units: str  #: of the intensity measure
-    rate: NDArray[np.float64]  #: (2,), bounds [1/year]
+    rate: NDArray[np.float64]  #: (2,), bounds [1/year]; infinite: unbounded
     interval: NDArray[np.float64]  #: (2,), of 95 % confidence, by the bootstrap of the fragility [1/year]; or NaN
     edges: NDArray[np.float64]  #: of the ranges of the measure of `contribution`; the first is 0, the last infinite
     contribution: NDArray[np.float64]  #: (2, ranges), bounds of the rate from each range [1/year]; their sum is `rate`
@@ -94,7 +94,8 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
 
     Shaking above the last level contributes P(last level) lambda(last level) at least and lambda(last level) at most.
     Shaking below the first level contributes at most what it would if lambda continued as in the first interval; this
-    is an upper bound if lambda, in logarithms, is nowhere steeper to the left of this interval.
+    is an upper bound if lambda, in logarithms, is nowhere steeper to the left of this interval. If it is above
+    lambda(first level), the rate is unbounded.
 
     Raises ValueError if the measures or their units differ.
     """
@@ -107,11 +108,12 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
     of_ranges = np.add.reduceat(within, np.searchsorted(points, [first, *inner]), axis=-1)
     contribution = np.concatenate([below, of_ranges, above], axis=-1)
     rate, halved = contribution.sum(axis=-1), _within(hazard, p, inner, 2)[1]
-    notes = _notes(hazard, p, contribution[0], points, within[0])
+    interval = _interval(rate)
+    notes = _notes(hazard, p, contribution[0], points, within[0], interval)
     if isinstance(fragility, Fragility) and np.isfinite(fragility.median):
         notes.append(f"without the fit, from the shares in the {len(fragility.points)} bins of the fragility: "
                      f"{_text(annual_rate(hazard, shares_of(fragility)).rate)} a year")
-    return Risk(p.im, p.units, rate[0], _interval(rate), np.array([0, first, *inner, last, np.inf]), contribution[0],
+    return Risk(p.im, p.units, rate[0], interval, np.array([0, first, *inner, last, np.inf]), contribution[0],
                 float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
 
 
@@ -140,7 +142,8 @@ def _within(hazard, p, inner, divisions=1):
 
 
 def _below(hazard, p):
-    """Returns bounds of the contribution of shaking below the first level, (rows, 2)."""
+    """Returns bounds of the contribution of shaking below the first level, (rows, 2). There is no upper bound if it
+    exceeded the rate of this level: a continued hazard that overturns more often by weaker shaking bounds nothing."""
     slope, first, total = hazard.slope[0], np.log(hazard.level[0]), 0.0
     parts = int(np.ceil(max(1 / WIDEST, slope / STEEPEST)))
     depth = (np.arange(parts)[:, None] + (1 + NODES) / 2).ravel() / parts
@@ -152,7 +155,8 @@ def _below(hazard, p):
         total = total + added
         if (added <= NEGLIGIBLE * total).all():
             break
-    return np.stack([np.zeros_like(total), np.where(added <= NEGLIGIBLE * total, total, np.inf)], axis=-1)
+    is_bounded = (added <= NEGLIGIBLE * total) & (total <= hazard.rate[0])
+    return np.stack([np.zeros_like(total), np.where(is_bounded, total, np.inf)], axis=-1)
 
 
 def _above(hazard, p):
@@ -170,18 +174,26 @@ def _interval(rates):
     return np.where(ends < UNBOUNDED, ends, np.inf)
 
 
-def _notes(hazard, p, contribution, points, within):
+def _notes(hazard, p, contribution, points, within, interval):
     """Returns what the bounds leave open."""
     first, last = (f"{p.im} = {level:.4g} {p.units}" for level in hazard.level[[0, -1]])
     low, high = within.sum(axis=-1)
-    notes = [f"of this, shaking below the first level of the hazard, {first}: at most {contribution[1, 0]:.3g} a year",
-             f"of this, shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
+    is_bounded = bool(np.isfinite(contribution[1, 0]))
+    most = f"at most {contribution[1, 0]:.3g} a year" if is_bounded else "unbounded"
+    notes = [f"of the rate, shaking below the first level of the hazard, {first}: {most}",
+             f"of the rate, shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
+    if not is_bounded or np.isinf(interval[1]):
+        what = "the confidence" if is_bounded else "the rate"
+        notes.append(f"{what} has no upper end: if the hazard continued below its first level as above it, weaker shaking "
+                     f"would overturn more often than this level is exceeded, {hazard.rate[0]:.3g} a year"
+                     f"{', in some samples of the bootstrap' * is_bounded}. Check the first levels, or begin the hazard "
+                     "at a level that overturns nothing")
     if low < high:
         notes.append(f"points without a verdict, or bins without points: between these levels, the rate is {low:.4g} a "
                      f"year if all of them are safe, {high:.4g} if all overturn")
     outside = within[1, (points[:-1] < p.data[0]) | (points[1:] > p.data[1])].sum()
     if outside > SMALL * high:
-        notes.append(f"{outside / high:.2g} of this is from shaking outside the data of the fragility, {p.im} = "
+        notes.append(f"{100 * outside / high:.2g} % of the rate is from shaking outside the data of the fragility, {p.im} = "
                      f"{p.data[0]:.4g} to {p.data[1]:.4g} {p.units}")
     return notes
 
@@ -233,8 +245,12 @@ def _positive(name, number):
 def _text(pair):
     """Returns one number if both bounds agree in four digits."""
     low, high = (f"{number:.4g}" for number in pair)
-    return low if low == high else f"{low} to {high}"
+    return low if low == high else _range(low, high)
 
 
 def _confidence(interval):
-    return f" (95 % confidence {interval[0]:.3g} to {interval[1]:.3g})" if np.isfinite(interval[0]) else ""
+    return f" (95 % confidence {_range(*(f'{end:.3g}' for end in interval))})" if np.isfinite(interval[0]) else ""
+
+
+def _range(low, high):
+    return f"{low} or more" if high == "inf" else f"{low} to {high}"
