@@ -71,7 +71,8 @@ class TestAPicture(Picture):
 
 class TestARiskRefused(Picture):
     def refuses(self, code, sentence, *arguments):
-        super().refuses(code, sentence, *arguments, "-o", "refused.png")
+        run = super().refuses(code, sentence, *arguments, "-o", "refused.png")
+        self.assertEqual(run.stdout, "")
         self.assertFalse((self.folder / "refused.png").exists())
 
     def test_without_files_that_can_be_read(self):
@@ -92,8 +93,8 @@ class TestARiskRefused(Picture):
         self.refuses(2, "Choose one with site = 0 to 1", "result.h5", OPENQUAKE)
 
     def test_without_a_time_or_a_probability(self):
-        self.refuses(2, "years = -1.0 is not a positive number", "result.h5", "hazard.txt", "--years", "-1")
-        self.refuses(2, "survival = 2.0 is not between 0 and 1", "result.h5", "hazard.txt", "--survival", "2")
+        self.refuses(2, "--years: -1 is not a positive number", "result.h5", "hazard.txt", "--years", "-1")
+        self.refuses(2, "--survival: 2 is not between 0 and 1", "result.h5", "hazard.txt", "--survival", "2")
         self.refuses(2, "'mass' is not a property of the blocks", "result.h5", "hazard.txt", "--together", "mass")
 
 

@@ -1,6 +1,7 @@
 """Plots the annual rate at which blocks overturn at a site: the hazard curve, the fragility curve, and the shaking that
 contributes to the rate."""
 
+import argparse
 import pathlib
 import textwrap
 
@@ -101,6 +102,20 @@ def draw_contributions(ax, found):
     ax.legend(fontsize=8)
 
 
+def duration(word):
+    years = float(word)
+    if not 0 < years < np.inf:
+        raise argparse.ArgumentTypeError(f"{word} is not a positive number of years.")
+    return years
+
+
+def probability(word):
+    value = float(word)
+    if not 0 < value < 1:
+        raise argparse.ArgumentTypeError(f"{word} is not between 0 and 1. Give a probability such as 0.05.")
+    return value
+
+
 def read_arguments(argv):
     parser = parser_of("plot_risk", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("hazard", metavar="HAZARD", help="hazard curve: text of two columns, or CSV of OpenQuake")
@@ -108,9 +123,9 @@ def read_arguments(argv):
                                                         "arias_intensity or significant_duration")
     parser.add_argument("--im-units", metavar="UNIT", help="unit of a text that does not name it: g, m/s or cm/s")
     parser.add_argument("--site", type=int, metavar="N", help="row of a hazard of several sites, counted from 0")
-    parser.add_argument("--years", type=float, metavar="T", default=DEFAULT_YEARS,
+    parser.add_argument("--years", type=duration, metavar="T", default=DEFAULT_YEARS,
                         help="of the survival (default: %(default)g)")
-    parser.add_argument("--survival", type=float, metavar="P",
+    parser.add_argument("--survival", type=probability, metavar="P",
                         help="also print the largest factors on the hazard with which the blocks survive these years "
                              "with the probability P")
     parser.add_argument("--together", metavar="COLUMN",
@@ -142,22 +157,23 @@ def compute(arguments):
 
 
 def report(arguments, hazard, curve):
-    """Prints the numbers."""
-    print(curve.summary())
-    print(overturn.risk.annual_rate(hazard, curve).summary(arguments.years))
+    """Returns the numbers as lines."""
+    lines = [curve.summary(), overturn.risk.annual_rate(hazard, curve).summary(arguments.years)]
     if arguments.survival is not None:
         for on, what in (("rate", "rates"), ("level", "levels")):
             factor = overturn.risk.largest_factor(hazard, curve, arguments.years, arguments.survival, on)
-            print(f"largest factor on the {what} of the hazard, survival of {arguments.years:g} years with the "
-                  f"probability {arguments.survival:g}: {factor.text()}")
+            lines.append(f"largest factor on the {what} of the hazard, survival of {arguments.years:g} years with the "
+                         f"probability {arguments.survival:g}: {factor.text()}")
+    return lines
 
 
 def main(argv=None):
     arguments = read_arguments(argv)
     title, hazard, curve = compute(arguments)
     try:
-        report(arguments, hazard, curve)
+        lines = report(arguments, hazard, curve)
         panels = risk(hazard, curve, arguments.years, title=plain(title))
     except ValueError as error:
         raise ToolError(str(error), USAGE) from error
+    print("\n".join(lines))
     save(panels[0].figure, arguments.output, dpi=150)
