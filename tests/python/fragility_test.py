@@ -400,6 +400,13 @@ class AnEdgeCase(unittest.TestCase):
         self.assert_no_fit(region, [0.5, 1, 2, 4],
                            "no point overturns up to pgv = 1, and every point does so from 2 on")
 
+    def test_a_single_point_overturns_at_the_largest_value(self):
+        region = np.full((10, 4, 8), S)
+        region[:, 3] = UNDECIDED
+        region[0, 3, 0] = F
+        self.assert_no_fit(region, [0.5, 1, 2, 4],
+                           "no point overturns up to pgv = 2, and the only point above, at 4, does so")
+
     def test_points_that_were_masked_or_have_unknown_codes_have_no_verdict(self):
         region, scale = graded()
         whole = result(region, scale)

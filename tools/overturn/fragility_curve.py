@@ -295,10 +295,12 @@ def _why_no_fit(counts, im, verb):
     if x.size == 1:
         return f"no fit: all points have the same {im} = {x[0]:.4g}"
     if not lognormal_fit.has_maximum(points[None], exceeding[None])[0]:
-        above, below = x[exceeding > 0], x[exceeding < points]
-        return (f"no fit, because there is no scatter: no point {verb} up to {im} = {below.max():.4g}, and every "
-                f"point does so from {above.min():.4g} on" if below.max() <= above.min() else
-                f"no fit: the probability that a point {verb} does not rise with {im}")
+        above, below = x[exceeding > 0].min(), x[exceeding < points].max()
+        if below > above:
+            return f"no fit: the probability that a point {verb} does not rise with {im}"
+        others = (f"the only point above, at {above:.4g}, does so" if points[x >= above].sum() == 1
+                  else f"every point does so from {above:.4g} on")
+        return f"no fit, because there is no scatter: no point {verb} up to {im} = {below:.4g}, and {others}"
     return ""
 
 
