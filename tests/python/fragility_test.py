@@ -56,11 +56,19 @@ class TheFriction(unittest.TestCase):
             self.assertEqual(found.exceeding.sum(), (known & (region == U0)).sum())
             self.assertEqual(found.undecided, (~known & (region != NOT_COMPUTED)).sum())
             lost = (np.isin(region, [S, U0]) & ~known).sum()
-            self.assertIn(f"{lost} of the undecided points need a friction coefficient above", found.summary())
+            self.assertIn(f"points, which are undecided, {lost} of them because they need a friction coefficient above "
+                          f"{friction:g}, or an unknown one", found.summary())
+            self.assertEqual(found.summary().count("need a friction"), 1)
+            if np.isfinite(found.median):
+                self.assertIn(f"median and beta are those of the {known.sum()} points with a verdict", found.summary())
             share = overturn.supported_share(data, friction)
             self.assertEqual(share, known.sum() / np.isin(region, [S, U0]).sum())
             of_blocks = overturn.supported_share(data.isel(motion=[0]), friction, "block")
             self.assertEqual(of_blocks.dims, ("motion", "scale"))
+        data["region"][:] = np.where(region >= UNDECIDED, S, region)
+        found = overturn.fragility(data, friction=0.5)
+        self.assertIn(f"left out: {found.undecided} of 360 points, which need a friction", found.summary())
+        data["region"][:] = region
         with self.assertRaisesRegex(ValueError, "no field friction"):
             overturn.fragility(data.drop_vars("friction"), friction=0.5)
         for wrong in (0, -1, float("nan"), float("inf"), 35, True, "0.5"):

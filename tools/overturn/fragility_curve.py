@@ -148,7 +148,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "",
                      blocks=_blocks(dataset["region"]) if together is None else len(parts), **_fitted(fit, value),
-                     notes=(*_slipping(cells, friction), *_left_out(cells, im), *[reason] * bool(reason),
+                     notes=(*_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
 
@@ -226,14 +226,6 @@ def cells_of(dataset, measure, limit, friction):
     return cells
 
 
-def _slipping(cells, friction):
-    """Returns what was not known because the block may slip."""
-    if friction is None:
-        return []
-    return [f"{int(cells['slipping'].sum())} of the undecided points need a friction coefficient above {friction:g}, or "
-            "an unknown one"]
-
-
 def _numbered(dataset):
     """Returns the coordinate motion, with different numbers for motions of different names: results that were joined
     number theirs alike."""
@@ -304,7 +296,7 @@ def _why_no_fit(counts, im, verb):
     return ""
 
 
-def _left_out(cells, im):
+def _left_out(cells, im, friction):
     """Returns notes on the points that are not in the curve."""
     undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
     total = int(cells["points"].sum()) + undecided + not_computed
@@ -314,8 +306,25 @@ def _left_out(cells, im):
     return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]
             * (not_computed > 0)
             + [f"{without} of {motions} motions have no point with a verdict"] * (without > 0)
-            + [f"left out: {undecided} of {total} points, which are undecided"] * (undecided > 0)
+            + [f"left out: {undecided} of {total} points, which {_undecided(cells, friction)}"] * (undecided > 0)
             + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
+
+
+def _undecided(cells, friction):
+    """Returns why points are undecided."""
+    undecided, slipping = (int(cells[name].sum()) for name in ("undecided", "slipping"))
+    if not slipping:
+        return "are undecided"
+    need = f"need a friction coefficient above {friction:g}, or an unknown one"
+    return need if slipping == undecided else f"are undecided, {slipping} of them because they {need}"
+
+
+def _without_slipping(fit, cells):
+    """Returns a note if a fit lacks points because the block may slip: these are mostly points of strong shaking."""
+    if not fit or not cells["slipping"].any():
+        return []
+    return [f"median and beta are those of the {int(cells['points'].sum())} points with a verdict; points that need more "
+            "friction are mostly those of strong shaking"]
 
 
 def _extrapolated(fit, edges, im):
