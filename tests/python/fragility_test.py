@@ -303,8 +303,20 @@ class TheCurve(unittest.TestCase):
         for count in (8, 3, 1):
             curve = overturn.fragility(data.isel(block=slice(0, count)), samples=1)
             self.assertEqual(curve.blocks, count)
-            self.assertIn(f"{count} blocks pooled" if count > 1 else "1 block;", curve.summary())
+            self.assertIn(f"{count} rows of the table pooled" if count > 1 else "1 row of the table;", curve.summary())
         self.assertEqual(overturn.fragility(data.isel(block=0), samples=1).blocks, 1)
+
+    def test_counts_a_block_in_several_directions_once(self):
+        data = result(*graded()).rename(block="direction")
+        curve = overturn.fragility(data, samples=1)
+        self.assertEqual(curve.blocks, 1)
+        self.assertIn("1 block in 8 directions pooled", curve.summary())
+        data = xarray.concat([data, data], "size").assign_coords(
+            size=("size", [0.5, 0.625], {"units": "m"}), mass_of_the_block=("size", [1.0, np.nan], {"units": "kg"}))
+        self.assertIn("2 blocks in 8 directions pooled", overturn.fragility(data, samples=1).summary())
+        self.assertEqual(list(groups_of(data, "size")), ["size = 0.5 m", "size = 0.625 m"])
+        self.assertEqual(list(groups_of(data, "mass_of_the_block")),
+                         ["mass of the block = 1 kg", "mass of the block = not given"])
 
     def test_of_a_group_of_blocks_is_that_of_these_blocks(self):
         random = np.random.default_rng(3)

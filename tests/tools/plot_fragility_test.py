@@ -59,11 +59,11 @@ class TestAPicture(Curve):
 
     def test_has_a_curve_for_each_value_of_a_column(self):
         text, words = self.words("result.h5", "--by", "slenderness", "--csv", "by.csv", "--samples", "20")
-        self.assertIn("10 motions,  12 blocks in 3 groups", words)
+        self.assertIn("10 motions,  12 blocks,  3 groups", words)
         for number, slenderness in enumerate(("0.15", "0.225", "0.3"), 1):
-            self.assertIn(f"slenderness = {slenderness} (4 blocks)", words)
-            self.assertIn(f"\nslenderness = {slenderness}\n", text)
-            self.assertIn(f"# slenderness = {slenderness}\n", (self.folder / f"by_{number}.csv").read_text())
+            self.assertIn(f"slenderness = {slenderness} rad (4 blocks)", words)
+            self.assertIn(f"\nslenderness = {slenderness} rad\n", text)
+            self.assertIn(f"# slenderness = {slenderness} rad\n", (self.folder / f"by_{number}.csv").read_text())
         self.assertIn("by slenderness", words)
 
     def test_replaces_its_own_table_and_no_other(self):

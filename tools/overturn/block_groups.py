@@ -5,16 +5,20 @@ import numpy as np
 MOST_GROUPS = 12  # curves that can be told apart
 MOST_NUMBERS = 6  # different numbers with a group of their own
 RANGES = 4  # of a column with more
+NOT_GIVEN = "not given"  # an empty number
 
 
 def groups_of(dataset, column):
-    """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn". There is a group for each
-    value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks.
+    """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn" or "size = 0.5 m". There is a
+    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks.
 
     Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
+    from overturn.captions import UNITS  # needs h5py
     values, dimension = _property(dataset, column)
     labels = _labels(column, values)
-    return {f"{column} = {label}": dataset.isel({dimension: np.flatnonzero(labels == label)})
+    units = dataset[column].attrs.get("units", "1")
+    unit = UNITS.get(units, units)
+    return {f"{column.replace('_', ' ')} = {label} {unit * (label != NOT_GIVEN)}".rstrip(): dataset.isel({dimension: np.flatnonzero(labels == label)})
             for label in dict.fromkeys(labels[np.argsort(values, kind="stable")] if values.dtype.kind in "fiu"
                                        else sorted(labels))}
 
@@ -32,6 +36,12 @@ def blocks_at_one_site(dataset, column):
     if kinds.dtype.kind == "f" and np.isnan(kinds).any():
         raise ValueError(f"{column} has empty values. Give every block a value, or choose another column.")
     return [dataset.isel({dimension: np.flatnonzero(values == kind)}) for kind in kinds]
+
+
+def counted(number, kind):
+    """Returns a number of things, such as "1 block" or "3 blocks"."""
+    things, _, rest = kind.partition(" ")
+    return f"{number} {things if number != 1 else things.removesuffix('s')}{' ' * bool(rest)}{rest}"
 
 
 def _property(dataset, column):
@@ -57,7 +67,7 @@ def _labels(column, values):
             raise ValueError(f"{column} has {count} different texts; a picture has at most {MOST_GROUPS} curves. "
                              "Choose another column.")
         return labels
-    labels = np.full(len(values), "not given", object)
+    labels = np.full(len(values), NOT_GIVEN, object)
     known = np.isfinite(values)
     numbers = values[known]
     if len(np.unique(numbers)) <= MOST_NUMBERS:

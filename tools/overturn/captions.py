@@ -17,7 +17,7 @@ SIZES = ("size", "frequency_parameter")
 # Quantity, symbol and unit of a value.
 SYMBOLS = {"frequency": "ω_p/p", "pulse_period": "period", "pulse_frequency": "frequency", "pga": "PGA", "size": "R",
            "frequency_parameter": "p"}
-UNITS = {"pga": "g", "s-1": "1/s", "1": ""}  # of a quantity, or instead of those of the file
+UNITS = {"pga": "g", "s-1": "1/s", "degree": "degrees", "1": ""}  # of a quantity, or instead of those of the file
 MOST_LETTERS = 32  # of the name of a record beside other words
 
 

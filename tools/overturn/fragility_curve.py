@@ -14,7 +14,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
-from overturn.block_groups import blocks_at_one_site
+from overturn.block_groups import blocks_at_one_site, counted
 from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
 from overturn.joint_blocks import combined
 from overturn.output_file import new_file
@@ -49,7 +49,7 @@ class Fragility:
     undecided: int  #: points of region 254, or that may slip
     not_computed: int  #: points of region 255
     motions: int  #: with at least one verdict
-    blocks: int  #: pooled in the curve, or together at one site
+    blocks: int  #: pooled in the curve, or together at one site; each counts once, in however many directions
     median: float  #: at which half of the points exceed
     beta: float  #: scatter: standard deviation of the logarithm [1]
     median_interval: NDArray[np.float64]  #: (2,), of 95 % confidence
@@ -62,6 +62,7 @@ class Fragility:
     together: str = ""  #: column of the blocks of one site, one of which exceeds; empty: blocks are pooled
     #: (samples, 2), median and beta; their quantiles are the intervals. Empty if there are none
     samples: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
+    kind: str = "blocks"  #: what `blocks` counts, such as "rows of the table"
 
     @property
     def fraction(self) -> NDArray[np.float64]:
@@ -70,7 +71,9 @@ class Fragility:
 
     def summary(self) -> str:
         """Returns the numbers as a text of several lines."""
-        blocks = "1 block" if self.blocks == 1 else f"{self.blocks} blocks {'together' if self.together else 'pooled'}"
+        blocks = counted(self.blocks, self.kind)
+        if self.blocks > 1 or self.kind.endswith("directions"):
+            blocks += " together" if self.together else " pooled"
         what = "overturning" if self.limit is None else f"peak above {self.limit:g}"
         lines = [f"{what} against {self.im} [{self.units}]: {self.exceeding.sum()} of {self.points.sum()} points with "
                  f"a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
@@ -147,7 +150,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "",
-                     blocks=_blocks(dataset["region"]) if together is None else len(parts), **_fitted(fit, value),
+                     **_blocks(dataset["region"]) if together is None else {"blocks": len(parts)}, **_fitted(fit, value),
                      notes=(*_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
@@ -188,8 +191,12 @@ def _is_measure(dataset, name):
 
 
 def _blocks(region):
-    """Returns the number of blocks."""
-    return math.prod(count for name, count in region.sizes.items() if name not in ("motion", "scale", "pga"))
+    """Returns the number of blocks, and what they are: rows of a table may be one block several times."""
+    sizes = {name: count for name, count in region.sizes.items() if name not in ("motion", "scale", "pga")}
+    directions = sizes.pop("direction", 1)
+    blocks = math.prod(sizes.values())
+    kind = "rows of the table" if sizes.get("block") == blocks else "blocks"
+    return {"blocks": blocks, "kind": kind + f" in {directions} directions" * (directions > 1)}
 
 
 def units_of(measure, im):

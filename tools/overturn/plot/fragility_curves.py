@@ -9,7 +9,7 @@ import textwrap
 import numpy as np
 import overturn
 from matplotlib import pyplot
-from overturn.block_groups import groups_of
+from overturn.block_groups import counted, groups_of
 from overturn.output_file import save
 from overturn.plot.headings import wrapped
 from overturn.result_file import escaped, plain, shortened
@@ -80,9 +80,9 @@ def draw_panel(ax, curves):
 
 def counts_text(curves):
     motions, blocks = max(curve.motions for curve in curves), sum(curve.blocks for curve in curves)
-    what = f"{motions} motion{'s' * (motions != 1)},  {blocks} block{'s' * (blocks != 1)}"
+    what = f"{counted(motions, 'motions')},  {counted(blocks, curves[0].kind)}"
     if len(curves) > 1:
-        return what + f" in {len(curves)} groups"
+        return what + f",  {len(curves)} groups"
     how = " together" if curves[0].together else " pooled"
     return what + how * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
 
@@ -90,9 +90,8 @@ def counts_text(curves):
 def draw_bins(ax, curve, colour, marker, fillstyle):
     middle = np.sqrt(curve.edges[:-1] * curve.edges[1:])
     decided = curve.points > 0
-    blocks = f"{curve.blocks} block{'s' * (curve.blocks != 1)}"
     ax.plot(middle[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
-            label=escaped(f"{shortened(curve.group, 32)} ({blocks})") if curve.group
+            label=escaped(f"{shortened(curve.group, 32)} ({counted(curve.blocks, curve.kind)})") if curve.group
             else "fraction of the points in a bin")
     unknown = curve.without_verdict > 0
     if unknown.any():
@@ -173,7 +172,7 @@ def curves_of(dataset, im, arguments):
 
 def title_of(dataset, arguments):
     name = dataset.attrs.get("title") or f"Fragility: {pathlib.Path(arguments.file).name}"
-    return name + f", by {arguments.by}" * bool(arguments.by)
+    return name + f", by {arguments.by}".replace("_", " ") * bool(arguments.by)
 
 
 def write_csv(curve, number, arguments):
