@@ -256,6 +256,17 @@ class TheCurve(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no field peak"):
             overturn.fragility(result(region, scale), limit=0.5)
 
+    def test_has_the_mean_of_the_values_in_each_bin(self):
+        region, scale = graded()  # at 0.5, 1, 2 and 4 m/s
+        region[:, 3] = UNDECIDED
+        region[0, 3, 0] = F
+        curve = overturn.fragility(result(region, scale), bins=2, samples=1)
+        np.testing.assert_allclose(curve.edges, [0.5, 2**0.5, 4])
+        self.assertAlmostEqual(curve.mean[0], 0.5**0.5)
+        self.assertAlmostEqual(curve.mean[1], (2**80 * 4) ** (1 / 81))
+        curve = overturn.fragility(result(region, scale), bins=12, samples=1)
+        self.assertEqual(np.isnan(curve.mean).tolist(), (curve.points == 0).tolist())
+
     def test_leaves_out_points_without_a_verdict_and_reports_them(self):
         region, scale = graded()
         region[0, :, 7] = UNDECIDED  # safe otherwise

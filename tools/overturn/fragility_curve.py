@@ -46,6 +46,7 @@ class Fragility:
     points: NDArray[np.int64]  #: with a verdict, per bin
     exceeding: NDArray[np.int64]  #: per bin
     without_verdict: NDArray[np.int64]  #: undecided or not computed, per bin; not in `points`
+    mean: NDArray[np.float64]  #: geometric, of the values of the points of a bin with a verdict, or without if none has
     undecided: int  #: points of region 254, or that may slip
     not_computed: int  #: points of region 255
     motions: int  #: with at least one verdict
@@ -265,10 +266,20 @@ def _histograms(cells, edges):
     kinds = {"points": cells["points"], "exceeding": cells["exceeding"],
              "without_verdict": cells["undecided"] + cells["not_computed"]}
     if not len(edges):
-        return {name: np.zeros(0, int) for name in kinds}
+        return {**{name: np.zeros(0, int) for name in kinds}, "mean": np.zeros(0)}
     kept = is_measurable(cells)
-    return {name: np.histogram(cells["measure"][kept], edges, weights=kind[kept])[0].astype(int)
-            for name, kind in kinds.items()}
+    measure = cells["measure"][kept]
+
+    def total(weights):
+        return np.histogram(measure, edges, weights=weights)[0]
+
+    def mean(weights):
+        count = total(weights)
+        logs = total(weights * np.log(measure))
+        return np.exp(np.divide(logs, count, out=np.full(len(count), np.nan), where=count > 0))
+    sums = {name: total(kind[kept]).astype(int) for name, kind in kinds.items()}
+    means = (mean(kinds[name][kept]) for name in ("points", "without_verdict"))
+    return {**sums, "mean": np.where(sums["points"] > 0, *means)}
 
 
 def _counts(cells):

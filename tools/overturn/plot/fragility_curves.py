@@ -88,16 +88,15 @@ def counts_text(curves):
 
 
 def draw_bins(ax, curve, colour, marker, fillstyle):
-    middle = np.sqrt(curve.edges[:-1] * curve.edges[1:])
     decided = curve.points > 0
-    ax.plot(middle[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
+    ax.plot(curve.mean[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
             label=escaped(f"{shortened(curve.group, 32)} ({counted(curve.blocks, curve.kind)})") if curve.group
             else "fraction of the points in a bin")
     unknown = curve.without_verdict > 0
     if unknown.any():
         total = (curve.points + curve.without_verdict)[unknown]
         low, high = curve.exceeding[unknown] / total, (curve.exceeding + curve.without_verdict)[unknown] / total
-        ax.vlines(middle[unknown], low, high, color=colour, linewidth=4, alpha=0.45,
+        ax.vlines(curve.mean[unknown], low, high, color=colour, linewidth=4, alpha=0.45,
                   label="with points without a verdict")
 
 
