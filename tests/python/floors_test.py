@@ -4,6 +4,7 @@ PYTHONPATH."""
 import math
 import types
 import unittest
+import warnings
 
 import numpy as np
 import overturn
@@ -109,6 +110,20 @@ class TheSamples(unittest.TestCase):
             self.assertLess(errors[-1], (load * step)**2 / 8 / (z * math.sqrt(1 - z * z)))
         order = np.polyfit(np.log(steps), np.log(errors), 1)[0]
         self.assertAlmostEqual(order, 2, delta=0.05)  # a response to constant accelerations in each step has order 1
+
+
+class TheArguments(unittest.TestCase):
+    def test_in_another_unit_or_not_normalised_are_warned_of(self):
+        for changes, message in (({"periods": [0.5, 0.17, 500]}, r"^periods\[2\] = 500 .* in seconds"),
+                                 ({"periods": [0.009, 0.17, 0.1]}, r"^periods\[0\] = 0.009 .* in seconds"),
+                                 ({"shape": [30, 12, 1]}, "^the values of shape add up to 43: .* add up to 1"),
+                                 ({"shape": [-1.5, -0.4, -0.2]}, "add up to -2.1")):
+            with self.assertWarnsRegex(UserWarning, message) as caught:
+                overturn.floor_motion(ground(), STEP, **{**THREE, **changes})
+            self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            floor(periods=[20, 0.17, 0.01], shape=[1.6, 0.4, -0.1])
 
 
 class TheError(unittest.TestCase):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bisect
 import dataclasses
+import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from overturn.accelerations import Stream, Trace
 
 MOST_SAMPLES = 10_000_000  # of a floor: 80 MB
+USUAL_PERIODS = 0.01, 20  # of buildings [s]
+LARGEST_TOTAL = 2  # of the shapes; that of the first mode alone is up to 1.6 at the top of a building
 SHORTEST_PERIOD = 1e-6  # over the time step: the phase after a step is then known to 1e-9 rad
 
 
@@ -62,7 +65,8 @@ def floor_motion(record: ArrayLike | Trace | Stream, time_step: float | None = N
     Seism. Soc. Am. 59 (1969) 909-922). Their time step is that of the ground, or a whole fraction of it, chosen by
     `error`. They continue after the ground until the bound of the free vibration is `remaining`.
 
-    Raises ValueError if a value is not allowed, or if more than MOST_SAMPLES samples are needed; ArgumentError if an
+    Warns of periods and shapes that are probably in another unit, or not normalised. Raises ValueError if a value is not
+    allowed, or if more than MOST_SAMPLES samples are needed; ArgumentError if an
     argument is missing or contradicts a Trace.
     """
     components, step = accelerations_of({"record": record}, None if time_step is None else
@@ -73,6 +77,7 @@ def floor_motion(record: ArrayLike | Trace | Stream, time_step: float | None = N
     tolerance = number("tolerance", tolerance)
     _expect("tolerance", tolerance, 0 < tolerance < 1, "(0, 1)", "It is a part of the peak acceleration of the floor.")
     modes = _modes(periods, damping, shape, step)
+    _warn(np.atleast_1d(numbers("periods", periods)), modes.shape.sum())
     ground = np.append(components["record"], 0.0)
     floor, bounds, end = _response(ground, modes)
     allowed = tolerance * abs(floor).max()
@@ -109,6 +114,16 @@ def _modes(periods, damping, shape, step):
         _expect(f"shape[{i}]", factor, np.isfinite(factor), "(-inf, inf)", "It is a factor on the motion of a mode.")
     root = -damping + 1j * np.sqrt((1 - damping) * (1 + damping))
     return _Modes(2 * np.pi * step / periods, np.broadcast_to(root, periods.shape), shape)
+
+
+def _warn(periods, total):
+    """Warns of values that are probably in another unit, or not normalised."""
+    for i in np.flatnonzero((periods < USUAL_PERIODS[0]) | (periods > USUAL_PERIODS[1]))[:1]:
+        warnings.warn(f"periods[{i}] = {periods[i]:g} is outside {USUAL_PERIODS[0]:g} to {USUAL_PERIODS[1]:g}: periods "
+                      "are in seconds.", stacklevel=3)
+    if abs(total) > LARGEST_TOTAL:
+        warnings.warn(f"the values of shape add up to {total:g}: shape is the participation factor times the mode shape "
+                      "at the floor; those of all modes add up to 1.", stacklevel=3)
 
 
 def _expect(name, value, is_allowed, interval, meaning):
