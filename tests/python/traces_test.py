@@ -47,6 +47,35 @@ class AnArray(unittest.TestCase):
             overturn.evaluate(**BLOCK, pulse_period=1, pga=1, units="g")
 
 
+class AMotionOfThisPackage(unittest.TestCase):
+    RECORD, UP = (overturn.read_record(CHECKOUT / "jobs" / f"synthetic{name}.AT2") for name in ("", "_vertical"))
+    BUILDING = {"periods": 0.5, "damping": 0.05, "shape": 1.2}
+
+    def evaluate(self, record, **arguments):
+        return overturn.evaluate(**BLOCK, record=record, scale=SCALE, **arguments)["margin"].tobytes()
+
+    def test_is_its_samples(self):
+        record, up = self.RECORD, self.UP
+        self.assertEqual(self.evaluate(record, vertical=up, units="g"),
+                         self.evaluate(record.acceleration, vertical=up.acceleration, time_step=record.time_step))
+        floor = overturn.floor_motion(record, **self.BUILDING)
+        other = overturn.floor_motion(record.acceleration, record.time_step, **self.BUILDING)
+        self.assertEqual((floor.acceleration.tobytes(), floor.time_step), (other.acceleration.tobytes(), other.time_step))
+        self.assertEqual(self.evaluate(floor), self.evaluate(other.acceleration, time_step=other.time_step))
+
+    def test_beside_something_else_or_in_another_unit_is_refused(self):
+        for other in (self.UP.acceleration, types.SimpleNamespace(id="A", data=self.UP.acceleration, stats=None)):
+            with self.assertRaisesRegex(TypeError, "vertical is an array or a Trace, but another component is a Record"):
+                self.evaluate(self.RECORD, vertical=other)
+        with self.assertRaisesRegex(TypeError, "units = 'm/s2', but record is a Record or FloorMotion, whose"):
+            self.evaluate(self.RECORD, units="m/s2")
+        with self.assertRaisesRegex(TypeError, "time_step = 1, but record"):
+            self.evaluate(self.RECORD, time_step=1)
+        floor = overturn.floor_motion(self.RECORD, periods=0.05, damping=0.05, shape=1)
+        with self.assertRaisesRegex(ValueError, r"vertical \(FloorMotion\) has a sample every .* but record \(Record\)"):
+            self.evaluate(self.RECORD, vertical=floor)
+
+
 class ATrace(unittest.TestCase):
     def trace(self, data, channel="HNE", delta=STEP, start=1000.0):
         stats = types.SimpleNamespace(delta=delta, starttime=start)

@@ -113,8 +113,8 @@ class TheRate(unittest.TestCase):
         self.assertTrue(found.interval[0] < found.rate[0] < found.interval[1])
         np.testing.assert_allclose(found.survival_interval(100), np.exp(-100 * found.interval[::-1]))
         of_bins = risk.annual_rate(power_law(), risk.shares_of(curve)).rate  # without an upper bound
-        self.assertIn(f"without the fit, from the shares in the 10 bins of the fragility: {of_bins[0]:.4g} or more a year",
-                      found.summary())
+        self.assertIn(f"without the fit, from the shares in the 10 bins of the fragility: {of_bins[0]:.4g} or more "
+                      "a year", found.summary())
         self.assertTrue(np.isnan(risk.annual_rate(power_law(), CURVE).interval).all())
 
     def test_is_refused_for_another_measure_or_another_unit(self):
@@ -216,8 +216,8 @@ class TheBounds(unittest.TestCase):
     def test_are_not_those_of_shaking_outside_the_data_which_is_mentioned(self):
         inside = np.diff([between_levels(power_law(1e-4, end), MEDIAN, BETA) for end in (0.6, 0.8)])[0]
         outside = risk.annual_rate(power_law(), risk.lognormal(MEDIAN, BETA, edges=[0.6, 0.8], unknown=[0, 0], **PGA))
-        self.assertIn(f"{100 * (1 - inside / EXACT):.2g} % of the rate is from shaking outside the data of the fragility, "
-                      "pga = 0.6 to 0.8 g", outside.summary())
+        self.assertIn(f"{100 * (1 - inside / EXACT):.2g} % of the rate is from shaking outside the data of the "
+                      "fragility, pga = 0.6 to 0.8 g", outside.summary())
         np.testing.assert_allclose(outside.rate, EXACT, rtol=2e-7)
         self.assertNotIn("outside the data", risk.annual_rate(power_law(), CURVE).summary())
 

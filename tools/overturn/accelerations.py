@@ -1,7 +1,9 @@
-"""Ground accelerations as they are given: arrays, or traces of ObsPy, which are recognised by their attributes."""
+"""Ground accelerations as they are given: arrays, motions of this package, or traces of ObsPy, which are recognised by
+their attributes."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -9,7 +11,16 @@ import numpy as np
 from overturn.arguments import ArgumentError, numbers
 
 PER_M_PER_S2 = {"m/s2": 1, "cm/s2": 100, "mm/s2": 1000, "gal": 100}
+MOTIONS = "Record or FloorMotion"
 MOST_NAMES = 4  # of traces in a message
+
+
+@runtime_checkable
+class Motion(Protocol):
+    """The attributes of a Record or a FloorMotion that are used."""
+
+    acceleration: Any  #: (n,) samples over g [1]
+    time_step: float  #: between two samples [s]
 
 
 @runtime_checkable
@@ -32,12 +43,15 @@ def accelerations_of(components, time_step=None, units=None, gravity=9.81):
     """Returns checked samples over g [1] of each component, by the names of the arguments, and the time step [s]. It is
     None if it is not given and the components are arrays.
 
-    components: arrays (n,), traces or streams of one trace, by the names of the arguments; the record first.
-    units: of their samples, "g" or a key of PER_M_PER_S2; of arrays "g" if it is None.
+    components: arrays (n,), motions, traces or streams of one trace, by the names of the arguments; the record first.
+    units: of their samples, "g" or a key of PER_M_PER_S2; of arrays and motions "g" if it is None.
 
     Raises ValueError if a component is not allowed or the components do not fit together, ArgumentError if an argument
     is missing or contradicts the traces.
     """
+    if any(isinstance(value, Motion) for value in components.values()):
+        components = _traces_of_motions(components, units)
+        units = "g"
     traces = {name: _trace(name, value) for name, value in components.items()}
     if any(trace is not None for trace in traces.values()):
         time_step = _time_step_of(traces, time_step)
@@ -48,6 +62,18 @@ def accelerations_of(components, time_step=None, units=None, gravity=9.81):
                for name, trace in traces.items()}
     _check(samples)
     return samples, time_step
+
+
+def _traces_of_motions(components, units):
+    for name, value in components.items():
+        if not isinstance(value, Motion):
+            raise ArgumentError(f"{name} is an array or a Trace, but another component is a {MOTIONS}. Give all "
+                                "components alike.")
+        if units not in (None, "g"):
+            raise ArgumentError(f"units = {units!r}, but {name} is a {MOTIONS}, whose acceleration is in g. Remove units.")
+    return {name: SimpleNamespace(id=type(value).__name__, data=value.acceleration,
+                                  stats=SimpleNamespace(delta=value.time_step, starttime=0.0))
+            for name, value in components.items()}
 
 
 def _trace(name, value):

@@ -15,7 +15,7 @@ from overturn.arguments import ArgumentError, expect_word, given, number, number
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from overturn.accelerations import Stream, Trace
+    from overturn.accelerations import Motion, Stream, Trace
 
 
 class Verdict(enum.IntEnum):
@@ -56,9 +56,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              pga: ArrayLike | None = None, amplitude: ArrayLike | None = None, direction: ArrayLike | None = None,
              pulse: str | None = None, window: float | None = None, cycles: float | None = None,
              gamma: float | None = None, nu: float | None = None,
-             record: ArrayLike | Trace | Stream | None = None,
-             second_component: ArrayLike | Trace | Stream | None = None,
-             vertical: ArrayLike | Trace | Stream | None = None, time_step: float | None = None,
+             record: ArrayLike | Motion | Trace | Stream | None = None,
+             second_component: ArrayLike | Motion | Trace | Stream | None = None,
+             vertical: ArrayLike | Motion | Trace | Stream | None = None, time_step: float | None = None,
              units: str | None = None, scale: ArrayLike | None = None,
              theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
              resolve: bool = False, gravity: float = 9.81) -> Outcome:
@@ -83,8 +83,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             docs/jobs.md.
         direction*: 0, the given motion, or 180, its mirror image [degree]; also of a record.
     Or a record:
-        record: horizontal accelerations, one-dimensional, linear between samples; an array, or a Trace of ObsPy or a
-            Stream of one.
+        record: horizontal accelerations, one-dimensional, linear between samples; an array, what read_record() or
+            floor_motion() returns, or a Trace of ObsPy or a Stream of one.
         second_component: accelerations at a right angle to these, at the same times. The motion is then
             record * cos(direction) + second_component * sin(direction), of any direction*.
         vertical: vertical accelerations at the same times, positive upwards.
@@ -133,7 +133,8 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             given(record=record, second_component=second_component, vertical=vertical), single.get("time_step"),
             units, single["gravity"])
         if step is None or (scale is None) == (pga is None):
-            raise ArgumentError("a record needs time_step, unless it is a Trace, and either scale or pga.")
+            raise ArgumentError("a record needs time_step, unless it is a Record, a FloorMotion or a Trace, and either "
+                                "scale or pga.")
         columns |= given(scale=scale)
         scene = core.scene_of_record(components["record"], components.get("second_component", []),
                                      components.get("vertical", []), step, theory, single["gravity"])

@@ -17,7 +17,7 @@ from overturn.arguments import ArgumentError, number, numbers
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from overturn.accelerations import Stream, Trace
+    from overturn.accelerations import Motion, Stream, Trace
 
 MOST_SAMPLES = 10_000_000  # of a floor: 80 MB
 USUAL_PERIODS = 0.01, 20  # of buildings [s]
@@ -44,7 +44,7 @@ class _Modes:
     shape: NDArray[np.float64]
 
 
-def floor_motion(record: ArrayLike | Trace | Stream, time_step: float | None = None, *, periods: ArrayLike,
+def floor_motion(record: ArrayLike | Motion | Trace | Stream, time_step: float | None = None, *, periods: ArrayLike,
                  damping: ArrayLike, shape: ArrayLike, tolerance: float = 1e-4, units: str | None = None,
                  gravity: float = 9.81) -> FloorMotion:
     """Returns the horizontal acceleration of a floor of a linear building, by superposition of its modes.
@@ -65,14 +65,15 @@ def floor_motion(record: ArrayLike | Trace | Stream, time_step: float | None = N
     Seism. Soc. Am. 59 (1969) 909-922). Their time step is that of the ground, or a whole fraction of it, chosen by
     `error`. They continue after the ground until the bound of the free vibration is `remaining`.
 
-    Warns of periods and shapes that are probably in another unit, or not normalised. Raises ValueError if a value is not
-    allowed, or if more than MOST_SAMPLES samples are needed; ArgumentError if an
+    Warns of periods and shapes that are probably in another unit, or not normalised.
+
+    Raises ValueError if a value is not allowed, or if more than MOST_SAMPLES samples are needed; ArgumentError if an
     argument is missing or contradicts a Trace.
     """
     components, step = accelerations_of({"record": record}, None if time_step is None else
                                         number("time_step", time_step), units, number("gravity", gravity))
     if step is None:
-        raise ArgumentError("a record needs time_step, unless it is a Trace.")
+        raise ArgumentError("a record needs time_step, unless it is a Record, a FloorMotion or a Trace.")
     _expect("time_step", step, 0 < step < np.inf, "(0, inf)", "It is a time in seconds.")
     tolerance = number("tolerance", tolerance)
     _expect("tolerance", tolerance, 0 < tolerance < 1, "(0, 1)", "It is a part of the peak acceleration of the floor.")
@@ -122,8 +123,8 @@ def _warn(periods, total):
         warnings.warn(f"periods[{i}] = {periods[i]:g} is outside {USUAL_PERIODS[0]:g} to {USUAL_PERIODS[1]:g}: periods "
                       "are in seconds.", stacklevel=3)
     if abs(total) > LARGEST_TOTAL:
-        warnings.warn(f"the values of shape add up to {total:g}: shape is the participation factor times the mode shape "
-                      "at the floor; those of all modes add up to 1.", stacklevel=3)
+        warnings.warn(f"the values of shape add up to {total:g}: shape is the participation factor times the mode "
+                      "shape at the floor; those of all modes add up to 1.", stacklevel=3)
 
 
 def _expect(name, value, is_allowed, interval, meaning):

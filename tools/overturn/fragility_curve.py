@@ -151,7 +151,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "",
-                     **_blocks(dataset["region"]) if together is None else {"blocks": len(parts)}, **_fitted(fit, value),
+                     **(_blocks(dataset["region"]) if together is None else {"blocks": len(parts)}),
+                     **_fitted(fit, value),
                      notes=(*_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
@@ -341,8 +342,8 @@ def _without_slipping(fit, cells):
     """Returns a note if a fit lacks points because the block may slip: these are mostly points of strong shaking."""
     if not fit or not cells["slipping"].any():
         return []
-    return [f"median and beta are those of the {int(cells['points'].sum())} points with a verdict; points that need more "
-            "friction are mostly those of strong shaking"]
+    return [f"median and beta are those of the {int(cells['points'].sum())} points with a verdict; points that need "
+            "more friction are mostly those of strong shaking"]
 
 
 def _extrapolated(fit, edges, im):

@@ -184,17 +184,17 @@ def _notes(hazard, p, contribution, points, within, interval):
              f"of the rate, shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
     if not is_bounded or np.isinf(interval[1]):
         what = "the confidence" if is_bounded else "the rate"
-        notes.append(f"{what} has no upper end: if the hazard continued below its first level as above it, weaker shaking "
-                     f"would overturn more often than this level is exceeded, {hazard.rate[0]:.3g} a year"
-                     f"{', in some samples of the bootstrap' * is_bounded}. Check the first levels, or begin the hazard "
-                     "at a level that overturns nothing")
+        notes.append(f"{what} has no upper end: if the hazard continued below its first level as above it, weaker "
+                     f"shaking would overturn more often than this level is exceeded, {hazard.rate[0]:.3g} a year"
+                     f"{', in some samples of the bootstrap' * is_bounded}. Check the first levels, or begin the "
+                     "hazard at a level that overturns nothing")
     if low < high:
         notes.append(f"points without a verdict, or bins without points: between these levels, the rate is {low:.4g} a "
                      f"year if all of them are safe, {high:.4g} if all overturn")
     outside = within[1, (points[:-1] < p.data[0]) | (points[1:] > p.data[1])].sum()
     if outside > SMALL * high:
-        notes.append(f"{100 * outside / high:.2g} % of the rate is from shaking outside the data of the fragility, {p.im} = "
-                     f"{p.data[0]:.4g} to {p.data[1]:.4g} {p.units}")
+        notes.append(f"{100 * outside / high:.2g} % of the rate is from shaking outside the data of the fragility, "
+                     f"{p.im} = {p.data[0]:.4g} to {p.data[1]:.4g} {p.units}")
     return notes
 
 
