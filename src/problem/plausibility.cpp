@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -30,6 +31,7 @@ constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers:
                                      "radians"};
 // Larger blocks exist, but most lengths that would make one are in centimetres.
 constexpr PlausibleRange size{"R", " m", 0.02, 10, "lengths are in metres"};
+constexpr PlausibleRange incline{"the incline", " degrees", -10, 10, "angles are in radians"};
 constexpr PlausibleRange gyration{"the radius of gyration", " R", 0.1, 1.5,
                                   "lengths are in metres"};
 constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
@@ -41,7 +43,7 @@ constexpr PlausibleRange peak{"the peak of a component of a record", " g", 0.001
 constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
                                    "times are in seconds"};
 constexpr PlausibleRange vertical_mean{
-    "the mean of a vertical record", " g", -100, 0.3,
+    "the mean of a vertical record", " g", -std::numeric_limits<double>::infinity(), 0.3,
     "remove gravity from the record of a sensor that measures it"};
 constexpr PlausibleRange gravity{"gravity", " m/s2", 1.5, 30, "it is g in m/s2"};
 
@@ -55,9 +57,10 @@ std::string finding_about(const PlausibleRange& range, const Extent& values,
     if (one_is_enough ? has_one : has_all) {
         return "";
     }
+    const bool has_least = range.least != 0 && std::isfinite(range.least);
     const std::string limits =
-        range.least > 0 ? fmt::format("outside {} to {:.4g}{}", range.least, range.most, range.unit)
-                        : fmt::format("above {:.4g}{}", range.most, range.unit);
+        has_least ? fmt::format("outside {} to {:.4g}{}", range.least, range.most, range.unit)
+                  : fmt::format("above {:.4g}{}", range.most, range.unit);
     return fmt::format("{} = {} is {} ({})", range.name, values.text(range.unit), limits,
                        range.advice);
 }
@@ -210,6 +213,16 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         judge(size, name);
     }
     judge(gyration, "gyration_over_size");
+    judge(incline, "incline", "", std::numbers::pi / 180);
+    if (coordinates.has("center_height") && coordinates.has("half_height")) {
+        const double highest = extent_of(coordinates.of("center_height").values).last;
+        const double height = 2 * extent_of(coordinates.of("half_height").values).last;
+        findings.push_back(highest <= height ? ""
+                                             : fmt::format("center_height = {:.4g} m is above the "
+                                                           "block, which is {:.4g} m high (lengths "
+                                                           "are in metres)",
+                                                           highest, height));
+    }
     judge(period, "pulse_period", "frequency");
     const bool has_metres = coordinates.has("size") || coordinates.has("size_plus");
     if (has_metres && grid.find("amplitude") != nullptr) {

@@ -297,6 +297,24 @@ TEST(Plausibility, OfAxesWithUnitsNeedsAllValues)
     EXPECT_THAT(found_of_statue(pga, millihertz), HasSubstr("the period of the pulse = 0.0002"));
 }
 
+TEST(Plausibility, OfALeaningBlockExpectsRadiansAndACentreWithinTheBlock)
+{
+    const auto found = [](double incline, double center_height) {
+        const std::vector<Given> given{
+            number("width", 0.6),        number("height", 1.8),
+            number("incline", incline),  number("center_height", center_height),
+            number("restitution", 0.6),  number("pga", 0.3),
+            number("pulse_period", 0.5), number("direction", 180)};
+        return implausible_values({}, grid_of({}, given));
+    };
+    EXPECT_THAT(found(-0.1, 1.8), IsEmpty());
+    EXPECT_THAT(found(0.2, 0.9),
+                HasSubstr("the incline = 11.46 degrees is outside -10 to 10 degrees"));
+    EXPECT_THAT(found(-0.2, 0.9), HasSubstr("angles are in radians"));
+    EXPECT_THAT(found(0.02, 1.9),
+                HasSubstr("center_height = 1.9 m is above the block, which is 1.8 m high"));
+}
+
 TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
 {
     std::mt19937_64 generator(36);
