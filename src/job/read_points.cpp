@@ -1,5 +1,7 @@
 #include "read_steps.hpp"
 
+#include "overturn/text/mapped.hpp"
+
 #include <algorithm>
 
 namespace overturn {
@@ -121,10 +123,18 @@ Given given_motions(const Entry& record, const std::vector<Motion>& motions)
             is_suite ? GivenAs::axis : GivenAs::number};
 }
 
+/// A sentence on the columns of a table of blocks, among which a missing quantity may be.
+std::string columns_text(const BlockTable& blocks)
+{
+    const auto names = mapped(blocks.table.columns, &TableColumn::name);
+    return fmt::format(" {} has the columns {}.", blocks.file,
+                       shortened(fmt::format("{}", fmt::join(names, ", ")), 200));
+}
+
 /// Refuses a quantity at its key, or at the second of two keys; a missing one at the table to which
 /// it belongs.
 [[noreturn]] void refuse_given(const Entry& job, const std::vector<Given>& given,
-                               const GivenError& error)
+                               const GivenError& error, const std::optional<BlockTable>& blocks)
 {
     const std::string& name = error.quantity();
     for (auto each = given.rbegin(); each != given.rend(); ++each) {
@@ -134,8 +144,8 @@ Given given_motions(const Entry& record, const std::vector<Motion>& motions)
     }
     const bool is_block = find(job, "block") && (name == "width" || name == "height");
     const std::string_view table = is_block ? "block" : "plane";
-    refuse({find(job, table).value_or(job).node, fmt::format("{}.{}", table, name)}, "{}",
-           error.what());
+    refuse({find(job, table).value_or(job).node, fmt::format("{}.{}", table, name)}, "{}{}",
+           error.what(), blocks ? columns_text(*blocks) : "");
 }
 
 } // namespace
@@ -167,7 +177,7 @@ void read_points(const Entry& entry, const std::string& folder, Job& job)
         if (csv_has(error.quantity()) || (job.blocks && !find(entry, "plane"))) {
             refuse(*job.blocks, error);
         }
-        refuse_given(entry, given, error);
+        refuse_given(entry, given, error, job.blocks);
     }
 }
 

@@ -353,7 +353,7 @@ TEST_F(Columns, AreRefusedAtTheirRowAndColumn)
                 HasSubstr("job.toml:8:8: plane.size cannot be combined with the column width"));
     EXPECT_THAT(refusal_of("width,restitution\n1,0.9\n", motion),
                 HasSubstr("job.toml:5:1: plane.height is missing. Give width and height, or their "
-                          "halves, in metres."));
+                          "halves, in metres. t.csv has the columns width, restitution."));
 }
 
 TEST_F(Columns, OfABlockWithoutAPlaneAreRefusedAtTheTable)
