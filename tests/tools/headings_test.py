@@ -3,6 +3,7 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
+import shutil
 import unittest
 
 import numpy as np
@@ -49,9 +50,24 @@ class TestALongTitle(InAFolder):
                       "plane.direction=180", f"scene.vertical=\"{JOBS / 'synthetic_vertical.AT2'}\"")
         self.expect_within(plot.history(self.folder / "history.h5")[0])
 
-    def test_is_broken_after_commas_if_possible(self):
-        first, *others = wrapped("one two, three four, five", 10, width_of("one two, three", 10))
-        self.assertEqual([first, *others], ["one two,", "three four,", "five"])
+    def test_of_a_panel_is_between_its_neighbours(self):
+        for number in range(3):
+            shutil.copy(JOBS / "synthetic.AT2", self.folder / f"of_a_station_with_a_long_name_{number}.AT2")
+        self.overturn("run", "suite.h5", "scene.record=\"of_*.AT2\"",
+                      "plane.center_offset.values=[0,0.02,0.05,0.1]", "plane.incline.values=[0.01,0.02]",
+                      "plane.scale.count=3", "plane.direction=180")
+        panels = plot.spectrum(self.folder / "suite.h5")
+        self.expect_within(panels[0])
+        self.assertEqual(len(panels), 12)
+        boxes = [panel.title.get_window_extent() for panel in panels]
+        others = [*boxes, *(panel.get_window_extent() for panel in panels)]
+        for box in boxes:
+            self.assertEqual([other for other in others if other is not box and box.overlaps(other)], [])
+
+    def test_is_broken_between_words_or_after_commas(self):
+        words, width = "one two, three four, five", width_of("one two, three", 10)
+        self.assertEqual(wrapped(words, 10, width, ","), ["one two,", "three four,", "five"])
+        self.assertEqual(wrapped(words, 10, width), ["one two, three", "four, five"])
         self.assertEqual(wrapped("one two three", 10, width_of("one two", 10)), ["one two", "three"])
         self.assertEqual(wrapped("", 10, 1), [""])
 

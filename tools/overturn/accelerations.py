@@ -70,7 +70,8 @@ def _traces_of_motions(components, units):
             raise ArgumentError(f"{name} is an array or a Trace, but another component is a {MOTIONS}. Give all "
                                 "components alike.")
         if units not in (None, "g"):
-            raise ArgumentError(f"units = {units!r}, but {name} is a {MOTIONS}, whose acceleration is in g. Remove units.")
+            raise ArgumentError(f"units = {units!r}, but {name} is a {MOTIONS}, whose acceleration is in g. Remove "
+                                "units.")
     return {name: SimpleNamespace(id=type(value).__name__, data=value.acceleration,
                                   stats=SimpleNamespace(delta=value.time_step, starttime=0.0))
             for name, value in components.items()}

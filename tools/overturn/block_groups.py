@@ -18,7 +18,9 @@ def groups_of(dataset, column):
     labels = _labels(column, values)
     units = dataset[column].attrs.get("units", "1")
     unit = UNITS.get(units, units)
-    return {f"{column.replace('_', ' ')} = {label} {unit * (label != NOT_GIVEN)}".rstrip(): dataset.isel({dimension: np.flatnonzero(labels == label)})
+    name = column.replace("_", " ")
+    return {f"{name} = {label} {unit * (label != NOT_GIVEN)}".rstrip():
+            dataset.isel({dimension: np.flatnonzero(labels == label)})
             for label in dict.fromkeys(labels[np.argsort(values, kind="stable")] if values.dtype.kind in "fiu"
                                        else sorted(labels))}
 

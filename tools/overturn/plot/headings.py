@@ -14,11 +14,11 @@ def width_of(text, size):
     return TextPath((0, 0), text, size=size, prop=FontProperties()).get_extents().x1 / POINTS
 
 
-def wrapped(text, size, width):
-    """Returns the lines of a text, not wider than `width` [inches]: broken after commas, and between words where a part
-    without commas is too wide. A single word may be wider."""
+def wrapped(text, size, width, separator=""):
+    """Returns the lines of a text, not wider than `width` [inches]: broken at blanks after the separator, and between
+    words where a part without separators is too wide. A single word may be wider."""
     lines = [""]
-    for part in re.split(r"(?<=,)(?= )", text):
+    for part in re.split(rf"(?<=\S)(?<={separator})(?= )", text):
         for piece in [part] if width_of(part, size) <= width else re.split(r"(?<=\S)(?= )", part):
             if lines[-1] and width_of(lines[-1] + piece, size) > width:
                 lines.append("")
@@ -27,10 +27,11 @@ def wrapped(text, size, width):
 
 
 class Heading:
-    """A title and a second line, each wrapped to the width [inches] of what is below it. Sizes are in points."""
+    """A title and a second line of quantities separated by commas, each wrapped to a width [inches]. Sizes are in
+    points."""
 
     def __init__(self, title, second, width, sizes):
-        self.texts = [wrapped(text, size, width) for text, size in zip((title, second), sizes)]
+        self.texts = [wrapped(title, sizes[0], width), wrapped(second, sizes[1], width, ",")]
         self.sizes = sizes
         #: height [inches] of all lines but the first of both
         self.extra = sum((len(lines) - 1) * LINE * size / POINTS for lines, size in zip(self.texts, sizes))

@@ -1,7 +1,7 @@
 """Sheets of several planes."""
 
 from matplotlib import pyplot
-from overturn.plot.headings import Heading
+from overturn.plot.headings import Heading, wrapped
 
 MOST_PANELS = 12
 
@@ -20,8 +20,12 @@ class Sheet:
         self.pixels = round(side * dpi)
         self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
         heading = Heading(*heading, self.width - self.LEFT - self.EDGE, (14, 11))
-        self.top = 1 + 0.15 * titles[0].count("\n") + heading.extra
-        self.height = self.top + rows * (side + self.GAP) - self.GAP + self.BOTTOM
+        titles = ["\n".join(line for words in title.split("\n") for line in wrapped(words, 9, side + self.GAP / 2, ","))
+                  for title in titles]
+        further = max(title.count("\n") for title in titles)  # lines above a panel
+        gap = self.GAP + 0.15 * max(0, further - 1)
+        self.top = 1 + 0.15 * further + heading.extra
+        self.height = self.top + rows * (side + gap) - gap + self.BOTTOM
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
                                                    sharex=True, sharey=shares_vertical_axis,
                                                    figsize=(self.width, self.height))
@@ -30,7 +34,7 @@ class Sheet:
             panel.set_title(title, fontsize=9)
         self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
                                     1 - self.RIGHT / self.width, 1 - self.top / self.height,
-                                    self.GAP / side, self.GAP / side)
+                                    self.GAP / side, gap / side)
         for unused in self.panels.flat[count:]:
             unused.set_visible(False)
         for lowest in self.panels.flat[max(count - columns, 0):count]:
