@@ -57,7 +57,6 @@ template <Theory theory, Outputs outputs>
               flagged(end.not_finite, status::not_finite);
     if constexpr (has_31_digits) {
         // The margin is rounded to double.
-        using std::abs;
         const T margin = abs(margin_of<theory>(end, block));
         const T error = select<T>(end.error < T(std::numeric_limits<double>::infinity()),
                                   end.error + margin * T(0x1p-53), end.error);

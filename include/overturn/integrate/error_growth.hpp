@@ -53,7 +53,6 @@ public:
     /// cancellation.
     void pass(const Variation<T>& by, const Mask& lanes)
     {
-        using arithmetic::fma;
         const T& tt = by.tilt_by_tilt;
         const T& tr = by.tilt_by_rate;
         const T& rt = by.rate_by_tilt;
@@ -88,8 +87,6 @@ public:
     /// as its width, and the number of steps, as in Cauchy's inequality, is the better w.
     void add(const T& tilt, const T& rate, const Mask& lanes)
     {
-        using arithmetic::fma;
-        using std::sqrt;
         const T tiny(S(0x1p-500)); // avoids 0 / 0
         const T own = tilt + rate;
         const T size = sqrt(tilt_tilt_ + rate_rate_);
@@ -106,7 +103,6 @@ public:
     void add_round_off(const RoundOff<T>& error, const T& speed, const T& acceleration,
                        const Mask& lanes)
     {
-        using arithmetic::fma;
         const T along = error.time * speed;
         const T faster = error.time * acceleration;
         const auto sum = [&](const T& to, const T& own, const T& shift) -> T {
@@ -120,8 +116,6 @@ public:
     /// The error bound of by_tilt * tilt + by_rate * rate.
     T bound(const T& by_tilt, const T& by_rate) const
     {
-        using arithmetic::fma;
-        using std::sqrt;
         const T a = by_tilt * by_tilt * tilt_tilt_;
         const T b = by_rate * by_rate * rate_rate_;
         const T mixed = by_tilt * by_rate * tilt_rate_;

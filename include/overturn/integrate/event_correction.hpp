@@ -4,8 +4,6 @@
 #include "overturn/integrate/rocking_step.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
-#include <cmath>
-
 namespace overturn {
 
 /// The zero of a gap near the end of a step.
@@ -23,8 +21,6 @@ struct EventCorrection {
 template <Number T>
 EventCorrection<T> event_correction(const T& gap, const T& rate, const T& acceleration)
 {
-    using arithmetic::fma;
-    using std::sqrt;
     const T zero(scalar_t<T>(0));
     const T one(scalar_t<T>(1));
     const T square = fma(rate, rate, -(acceleration + acceleration) * gap);

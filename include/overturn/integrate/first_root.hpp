@@ -29,7 +29,6 @@ T upper_bound(const Quintic<T>& c)
 template <Number T>
 Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
 {
-    using arithmetic::fma;
     const T one(scalar_t<T>(1));
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = 0; i + level < c.size(); ++i) {
@@ -69,8 +68,6 @@ T dip_of_round_off(const T& slenderness, const T& h)
 template <Number T>
 T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 {
-    using arithmetic::fma;
-    using std::abs;
     using S = scalar_t<T>;
     T low(S(0));
     T high(S(1));
@@ -109,7 +106,6 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 template <Number T>
 T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wanted)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     const T one(S(1));
     const T half(S(0.5));
@@ -149,7 +145,6 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
         return one + one;
     }
     // Callers correct the root to second order, so a third of the digits is sufficient.
-    using std::cbrt;
     const T enough(cbrt(std::numeric_limits<S>::epsilon()));
     const T s = root_of_falling(found_piece, enough, found);
     return select<T>(found, fma(width, s, left), one + one);

@@ -217,7 +217,6 @@ private:
     {
         const ContactSide<E>& side = watch_->sides().plus;
         if constexpr (is_recorded) {
-            using std::floor;
             const auto see = [&](const T& phase, const Mask& at) {
                 const auto push = estimate_of(excitation_.ground(phase));
                 watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
@@ -274,7 +273,6 @@ private:
 
     T rate_ratio() const
     {
-        using std::sqrt;
         return is_two_sided_ ? block_.rate_ratio() : T(sqrt(block_.restitution));
     }
 
@@ -347,7 +345,6 @@ private:
     /// Handles the impact of these lanes.
     void strike(const Mask& lanes)
     {
-        using std::sqrt;
         const State<T> after = state_after_impact<T>({zero_, now_.rate, now_.side}, rate_ratio_);
         // As measured on the side from which the block strikes, see bounces_die_out().
         const T rate = is_two_sided_ ? T(sqrt(block_.restitution) * -now_.rate) : after.rate;

@@ -31,8 +31,6 @@ public:
     void pass_step(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
                    const StepEndWithErrors<T>& step, const Mask& lanes)
     {
-        using arithmetic::fma;
-        using std::abs;
         const E rounding(scalar_t<E>(std::numeric_limits<S>::epsilon()));
         const E end_rate = estimate_of(step.rate);
         const E rate = abs(E(estimate_of(now.rate))) + abs(end_rate);
@@ -96,8 +94,6 @@ public:
                         ForcedEnd<T> end) const
     {
         const Mask& fell = end.fell;
-        using std::abs;
-        using std::sqrt;
         const T one(S(1));
         const T radius = bound(one, zero_);
         const T largest = separatrix_rate<theory>(zero_, block.slenderness);
@@ -152,7 +148,6 @@ private:
     Distance distance_to_separatrix(const Block<T>& block, const Rocking<T>& now, const T& radius,
                                     const T& largest) const
     {
-        using std::abs;
         const T one(S(1));
         const SafeRates<T> safe = safe_rates<theory>(now.tilt, block);
         const ImpactLimit<T> inward = safe.inward();
@@ -200,7 +195,6 @@ private:
     [[gnu::noinline]] T error_inside(const ImpactLimit<T>& inward, const SeparatrixAt& at,
                                      const T& rate) const
     {
-        using std::abs;
         const T one(S(1));
         const T lost = roundings() * at.largest * at.largest;
         const T low = inward.signed_root(inward.square_at(at.c - at.radius) - lost);

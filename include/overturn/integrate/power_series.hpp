@@ -11,7 +11,6 @@ namespace overturn {
 template <int first, int count, Number T, class Term>
 T sum_of_powers(const T& t, const Term& term)
 {
-    using arithmetic::fma;
     static_assert(count >= 2);
     const T square = t * t;
     constexpr int last = first + count - 1;
@@ -67,7 +66,6 @@ T slope_of_series(const std::array<T, count>& c, const T& t)
 template <Number T, std::size_t count>
 T steepest(const std::array<T, count>& c, const T& t)
 {
-    using std::abs;
     return sum_of_powers<1, int(count) - 1>(
         t, [&]<int k>() -> T { return abs(c[k]) * T(scalar_t<T>(k)); });
 }
@@ -97,7 +95,6 @@ struct Enclosure {
 template <Number T, std::size_t count>
 Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
 {
-    using std::abs;
     using S = scalar_t<T>;
     static_assert(count >= 7);
     const T square = t * t;

@@ -200,7 +200,6 @@ private:
     T longest_step(const Rocking<T>& now, const Series& series, const T& left,
                    const Mask& active) const
     {
-        using std::abs;
         const E tolerance = estimate_of(T(tolerance_));
         const E speed = estimate_of(T(abs(now.rate)));
         const E at_start =
@@ -232,8 +231,6 @@ private:
     ///     |x''| <= |g| |y| + |B|,   |x'''| <= (|g| + |B|) |x'| + |g'| |y| + |B'|
     StepBounds<T> bounds_over(const Series& series, const auto& push, const T& h) const
     {
-        using arithmetic::fma;
-        using std::abs;
         const T square = time_.unit * time_.unit;
         const auto largest = [&](const Ramp<T>& ramp) -> T {
             return greater<T>(abs(ramp.start), abs(ramp.at(h)));
@@ -260,7 +257,6 @@ private:
     /// The lanes in which the block may strike the ground or reach pi/2 within the step.
     static Mask may_meet(const Series& series, const StepBounds<T>& bounds, const T& h)
     {
-        using arithmetic::fma;
         const T straight = fma(series.rate[0], h, series.tilt[0]);
         const T aside = bounds.acceleration * (h * h) * T(S(0.5));
         return !(straight >= aside && straight + aside <= T(pi<S>() / 2));
@@ -352,7 +348,6 @@ private:
     /// A time nearer to that at which the tilt is 0.
     static E halley(const InstantIn<E>& at, const E& acceleration)
     {
-        using arithmetic::fma;
         const E half(0.5);
         const E square = fma(at.rate, at.rate, -half * at.tilt * acceleration);
         return at.time - at.tilt * at.rate / square;

@@ -55,7 +55,6 @@ struct MotionSample {
 template <Number T>
 MotionSample<T> sample_of(Quintic<T> c, const T& share)
 {
-    using arithmetic::fma;
     const auto reduce = [&](std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) {
             c[i] = fma(share, c[i + 1] - c[i], c[i]);
@@ -154,7 +153,6 @@ template <Number T, class SampleAt>
 T lowest_turn(const TurnsInStep<T>& turns, const T& least, const T& so_far, const mask_t<T>& lanes,
               const SampleAt& sample_at)
 {
-    using std::abs;
     using S = scalar_t<T>;
     const T zero(S(0));
     const T one(S(1));

@@ -41,7 +41,6 @@ public:
     /// The blocks rock on other sides, of which these are the properties, before lift() or turn().
     void see_side(const Block<T>& block, const T& frequency)
     {
-        using std::abs;
         block_ = block;
         excitation_.frequency = frequency;
         const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
@@ -174,7 +173,6 @@ private:
     {
         return excitation_.motion.with_formula([&](const auto& formula) {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
-                using arithmetic::fma;
                 const T phase = fma(T(DormandPrince::node_value<S>(stage)), phase_step, now.phase);
                 const T push = now.side * (excitation_.acceleration * formula.value(phase));
                 return rocking_acceleration<theory>(tilt, block_.slenderness, push);
@@ -204,8 +202,6 @@ private:
     /// bounces would propagate this error.
     T relative_error(const Step<T>& step, const T& h) const
     {
-        using arithmetic::fma;
-        using std::abs;
         const T& alpha = block_.slenderness;
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
@@ -230,7 +226,6 @@ private:
     /// At a phase of the smooth piece that contains or begins at the phase `on`.
     Sample sample(const T& side, const T& tilt, const T& rate, const T& phase, const T& on) const
     {
-        using arithmetic::fma;
         const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
                                                                 phase, excitation_.frequency, on);
         const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
@@ -267,8 +262,6 @@ private:
     StepErrors<T> errors(const Rocking<T>& now, const TrialStep& trial, const T& delay,
                          const Sample& last) const
     {
-        using arithmetic::fma;
-        using std::abs;
         const auto& [start, step, h] = trial;
         const StepMotion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);

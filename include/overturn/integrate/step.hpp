@@ -5,7 +5,6 @@
 #include "overturn/integrate/tableau.hpp"
 #include "overturn/number/number.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace overturn {
@@ -30,7 +29,6 @@ using Quintic = std::array<T, 6>;
 template <Number T>
 Quintic<T> dense_output(const StepMotion<T>& start, const StepMotion<T>& end, const T& h)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     const T fifth = h * T(value_of<S, Ratio{1, 5}>());
     const T bend = h * h * T(value_of<S, Ratio{1, 20}>());
@@ -55,7 +53,6 @@ struct Step {
 template <auto row, std::size_t count, Number T>
 T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 {
-    using arithmetic::fma;
     using S = scalar_t<T>;
     T sum = T(value_of<S, row[0]>()) * x[0];
     const auto add = [&]<std::size_t j>() {
@@ -74,7 +71,6 @@ T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 template <Number T, class Acceleration>
 Step<T> runge_kutta_step(const StepMotion<T>& start, const T& h, const Acceleration& acceleration)
 {
-    using arithmetic::fma;
     using Table = DormandPrince;
     std::array<T, Table::stages> rate{start.rate};
     std::array<T, Table::stages> pull{start.acceleration};
@@ -98,7 +94,6 @@ Step<T> runge_kutta_step(const StepMotion<T>& start, const T& h, const Accelerat
 template <Number T>
 T step_error_power(const T& error)
 {
-    using std::sqrt;
     const T eighth = sqrt(sqrt(sqrt(error)));
     return eighth * sqrt(eighth);
 }

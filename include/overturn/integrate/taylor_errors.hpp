@@ -57,7 +57,6 @@ estimate_t<T> error_of_estimates(const RockingSeries<order, T>& series, const es
     if constexpr (first > order) {
         return E(0.0);
     } else {
-        using std::abs;
         const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
         const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
         return E(16 * std::numeric_limits<scalar_t<E>>::epsilon()) * power<first - 1>(h) *
@@ -94,7 +93,6 @@ public:
     StepErrors<T> of(const TaylorStep<known_order, T>& step, const T& slenderness,
                      const auto& pushes, const StepEnd<T>& end, const E& beyond) const
     {
-        using arithmetic::fma;
         const auto& known = estimate_of(step.known);
         const E h = estimate_of(step.h);
         const E unit = estimate_of(step.time.unit);
@@ -149,7 +147,6 @@ private:
     E truncation_error(const RockingSeries<known_order, E>& known, const E& h,
                        const E& beyond) const
     {
-        using std::abs;
         E next = beyond;
         E following(S(0));
         E power = h;

@@ -37,7 +37,6 @@ public:
     /// The blocks rock on other sides, of which these are the properties.
     void see_side(const Block<T>& block, const T& frequency)
     {
-        using std::abs;
         const T one(S(1));
         slenderness_ = block.slenderness;
         excitation_.frequency = frequency;
@@ -164,7 +163,6 @@ private:
     /// end, but at most alpha; see RungeKuttaStepper.
     T longest_step(const Rocking<T>& now, const Series& series) const
     {
-        using std::abs;
         const T start = now.tilt + abs(now.rate);
         const T allowed = rough_log2(T(tolerance_ * unit_ * start));
         // From rest the rate grows to rate[1] h + rate[2] h^2, and h < 1.
@@ -208,7 +206,6 @@ private:
     /// f[k] h^k adds f[k] h^(k+1) / (k + 1), and the terms decrease at least geometrically.
     T left_out_of(const Coefficients<known_order, T>& push, const T& phase, const T& h) const
     {
-        using std::abs;
         constexpr int last = known_order - 1;
         T power = h;
         unrolled<last - 2>([&]<int>() { power = power * h; });

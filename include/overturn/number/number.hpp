@@ -21,8 +21,8 @@ namespace arithmetic {
 using arithmetic::fma;
 
 /// The elementary functions of double; those of other numbers are found in their namespaces.
-using std::abs, std::ceil, std::exp, std::expm1, std::floor, std::ilogb, std::isinf, std::ldexp,
-    std::log, std::log2, std::nearbyint, std::pow, std::sqrt;
+using std::abs, std::cbrt, std::ceil, std::exp, std::expm1, std::floor, std::ilogb, std::isinf,
+    std::ldexp, std::log, std::log2, std::nearbyint, std::pow, std::sqrt;
 using std::acos, std::asin, std::asinh, std::atan, std::cos, std::cosh, std::sin, std::sinh,
     std::tan;
 
