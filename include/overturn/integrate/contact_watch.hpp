@@ -18,8 +18,7 @@ MovingBlock<T, T> moving_block(const PulseExcitation<T>& excitation, const Rocki
     const auto push = excitation.motion.template series<2>(T(now.side * excitation.acceleration),
                                                            T(now.phase + share * phase_step),
                                                            frequency, now.phase);
-    const T steps_per_time =
-        frequency / select<T>(phase_step > T(scalar_t<T>(0)), phase_step, T(scalar_t<T>(1)));
+    const T steps_per_time = frequency / select<T>(phase_step > 0, phase_step, 1);
     return {sample.tilt, sample.rate * steps_per_time, push[0], push[1]};
 }
 
@@ -32,8 +31,7 @@ class ContactWatch {
 public:
     explicit ContactWatch(const ContactSides<T>& sides) : sides_(sides)
     {
-        const T zero(scalar_t<T>(0));
-        kept_ = demand_of(force_at_rest(sides.plus, zero, zero)); // before the motion
+        kept_ = demand_of(force_at_rest(sides.plus, T(0), T(0))); // before the motion
     }
 
     /// The trial of a step on a side. start: the tilt at its beginning [rad]; motion_at(share)
@@ -42,8 +40,6 @@ public:
     void see_step(const T& side, const T& slenderness, const T& start, int parts,
                   const MotionAt& motion_at)
     {
-        const T zero(scalar_t<T>(0));
-        const T one(scalar_t<T>(1));
         const ContactSide<T> seen = sides_.seen_from(side);
         const auto force_at = [&](const T& share) {
             return force_while_rocking(seen, slenderness, motion_at(share));
@@ -52,14 +48,14 @@ public:
             return motion_at(share).tilt - slenderness;
         };
         begins_beyond_ = start > slenderness;
-        ends_beyond_ = height_at(one) > zero;
+        ends_beyond_ = height_at(T(1)) > 0;
         const Mask passes = begins_beyond_ != ends_beyond_;
-        T pass = one;
+        T pass(1);
         if (any<T>(passes)) {
-            pass = select<T>(passes, root_between<T>(zero, one, passes, height_at), one);
-            after_pass_ = demand_between<T>(pass, one, parts, force_at);
+            pass = select<T>(passes, root_between<T>(0, 1, passes, height_at), 1);
+            after_pass_ = demand_between<T>(pass, 1, parts, force_at);
         }
-        before_pass_ = demand_between<T>(zero, pass, parts, force_at);
+        before_pass_ = demand_between<T>(0, pass, parts, force_at);
     }
 
     /// The step was taken in these lanes.

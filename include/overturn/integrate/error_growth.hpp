@@ -43,9 +43,9 @@ public:
     /// is uncertain whether an event happened.
     void forget(const Mask& lanes)
     {
-        tilt_tilt_ = select<T>(lanes, zero_, tilt_tilt_);
-        tilt_rate_ = select<T>(lanes, zero_, tilt_rate_);
-        rate_rate_ = select<T>(lanes, zero_, rate_rate_);
+        tilt_tilt_ = select<T>(lanes, 0, tilt_tilt_);
+        tilt_rate_ = select<T>(lanes, 0, tilt_rate_);
+        rate_rate_ = select<T>(lanes, 0, rate_rate_);
     }
 
     /// Replaces P by V P V^T and adds the error of V and round-off: if errors shrink in one
@@ -87,10 +87,10 @@ public:
     /// as its width, and the number of steps, as in Cauchy's inequality, is the better w.
     void add(const T& tilt, const T& rate, const Mask& lanes)
     {
-        const T tiny(S(0x1p-500)); // avoids 0 / 0
+        const T tiny(0x1p-500); // avoids 0 / 0
         const T own = tilt + rate;
         const T size = sqrt(tilt_tilt_ + rate_rate_);
-        steps_ = select<T>(lanes, steps_ + T(S(1)), steps_);
+        steps_ = select<T>(lanes, steps_ + 1, steps_);
         const T weight = greater<T>(lesser<T>(size, own * steps_), tiny); // w (tilt + rate)
         const T grown = (weight + own) / weight;
         tilt_tilt_ = select<T>(lanes, fma(grown, tilt_tilt_, (weight + own) * tilt), tilt_tilt_);
@@ -109,7 +109,7 @@ public:
             return select<T>(lanes, to + fma(own, own, shift), to);
         };
         tilt_tilt_ = sum(tilt_tilt_, error.tilt, along * along);
-        tilt_rate_ = sum(tilt_rate_, zero_, along * faster);
+        tilt_rate_ = sum(tilt_rate_, 0, along * faster);
         rate_rate_ = sum(rate_rate_, error.rate, faster * faster);
     }
 
@@ -120,16 +120,15 @@ public:
         const T b = by_rate * by_rate * rate_rate_;
         const T mixed = by_tilt * by_rate * tilt_rate_;
         // Variations are accurate to about a percent, which remains where the terms cancel.
-        const T sum = fma(T(S(0x1p-12)), a + b, (a + b) + (mixed + mixed));
-        return sqrt(select<T>(sum < zero_, zero_, sum)); // NaN stays NaN
+        const T sum = fma(T(0x1p-12), a + b, (a + b) + (mixed + mixed));
+        return sqrt(select<T>(sum < 0, 0, sum)); // NaN stays NaN
     }
 
 private:
-    T zero_ = T(S(0));
-    T tilt_tilt_ = zero_;
-    T tilt_rate_ = zero_;
-    T rate_rate_ = zero_;
-    T steps_ = T(S(64)); // so that the first steps are weighted by their size
+    T tilt_tilt_ = T(0);
+    T tilt_rate_ = T(0);
+    T rate_rate_ = T(0);
+    T steps_ = T(64); // so that the first steps are weighted by their size
 };
 
 } // namespace overturn

@@ -21,14 +21,12 @@ struct EventCorrection {
 template <Number T>
 EventCorrection<T> event_correction(const T& gap, const T& rate, const T& acceleration)
 {
-    const T zero(scalar_t<T>(0));
-    const T one(scalar_t<T>(1));
     const T square = fma(rate, rate, -(acceleration + acceleration) * gap);
     // With round-off, a closed gap may seem never to have been open; it then closes at its rate.
-    const T closing = sqrt(select<T>(square > zero, square, rate * rate));
+    const T closing = sqrt(select<T>(square > 0, square, rate * rate));
     const T denominator = closing - rate;
-    const T delay = (gap + gap) / select<T>(denominator > zero, denominator, one);
-    return {select<T>(denominator > zero, delay, zero), closing, square >= zero || gap <= zero};
+    const T delay = (gap + gap) / select<T>(denominator > 0, denominator, 1);
+    return {select<T>(denominator > 0, delay, 0), closing, square >= 0 || gap <= 0};
 }
 
 /// Moves the end of a step to the event next to it: to the ground in the lanes in `strikes`, to
@@ -39,7 +37,6 @@ T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& fall
                 const T& acceleration, const auto& excitation)
 {
     using S = scalar_t<T>;
-    const T zero(S(0));
     const T quarter_turn(pi<S>() / 2);
     const T gap = select<T>(falls, quarter_turn - end.tilt, end.tilt);
     const T gap_rate = select<T>(falls, -end.rate, end.rate);
@@ -51,9 +48,9 @@ T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& fall
     const T last(excitation.motion.end);
     const T delayed = end.phase + excitation.frequency * correction.delay;
     end.phase = select<T>(hits, select<T>(delayed < last, delayed, last), end.phase);
-    end.tilt = select<T>(hits, select<T>(falls, quarter_turn, zero), end.tilt);
+    end.tilt = select<T>(hits, select<T>(falls, quarter_turn, 0), end.tilt);
     end.rate = select<T>(hits, select<T>(falls, correction.closing, -correction.closing), end.rate);
-    return select<T>(hits, correction.delay, zero);
+    return select<T>(hits, correction.delay, 0);
 }
 
 } // namespace overturn

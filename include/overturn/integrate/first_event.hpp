@@ -50,32 +50,28 @@ template <int order, Number T>
 FirstEvent<T> first_event(const RockingSeries<order, T>& series, const Enclosure<T>& bounds,
                           const T& h, const T& noise, const mask_t<T>& suspect)
 {
-    using S = scalar_t<T>;
     using Mask = mask_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
     const auto first_fall = [&](const Quintic<T>& gap) -> T {
         const Mask may_close = suspect && lower_bound(gap) < -noise;
-        return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : one + one;
+        return any<T>(may_close) ? first_fall_below_zero(gap, noise, may_close) : T(2);
     };
     const T ground = first_fall(bounds.lower());
     const T flat = first_fall(room_above(bounds.upper()));
     const Mask falls = flat < ground;
     const T share = select<T>(falls, flat, ground);
-    const Mask near = suspect && share <= one;
+    const Mask near = suspect && share <= 1;
     const T time = h * share;
 
     const Gap<T> here = gap_at(series, time, falls);
     const T slope = slope_of_series(series.rate, time);
     const T acceleration = select<T>(falls, -slope, slope);
     const T most = steepest(series.rate, h);
-    const Mask stuck = share < T(S(0x1p-40));
-    const Mask closes =
-        here.rate <= zero && (here.rate * here.rate > T(S(4)) * most * here.width || stuck);
+    const Mask stuck = share < 0x1p-40;
+    const Mask closes = here.rate <= 0 && (here.rate * here.rate > 4 * most * here.width || stuck);
     // Corrections of third order. Together with the one at the end of the step, three of them
     // are sufficient for doubles: an error of 0.2 of the time becomes less than 1e-18.
     T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
-    constexpr int more = std::numeric_limits<S>::digits <= 53 ? 1 : 2;
+    constexpr int more = std::numeric_limits<scalar_t<T>>::digits <= 53 ? 1 : 2;
     for (int i = 0; i < more; ++i) {
         const T somewhere = select<T>(near && closes, event_time, time); // within the step
         const Gap<T> there = gap_at(series, somewhere, falls);

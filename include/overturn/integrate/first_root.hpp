@@ -29,14 +29,13 @@ T upper_bound(const Quintic<T>& c)
 template <Number T>
 Quintic<T> restricted(Quintic<T> c, const T& left, const T& right)
 {
-    const T one(scalar_t<T>(1));
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = 0; i + level < c.size(); ++i) {
             c[i] = fma(left, c[i + 1] - c[i], c[i]);
         }
     }
     // In lanes whose search has finished, left = right = 1.
-    const T share = (right - left) / select<T>(left < one, one - left, one);
+    const T share = (right - left) / select<T>(left < 1, 1 - left, 1);
     for (std::size_t level = 1; level < c.size(); ++level) {
         for (std::size_t i = c.size() - 1; i >= level; --i) {
             c[i] = fma(share, c[i] - c[i - 1], c[i - 1]);
@@ -59,8 +58,7 @@ Quintic<T> room_above(Quintic<T> tilt)
 template <Number T>
 T dip_of_round_off(const T& slenderness, const T& h)
 {
-    using S = scalar_t<T>;
-    return slenderness * h * h * T(8 * std::numeric_limits<S>::epsilon());
+    return slenderness * h * h * T(8 * std::numeric_limits<scalar_t<T>>::epsilon());
 }
 
 /// The root of a decreasing polynomial with c[0] >= 0 and c[5] < 0, to the relative accuracy
@@ -69,8 +67,8 @@ template <Number T>
 T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 {
     using S = scalar_t<T>;
-    T low(S(0));
-    T high(S(1));
+    T low(0);
+    T high(1);
     const T above = greater<T>(c[0], low);
     T s = above / (above - c.back());
     mask_t<T> open = wanted;
@@ -81,15 +79,15 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
                 d[i] = fma(s, d[i + 1] - d[i], d[i]);
             }
         }
-        const T slope = T(S(5)) * (d[1] - d[0]);
+        const T slope = 5 * (d[1] - d[0]);
         const T value = fma(s, d[1] - d[0], d[0]);
-        const auto below = value < T(S(0));
+        const auto below = value < 0;
         high = select<T>(open && below, s, high);
         low = select<T>(open && !below, s, low);
-        const auto sloping = slope != T(S(0)); // the slope may be 0 where a piece begins
-        const T newton = s - value / select<T>(sloping, slope, T(S(1)));
+        const auto sloping = slope != 0; // the slope may be 0 where a piece begins
+        const T newton = s - value / select<T>(sloping, slope, 1);
         const auto inside = sloping && newton > low && newton < high;
-        const T next = select<T>(inside, newton, (low + high) * T(S(0.5)));
+        const T next = select<T>(inside, newton, (low + high) * 0.5);
         const auto moves =
             abs(next - s) > enough * high && high > T(std::numeric_limits<S>::epsilon());
         s = select<T>(open, next, s);
@@ -106,11 +104,10 @@ T root_of_falling(const Quintic<T>& c, const T& enough, const mask_t<T>& wanted)
 template <Number T>
 T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wanted)
 {
-    using S = scalar_t<T>;
-    const T one(S(1));
-    const T half(S(0.5));
-    const T narrowest(S(0x1p-40)); // a dip narrower than this share of a step is noise
-    T left(S(0));
+    const T one(1);
+    const T half(0.5);
+    const T narrowest(0x1p-40); // a dip narrower than this share of a step is noise
+    T left(0);
     T width = one;
     mask_t<T> searching = wanted;
     mask_t<T> found = wanted && !wanted;
@@ -132,22 +129,22 @@ T first_fall_below_zero(const Quintic<T>& c, const T& noise, const mask_t<T>& wa
             found_piece[i] = select<T>(hit, piece[i], found_piece[i]);
         }
         left = select<T>(pass, right, left);
-        width = select<T>(pass, select<T>(width + width < one - left, width + width, one - left),
+        width = select<T>(pass, select<T>(width + width < 1 - left, width + width, 1 - left),
                           select<T>(searching && !hit, width * half, width));
         // The last condition ends the search in lanes with NaN.
-        searching = searching && !hit && left < one && piece.back() == piece.back();
+        searching = searching && !hit && left < 1 && piece.back() == piece.back();
         if (!any<T>(searching)) {
             break;
         }
         piece = restricted(c, left, left + width);
     }
     if (!any<T>(found)) {
-        return one + one;
+        return T(2);
     }
     // Callers correct the root to second order, so a third of the digits is sufficient.
-    const T enough(cbrt(std::numeric_limits<S>::epsilon()));
+    const T enough(cbrt(std::numeric_limits<scalar_t<T>>::epsilon()));
     const T s = root_of_falling(found_piece, enough, found);
-    return select<T>(found, fma(width, s, left), one + one);
+    return select<T>(found, fma(width, s, left), 2);
 }
 
 } // namespace overturn

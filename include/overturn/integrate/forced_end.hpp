@@ -36,10 +36,8 @@ struct ForcedEnd {
 template <Theory theory, Number T>
 T region_code_of(const ForcedEnd<T>& end, const Block<T>& block)
 {
-    using S = scalar_t<T>;
-    const auto code = [](Region region) { return T(S(int(region))); };
-    const T fallen =
-        select<T>(end.state.side > T(S(0)), code(Region::F_plus), code(Region::F_minus));
+    const auto code = [](Region region) { return T(int(region)); };
+    const T fallen = select<T>(end.state.side > 0, code(Region::F_plus), code(Region::F_minus));
     const T decided =
         select<T>(end.fell, fallen, region_code_after_pulse<theory>(end.state, block));
     return select<T>(end.is_stopped(), code(Region::undecided), decided);

@@ -49,27 +49,27 @@ public:
     ForcedStage(const Block<T>& block, const Excitation& excitation, const S& tolerance,
                 UncertainImpact uncertain_impact = UncertainImpact::go_on,
                 [[maybe_unused]] const std::optional<ContactSides<E>>& contact = {})
-        : block_(block), excitation_(excitation), end_(excitation.motion.end), zero_(S(0)),
+        : block_(block), excitation_(excitation), end_(excitation.motion.end),
           step_limit_(S(most_steps) + excitation.motion.pieces()),
           stepper_(block, excitation, tolerance),
-          now_{T(excitation.motion.begin), zero_, zero_, T(S(1))},
-          lifted_(-std::numeric_limits<S>::infinity()), active_(zero_ == zero_),
+          now_{T(excitation.motion.begin), T(0), T(0), T(1)},
+          lifted_(-std::numeric_limits<S>::infinity()), active_(T(0) == T(0)),
           is_two_sided_(any<T>(!block.is_symmetric())), rate_ratio_(rate_ratio()),
           fastest_series_(fastest_bounce_series(block, excitation)),
           uncertain_impact_(uncertain_impact)
     {
         const Mask none = !active_;
-        end_of_run_ = {.state = {zero_, zero_, T(S(1))},
+        end_of_run_ = {.state = {T(0), T(0), T(1)},
                        .fell = none,
                        .rested = none,
                        .capped = none,
                        .not_finite = none,
-                       .impacts = zero_,
-                       .steps = zero_,
+                       .impacts = T(0),
+                       .steps = T(0),
                        .phase = end_,
-                       .error = zero_,
+                       .error = T(0),
                        .in_doubt = none,
-                       .peak = zero_,
+                       .peak = T(0),
                        .softest_impact = T(std::numeric_limits<S>::infinity()),
                        .last_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
@@ -177,25 +177,24 @@ private:
     /// some ten thousand bounces were followed. What the contact bears until its end is seen.
     [[gnu::noinline, gnu::cold]] Mask ends_series(const Mask& lanes, const T& rate)
     {
-        const T one(S(1));
         const Block<T> other = block_.turned();
         const auto pull_at = [&](const T& phase, const Block<T>& block, const T& side) -> T {
-            const T pull = -rocking_acceleration<theory>(zero_, block.slenderness,
+            const T pull = -rocking_acceleration<theory>(T(0), block.slenderness,
                                                          side * excitation_.ground(phase));
-            return select<T>(lanes, pull, one);
+            return select<T>(lanes, pull, 1);
         };
         // On each side, the flights are shorter by the factor r from one to the next.
         const T flights =
             (rate + rate) * (block_.pace / (other.pace * pull_at(now_.phase, other, -now_.side)) +
                              other.rate_ratio() / pull_at(now_.phase, block_, now_.side));
-        const T lost = select<T>(lanes, one - block_.restitution, one);
+        const T lost = select<T>(lanes, 1 - block_.restitution, 1);
         const T duration = flights / lost * excitation_.frequency;
-        const T decay = T(S(5000)) * rough_log2(block_.restitution); // of ten thousand bounces
-        const T followed = rough_power_of_two(greater<T>(decay, T(S(-900))));
-        const Mask ends = lanes && (duration < T(S(1e-6)) || rate < followed * block_.slenderness);
+        const T decay = 5000 * rough_log2(block_.restitution); // of ten thousand bounces
+        const T followed = rough_power_of_two(greater<T>(decay, -900));
+        const Mask ends = lanes && (duration < 1e-6 || rate < followed * block_.slenderness);
         const auto see = [&](const T& phase, const Block<T>& block, const T& side) {
             const auto push = estimate_of(side * excitation_.ground(phase));
-            const E none(scalar_t<E>(0));
+            const E none(0);
             const MovingBlock<E, std::remove_cvref_t<decltype(push)>> standing{none, none, push,
                                                                                push};
             watch_->see_rest(
@@ -221,8 +220,7 @@ private:
                 const auto push = estimate_of(excitation_.ground(phase));
                 watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
             };
-            for (T phase = first; any<T>(lanes && phase < last);
-                 phase = T(floor(phase)) + T(S(1))) {
+            for (T phase = first; any<T>(lanes && phase < last); phase = T(floor(phase)) + 1) {
                 see(phase, lanes && phase < last);
             }
             see(last, lanes);
@@ -230,7 +228,7 @@ private:
             constexpr int parts = 64;
             const auto force_at = [&](const T& phase) {
                 const auto push =
-                    excitation_.template series<2>(excitation_.acceleration, phase, T(S(1)));
+                    excitation_.template series<2>(excitation_.acceleration, phase, T(1));
                 return force_at_rest(side, push[0], push[1]);
             };
             watch_->see_rest(demand_between<T>(first, last, parts, force_at), lanes);
@@ -259,12 +257,12 @@ private:
         if (is_two_sided_) {
             now_.side = select<T>(lanes, sides_->at_rest, now_.side);
         }
-        now_.tilt = select<T>(lanes, zero_, now_.tilt);
-        now_.rate = select<T>(lanes, zero_, now_.rate);
+        now_.tilt = select<T>(lanes, 0, now_.tilt);
+        now_.rate = select<T>(lanes, 0, now_.rate);
         now_.phase = select<T>(lifted, next, now_.phase);
         lifted_ = select<T>(lifted, next, lifted_);
-        const Mask pushed_to_plus = horizontal_of(excitation_.ground(now_.phase)) < zero_;
-        now_.side = select<T>(lifted, select<T>(pushed_to_plus, T(S(1)), T(S(-1))), now_.side);
+        const Mask pushed_to_plus = horizontal_of(excitation_.ground(now_.phase)) < 0;
+        now_.side = select<T>(lifted, select<T>(pushed_to_plus, 1, -1), now_.side);
         see_sides();
         record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
@@ -289,18 +287,18 @@ private:
     [[gnu::noinline, gnu::cold]] void prepare_sides()
     {
         const T barriers =
-            barrier_ratio<theory>(separatrix_rate<theory>(zero_, block_.slenderness), block_);
+            barrier_ratio<theory>(separatrix_rate<theory>(T(0), block_.slenderness), block_);
         sides_ = Sides{.frequency = excitation_.frequency,
                        .plus = block_,
                        .minus = block_.turned(),
-                       .at_rest = select<T>(barriers > T(S(1)), T(S(-1)), T(S(1)))};
+                       .at_rest = select<T>(barriers > 1, -1, 1)};
     }
 
     [[gnu::noinline, gnu::cold]] void change_sides()
     {
         const Sides& sides = *sides_;
         [[maybe_unused]] const T before = block_.slenderness;
-        const Mask plus = now_.side > zero_;
+        const Mask plus = now_.side > 0;
         const auto seen = [&](auto Block<T>::*member) -> T {
             return select<T>(plus, sides.plus.*member, sides.minus.*member);
         };
@@ -323,7 +321,7 @@ private:
     void finish(const Mask& lanes)
     {
         State<T>& state = end_of_run_.state;
-        const T tilt = select<T>(now_.tilt > zero_, now_.tilt, zero_);
+        const T tilt = select<T>(now_.tilt > 0, now_.tilt, 0);
         state.tilt = select<T>(lanes, tilt, state.tilt);
         state.rate = select<T>(lanes, now_.rate, state.rate);
         state.side = select<T>(lanes, now_.side, state.side);
@@ -332,7 +330,7 @@ private:
 
     void count_step(const Mask& broken)
     {
-        end_of_run_.steps = select<T>(active_, end_of_run_.steps + T(S(1)), end_of_run_.steps);
+        end_of_run_.steps = select<T>(active_, end_of_run_.steps + 1, end_of_run_.steps);
         const Mask too_many = active_ && end_of_run_.steps >= step_limit_;
         const Mask not_finite = active_ && broken;
         if (any<T>(too_many || not_finite)) {
@@ -345,7 +343,7 @@ private:
     /// Handles the impact of these lanes.
     void strike(const Mask& lanes)
     {
-        const State<T> after = state_after_impact<T>({zero_, now_.rate, now_.side}, rate_ratio_);
+        const State<T> after = state_after_impact<T>({T(0), now_.rate, now_.side}, rate_ratio_);
         // As measured on the side from which the block strikes, see bounces_die_out().
         const T rate = is_two_sided_ ? T(sqrt(block_.restitution) * -now_.rate) : after.rate;
         Mask rests = lanes && rate <= fastest_series_;
@@ -367,8 +365,7 @@ private:
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {
             const T push = now_.side * excitation_.ground(now_.phase);
-            const Mask outward =
-                rocking_acceleration<theory>(zero_, block_.slenderness, push) > zero_;
+            const Mask outward = rocking_acceleration<theory>(T(0), block_.slenderness, push) > 0;
             T& softest = end_of_run_.softest_impact;
             softest =
                 select<T>(lanes && !rests && outward && -now_.rate < softest, -now_.rate, softest);
@@ -379,7 +376,7 @@ private:
         now_.side = select<T>(lanes, after.side, now_.side);
         if constexpr (outputs.impacts) {
             T& impacts = end_of_run_.impacts;
-            impacts = select<T>(lanes, impacts + T(S(1)), impacts);
+            impacts = select<T>(lanes, impacts + 1, impacts);
         }
         see_sides();
         record(EventKind::impact, lanes);
@@ -410,7 +407,6 @@ private:
     Block<T> block_;
     Excitation excitation_;
     const T end_;
-    const T zero_;
     const T step_limit_;
 
     typename Method::template Stepper<

@@ -51,11 +51,11 @@ public:
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;
         const T lower = lesser<T>(now.tilt, step.tilt);
-        const Mask dips = now.rate * step.rate > zero_ && lower > zero_ && !(turn >= lower);
-        const Mask inward = lanes && ((now.rate < zero_ && step.rate > zero_) || dips);
-        const Mask outward = lanes && now.rate > zero_ && step.rate < zero_;
+        const Mask dips = now.rate * step.rate > 0 && lower > 0 && !(turn >= lower);
+        const Mask inward = lanes && ((now.rate < 0 && step.rate > 0) || dips);
+        const Mask outward = lanes && now.rate > 0 && step.rate < 0;
         if (any<T>(inward || outward)) {
-            const T radius = bound(T(S(1)), zero_);
+            const T radius = bound(1, 0);
             const Mask met =
                 (inward && !(turn > radius)) || (outward && !(T(pi<S>() / 2) - turn > radius));
             doubtful_ = doubtful_ || met;
@@ -72,15 +72,14 @@ public:
     {
         const auto& [lanes, rests] = struck;
         const auto push = now.side * excitation.ground(now.phase);
-        const T before = rocking_acceleration<theory>(zero_, block.slenderness, push);
-        const T after = rocking_acceleration<theory>(zero_, block.other.slenderness, T(-1) * push);
-        const T speed = select<T>(lanes && now.rate < zero_, -now.rate, T(S(1)));
+        const T before = rocking_acceleration<theory>(T(0), block.slenderness, push);
+        const T after = rocking_acceleration<theory>(T(0), block.other.slenderness, T(-1) * push);
+        const T speed = select<T>(lanes && now.rate < 0, -now.rate, 1);
         const T square_error = bound(T(before + before), T(speed + speed));
-        const T share = select<T>(rests, T(S(64)), T(S(4)));
-        const T radius = bound(T(S(1)), zero_);
-        const Mask known =
-            share * square_error < speed * speed && T(S(4)) * radius < block.slenderness;
-        doubtful_ = doubtful_ || (lanes && !(known && now.rate < zero_));
+        const T share = select<T>(rests, 64, 4);
+        const T radius = bound(1, 0);
+        const Mask known = share * square_error < speed * speed && 4 * radius < block.slenderness;
+        doubtful_ = doubtful_ || (lanes && !(known && now.rate < 0));
         growth_.forget(doubtful_); // it would only grow until it overflows
         const T pace = block.other.pace / block.pace;
         growth_.pass(variation_over_impact<E>(estimate_of(rate_ratio), estimate_of(pace),
@@ -94,17 +93,17 @@ public:
                         ForcedEnd<T> end) const
     {
         const Mask& fell = end.fell;
-        const T one(S(1));
-        const T radius = bound(one, zero_);
-        const T largest = separatrix_rate<theory>(zero_, block.slenderness);
+        const T radius = bound(1, 0);
+        const T largest = separatrix_rate<theory>(T(0), block.slenderness);
         const Distance standing = distance_to_separatrix(block, now, radius, largest);
         // An impact on this side i changes the margin by the factor sqrt(r W_i / W_j), one on the
         // other side by sqrt(r W_j / W_i).
-        const T ratio = any<T>(!block.is_symmetric()) ? barrier_ratio<theory>(largest, block) : one;
-        const T before_impact = one / sqrt(block.restitution * ratio) - one;
-        const T after_impact = one - sqrt(block.restitution / ratio);
+        const T ratio =
+            any<T>(!block.is_symmetric()) ? barrier_ratio<theory>(largest, block) : T(1);
+        const T before_impact = 1 / sqrt(block.restitution * ratio) - 1;
+        const T after_impact = 1 - sqrt(block.restitution / ratio);
         const T jump = abs(standing.margin) * greater<T>(abs(before_impact), abs(after_impact));
-        const T near_impact = select<T>(now.tilt < radius, jump, zero_);
+        const T near_impact = select<T>(now.tilt < radius, jump, 0);
 
         // For a fall at the speed v with the acceleration a, v^2 changes by
         // 2 v d(rate) - 2 a d(tilt).
@@ -120,10 +119,10 @@ public:
         // It is also uncertain whether the block falls at all, unless it falls with some energy.
         // That energy is bounded away from zero; the distance from the separatrix is not. That
         // distance has grown in proportion to its error, which must be a small share of it.
-        const Mask barely = fell && !(T(S(4)) * standing.error < abs(standing.margin) &&
+        const Mask barely = fell && !(4 * standing.error < abs(standing.margin) &&
                                       lying * largest * largest < now.rate * now.rate);
         const T error = select<T>(fell, lying, standing.error + near_impact);
-        const Mask known = bound(one, one) < T(unknown_error<S> * S(0x1p-100));
+        const Mask known = bound(1, 1) < T(unknown_error<S> * 0x1p-100);
         const Mask unknown =
             doubtful_ || end.is_stopped() || either || barely || !known || !(error == error);
         end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
@@ -148,7 +147,6 @@ private:
     Distance distance_to_separatrix(const Block<T>& block, const Rocking<T>& now, const T& radius,
                                     const T& largest) const
     {
-        const T one(S(1));
         const SafeRates<T> safe = safe_rates<theory>(now.tilt, block);
         const ImpactLimit<T> inward = safe.inward();
         const T slope = separatrix_slope<theory>(now.tilt, block.slenderness);
@@ -157,7 +155,7 @@ private:
         };
         const T above = (safe.outward - now.rate) / largest;
         const T below = inward.distance(now.rate) / largest;
-        const T above_error = bound(slope, -one) / largest + round_off(safe.outward);
+        const T above_error = bound(slope, -1) / largest + round_off(safe.outward);
         const T below_error =
             error_of_limit(inward, {safe.outward, slope, radius, largest}, now.rate) / largest +
             round_off(inward.limit);
@@ -177,15 +175,14 @@ private:
     /// gradient c / limit is largest at one end of the range of c.
     T error_of_limit(const ImpactLimit<T>& inward, const SeparatrixAt& at, const T& rate) const
     {
-        const T one(S(1));
         const auto with_gradient = [&](const T& c) -> T {
             const T limit = inward.limit_at(c);
-            const T gradient = c / select<T>(limit > zero_, limit, at.largest);
-            return bound(T(at.slope * gradient), one);
+            const T gradient = c / select<T>(limit > 0, limit, at.largest);
+            return bound(T(at.slope * gradient), 1);
         };
         const T error =
             greater<T>(with_gradient(at.c - at.radius), with_gradient(at.c + at.radius));
-        const Mask inside = inward.minus_q_min < zero_;
+        const Mask inside = inward.minus_q_min < 0;
         return any<T>(inside) ? select<T>(inside, error_inside(inward, at, rate), error) : error;
     }
 
@@ -195,29 +192,27 @@ private:
     [[gnu::noinline]] T error_inside(const ImpactLimit<T>& inward, const SeparatrixAt& at,
                                      const T& rate) const
     {
-        const T one(S(1));
         const T lost = roundings() * at.largest * at.largest;
         const T low = inward.signed_root(inward.square_at(at.c - at.radius) - lost);
         const T high = inward.signed_root(inward.square_at(at.c + at.radius) + lost);
         const auto with_gradient = [&](const T& c, const T& limit) -> T {
-            const T divisor = select<T>(limit == zero_, at.largest, T(abs(limit)));
+            const T divisor = select<T>(limit == 0, at.largest, T(abs(limit)));
             const T gradient = abs(c) / divisor;
-            const T inwards = bound(T(at.slope * gradient), one);
-            const T outwards = bound(T(at.slope * gradient), -one);
-            const T of_rate = bound(zero_, one);
+            const T inwards = bound(T(at.slope * gradient), 1);
+            const T outwards = bound(T(at.slope * gradient), -1);
+            const T of_rate = bound(0, 1);
             return lost / divisor +
                    select<T>(rate > of_rate, outwards,
                              select<T>(rate < -of_rate, inwards, greater<T>(inwards, outwards)));
         };
         const T regular =
             greater<T>(with_gradient(at.c - at.radius, low), with_gradient(at.c + at.radius, high));
-        const Mask is_regular = (low > zero_ && high > zero_) || (low < zero_ && high < zero_);
-        return select<T>(is_regular, regular, (high - low) + bound(zero_, one));
+        const Mask is_regular = (low > 0 && high > 0) || (low < 0 && high < 0);
+        return select<T>(is_regular, regular, (high - low) + bound(0, 1));
     }
 
-    T zero_ = T(S(0));
     ErrorGrowth<E> growth_;
-    Mask doubtful_ = !(zero_ == zero_); // see is_doubtful()
+    Mask doubtful_ = T(0) != T(0); // see is_doubtful()
 };
 
 } // namespace overturn

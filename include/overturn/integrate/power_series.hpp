@@ -104,7 +104,7 @@ Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
                  c[2] * (square * T(value_of<S, Ratio{1, 10}>())),
                  c[3] * (square * t * T(value_of<S, Ratio{1, 10}>())),
                  c[4] * (fourth * T(value_of<S, Ratio{1, 5}>())),
-                 T(S(0))};
+                 T(0)};
     for (std::size_t level = 0; level < 5; ++level) {
         for (std::size_t i = 5; i > level; --i) {
             b[i] = b[i] + b[i - 1];

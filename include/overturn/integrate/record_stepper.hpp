@@ -48,16 +48,15 @@ public:
     /// The blocks rock on other sides, of which these are the properties.
     void see_side(const Block<T>& block, const T& frequency)
     {
-        const T one(S(1));
         slenderness_ = block.slenderness;
         excitation_.frequency = frequency;
         // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
         // change by the same share of epsilon in each of thousands of steps, and the error would
         // exceed its bound, in which round-off is random.
-        const T fastest = power_of_two_below(T(select<T>(frequency > one, frequency, one)));
-        time_ = {one / fastest, fastest};
+        const T fastest = power_of_two_below(T(select<T>(frequency > 1, frequency, 1)));
+        time_ = {1 / fastest, fastest};
         samples_per_unit_ = frequency * time_.unit;
-        units_per_sample_ = one / samples_per_unit_;
+        units_per_sample_ = 1 / samples_per_unit_;
         most_allowed_ = estimate_of(T(tolerance_ * slenderness_ * time_.unit));
     }
 
@@ -70,7 +69,6 @@ public:
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
               [[maybe_unused]] const auto& see) const
     {
-        const T zero(S(0));
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
                                                          now.phase, samples_per_unit_);
@@ -86,7 +84,7 @@ public:
         T rate = value_of_series(series.rate, h);
         StepEnd<T> end{.phase =
                            select<T>(h == left, end_of_piece, now.phase + h * samples_per_unit_),
-                       .tilt = select<T>(tilt < zero, zero, tilt),
+                       .tilt = select<T>(tilt < 0, 0, tilt),
                        .rate = rate * time_.per_time,
                        .moved = active,
                        .strikes = none,
@@ -97,7 +95,7 @@ public:
             h = meeting.time;
             end = end_at(meeting, now, left, end_of_piece);
             end.moved = active;
-            end.broken = active && !((tilt - tilt) + (rate - rate) == zero);
+            end.broken = active && !((tilt - tilt) + (rate - rate) == 0);
         }
         // The tilt is nowhere farther from its values at both ends.
         const T aside = bounds.acceleration * h * h * T(S(1) / 8);
@@ -121,7 +119,7 @@ public:
             const TaylorStep<known_order, T> step{known, time_, h,
                                                   lesser<T>(now.tilt, end.tilt) - aside,
                                                   greater<T>(now.tilt, end.tilt) + aside};
-            const std::array pushes{push.at(zero), push.at(T(h * T(S(0.5)))), push.at(h)};
+            const std::array pushes{push.at(T(0)), push.at(T(h * 0.5)), push.at(h)};
             return with_peak(StepEndWithErrors<T>{
                 end, errors_.of(step, slenderness_, pushes, end,
                                 error_of_estimates(series, E(estimate_of(h))))});
@@ -139,8 +137,7 @@ private:
         return [&, this] {
             return [rough = estimate_of(series), pushes = estimate_of(push), length,
                     per_unit = E(estimate_of(time_.per_time))](const E& share) {
-                const E one(scalar_t<E>(1));
-                const E per_step = per_unit / select<E>(length > E(0.0), length, one);
+                const E per_step = per_unit / select<E>(length > 0, length, 1);
                 const MotionSample<E> sample = sample_of(rough, length, share);
                 const auto ground = pushes.at(E(share * length));
                 return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
@@ -176,12 +173,11 @@ private:
     StepEnd<T> end_at(const Meeting& meeting, const Rocking<T>& now, const T& left,
                       const T& end_of_piece) const
     {
-        const T zero(S(0));
         const T phase = now.phase + (meeting.time + meeting.delay) * samples_per_unit_;
         StepEnd<T> end;
         end.phase = select<T>(meeting.time == left && !meeting.happens(), end_of_piece,
                               lesser<T>(phase, end_of_piece));
-        end.tilt = select<T>(meeting.tilt < zero, zero, meeting.tilt);
+        end.tilt = select<T>(meeting.tilt < 0, 0, meeting.tilt);
         end.rate = meeting.rate * time_.per_time;
         end.strikes = meeting.strikes;
         end.falls = meeting.falls;
@@ -222,7 +218,7 @@ private:
             if (!any<T>(too_long)) {
                 return length;
             }
-            length = select<T>(too_long, length * T(S(0.5)), length);
+            length = select<T>(too_long, length * 0.5, length);
         }
     }
 
@@ -237,7 +233,7 @@ private:
         };
         const auto& horizontal = horizontal_of(push);
         const T pushed = largest(horizontal);
-        T gravity(S(1));
+        T gravity(1);
         if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
             gravity = largest(push.gravity);
         }
@@ -258,7 +254,7 @@ private:
     static Mask may_meet(const Series& series, const StepBounds<T>& bounds, const T& h)
     {
         const T straight = fma(series.rate[0], h, series.tilt[0]);
-        const T aside = bounds.acceleration * (h * h) * T(S(0.5));
+        const T aside = bounds.acceleration * (h * h) * 0.5;
         return !(straight >= aside && straight + aside <= T(pi<S>() / 2));
     }
 
@@ -271,21 +267,20 @@ private:
     Meeting first_meeting(const Series& series, const StepBounds<T>& bounds, const Instant& end,
                           const Mask& suspect) const
     {
-        const T zero(S(0));
         const T& h = end.time;
         const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
         const T& start = series.rate[0];
         const T acceleration = slope_of_series(series.rate, h);
         // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
         // the bound of its slope.
-        const Mask concave = series.rate[1] + acceleration + bounds.jolt * h < zero;
-        const Mask sinks = start + end.rate + bounds.acceleration * h < zero;
-        const T aside = bounds.acceleration * (h * h) * T(S(0.5));
+        const Mask concave = series.rate[1] + acceleration + bounds.jolt * h < 0;
+        const Mask sinks = start + end.rate + bounds.acceleration * h < 0;
+        const T aside = bounds.acceleration * (h * h) * 0.5;
         const Mask low = series.tilt[0] + start * h + aside < T(pi<S>() / 2);
         const Mask simple =
-            suspect && low && (concave || sinks) && (series.tilt[0] > zero || start > zero);
+            suspect && low && (concave || sinks) && (series.tilt[0] > 0 || start > 0);
         const Mask none = suspect && !suspect;
-        Meeting meeting{h, end.tilt, end.rate, zero, simple && end.tilt < -noise, none};
+        Meeting meeting{h, end.tilt, end.rate, 0, simple && end.tilt < -noise, none};
         Mask odd = suspect && !simple;
         if (any<T>(meeting.strikes)) {
             const Mask missed = approach_ground(series, bounds, end, acceleration, meeting);
@@ -304,7 +299,6 @@ private:
     Mask approach_ground(const Series& series, const StepBounds<T>& bounds, const Instant& end,
                          const T& acceleration, Meeting& meeting) const
     {
-        const T zero(S(0));
         const auto& rough = estimate_of(series);
         Coefficients<6, E> tilt;
         std::copy_n(rough.tilt.begin(), tilt.size(), tilt.begin());
@@ -312,29 +306,27 @@ private:
         std::copy_n(rough.rate.begin(), rate.size(), rate.begin());
         const E h = estimate_of(end.time);
         const auto nearer = [&](const InstantIn<E>& at, const E& slope) -> E {
-            return lesser<E>(greater<E>(halley(at, slope), E(0.0)), h);
+            return lesser<E>(greater<E>(halley(at, slope), 0), h);
         };
         E guess =
             nearer({h, estimate_of(end.tilt), estimate_of(end.rate)}, estimate_of(acceleration));
         for (int i = 0; i < 2; ++i) {
             guess = nearer(instant(tilt, rate, guess), slope_of_series(rate, guess));
         }
-        const auto within = [&](const T& time) {
-            return lesser<T>(greater<T>(time, zero), end.time);
-        };
+        const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, 0), end.time); };
         T time = within(T(guess));
-        const T enough(S(2) * std::numeric_limits<S>::epsilon());
+        const T enough(2 * std::numeric_limits<S>::epsilon());
         Mask open = meeting.strikes;
         for (int pass = 0; pass < most_passes; ++pass) {
             const Instant now = instant(series.tilt, series.rate, time);
             const auto found =
                 event_correction(now.tilt, now.rate, slope_of_series(series.rate, time));
-            const Mask close = open && now.rate < zero &&
+            const Mask close = open && now.rate < 0 &&
                                bounds.jolt * found.delay * found.delay <= enough * found.closing;
             meeting.time = select<T>(close, time, meeting.time);
             meeting.delay = select<T>(close, found.delay, meeting.delay);
             meeting.rate = select<T>(close, -found.closing, meeting.rate);
-            meeting.tilt = select<T>(close, zero, meeting.tilt);
+            meeting.tilt = select<T>(close, 0, meeting.tilt);
             open = open && !close;
             if (!any<T>(open)) {
                 break;
@@ -357,7 +349,6 @@ private:
                                   const Mask& lanes, Meeting& meeting) const
     {
         straight_line<T>([&] {
-            const T zero(S(0));
             const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
             const Instant there = instant(series.tilt, series.rate, event.time);
             const Gap<T> gap = gap_at(series, event.time, event.falls);
@@ -373,9 +364,9 @@ private:
                               select<T>(strikes, struck, select<T>(lanes, without, of_meeting)));
             };
             put(meeting.time, event.time, event.time, event.time);
-            put(meeting.tilt, there.tilt, zero, T(pi<S>() / 2));
+            put(meeting.tilt, there.tilt, 0, T(pi<S>() / 2));
             put(meeting.rate, there.rate, -found.closing, found.closing);
-            put(meeting.delay, zero, found.delay, found.delay);
+            put(meeting.delay, 0, found.delay, found.delay);
             meeting.strikes = meeting.strikes || strikes;
             meeting.falls = falls;
             return 0;

@@ -67,8 +67,7 @@ MotionSample<T> sample_of(Quintic<T> c, const T& share)
     reduce(2);
     const T slope = c[1] - c[0];
     reduce(1);
-    using S = scalar_t<T>;
-    return {c[0], T(S(5)) * slope, T(S(20)) * bend};
+    return {c[0], 5 * slope, 20 * bend};
 }
 
 /// The largest tilt within a step, or a smaller one if it is not above `so_far` [rad]. most: an
@@ -79,13 +78,11 @@ T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
                const SampleAt& sample_at)
 {
     using S = scalar_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
     T highest = greater<T>(start, end);
     if (!any<T>(most > highest && most > so_far)) {
         return highest;
     }
-    T best = select<T>(start > end, zero, one);
+    T best = select<T>(start > end, 0, 1);
     constexpr int parts = 8;
     for (int i = 1; i < parts; ++i) {
         const T share(S(i) / parts);
@@ -94,13 +91,13 @@ T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
         highest = greater<T>(tilt, highest);
     }
     const T part(S(1) / parts);
-    const T first = greater<T>(best - part, zero);
-    const T last = lesser<T>(best + part, one);
+    const T first = greater<T>(best - part, 0);
+    const T last = lesser<T>(best + part, 1);
     T share = best;
     for (int i = 0; i < 3; ++i) {
         const MotionSample<T> here = sample_at(share);
-        const mask_t<T> bends = here.acceleration < zero;
-        const T newton = share - here.rate / select<T>(bends, here.acceleration, -one);
+        const mask_t<T> bends = here.acceleration < 0;
+        const T newton = share - here.rate / select<T>(bends, here.acceleration, -1);
         share = lesser<T>(greater<T>(newton, first), last);
     }
     return greater<T>(sample_at(share).tilt, highest);
@@ -119,20 +116,19 @@ struct TurnsInStep {
     using S = scalar_t<T>;
 
     TurnsInStep(const StepPoint<T>& start, const StepPoint<T>& end, const T& h)
-        : start_rate(start.rate), end_rate(end.rate), inward(start.rate < T(S(0))),
-          once(start.rate * end.rate < T(S(0))), speed(select<T>(inward, -start.rate, end.rate)),
+        : start_rate(start.rate), end_rate(end.rate), inward(start.rate < 0),
+          once(start.rate * end.rate < 0), speed(select<T>(inward, -start.rate, end.rate)),
           stop(select<T>(inward, start.acceleration, end.acceleration) * h),
-          twice(start.rate * end.rate > T(S(0)) && speed < stop)
+          twice(start.rate * end.rate > 0 && speed < stop)
     {}
 
     /// An estimate of the share of the step at which the rate changes its sign; if it does so
     /// twice, at the lower turn.
     T share() const
     {
-        const T one(S(1));
-        const T stopped = speed / select<T>(twice, stop, one);
-        return select<T>(once, start_rate / select<T>(once, start_rate - end_rate, one),
-                         select<T>(inward, stopped, one - stopped));
+        const T stopped = speed / select<T>(twice, stop, 1);
+        return select<T>(once, start_rate / select<T>(once, start_rate - end_rate, 1),
+                         select<T>(inward, stopped, 1 - stopped));
     }
 
     T start_rate;
@@ -153,26 +149,23 @@ template <Number T, class SampleAt>
 T lowest_turn(const TurnsInStep<T>& turns, const T& least, const T& so_far, const mask_t<T>& lanes,
               const SampleAt& sample_at)
 {
-    using S = scalar_t<T>;
-    const T zero(S(0));
-    const T one(S(1));
-    const T none(std::numeric_limits<S>::infinity());
+    const T none(std::numeric_limits<scalar_t<T>>::infinity());
     const mask_t<T> suspect =
         lanes && ((turns.once && turns.inward) || turns.twice) && least < so_far;
     if (!any<T>(suspect)) {
         return none;
     }
-    T share = select<T>(suspect, turns.share(), zero);
+    T share = select<T>(suspect, turns.share(), 0);
     MotionSample<T> here = sample_at(share);
     for (int i = 0; i < 4; ++i) { // Newton's method: the last digits of the tilt are correct
-        const mask_t<T> bends = here.acceleration > zero;
-        const T newton = share - here.rate / select<T>(bends, here.acceleration, one);
-        share = lesser<T>(greater<T>(newton, zero), one);
+        const mask_t<T> bends = here.acceleration > 0;
+        const T newton = share - here.rate / select<T>(bends, here.acceleration, 1);
+        share = lesser<T>(greater<T>(newton, 0), 1);
         here = sample_at(share);
     }
     // If the block does not turn twice, there is no zero to be found.
-    const mask_t<T> found = turns.once || abs(here.rate) < turns.speed * T(S(0x1p-10));
-    return select<T>(suspect && found && here.acceleration > zero, here.tilt, none);
+    const mask_t<T> found = turns.once || abs(here.rate) < turns.speed * 0x1p-10;
+    return select<T>(suspect && found && here.acceleration > 0, here.tilt, none);
 }
 
 /// The tilt where the rate changes its sign within a step, if it may be near the ground

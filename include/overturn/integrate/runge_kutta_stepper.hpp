@@ -26,15 +26,13 @@ public:
     RungeKuttaStepper(const Block<T>& block, const PulseExcitation<T>& excitation,
                       const S& tolerance)
         : block_(block), excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
-          tolerance_(tolerance), zero_(S(0)), acceleration_(zero_), step_to_event_(zero_),
-          towards_fall_(zero_), ends_at_event_(zero_ != zero_)
+          tolerance_(tolerance)
     {
         see_side(block, excitation.frequency);
         step_size_ = first_step_;
         if constexpr (outputs.error) {
-            embedded_share_ =
-                T(S(8)) * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
-            sample_ = {zero_, zero_, zero_};
+            embedded_share_ = 8 * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
+            sample_ = {T(0), T(0), T(0)};
         }
     }
 
@@ -43,10 +41,10 @@ public:
     {
         block_ = block;
         excitation_.frequency = frequency;
-        const T fastest = select<T>(frequency > T(S(1)), frequency, T(S(1)));
+        const T fastest = select<T>(frequency > 1, frequency, 1);
         first_step_ = step_error_power(T(tolerance_)) / fastest;
         if (is_wavelet_) {
-            longest_seen_ = T(S(longest_angle)) / frequency;
+            longest_seen_ = T(longest_angle) / frequency;
             const T negligible = T(tolerance_) * T(S(1) / 128) * block.slenderness;
             tail_end_ = end_of_tail(
                 excitation_.motion.pulse,
@@ -87,7 +85,7 @@ public:
         const StepMotion<T> start{now.tilt, now.rate, acceleration_};
         const Step<T> step = trial_step(start, h, now, phase_step);
         const T error = relative_error(step, h);
-        const Mask accepted = error <= T(S(1));
+        const Mask accepted = error <= 1;
 
         const Mask checked = active && accepted && !ends_at_event_;
         const Mask event = checked && find_event(start, step, h, checked);
@@ -100,17 +98,17 @@ public:
 
         const Mask arrived = moved && ends_at_event_;
         ends_at_event_ = event;
-        const Mask finite = h * (step.end.position - step.end.position) == zero_;
+        const Mask finite = h * (step.end.position - step.end.position) == 0;
         StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + phase_step),
                        .tilt = step.end.position,
                        .rate = step.end.rate,
                        .moved = moved,
                        .strikes = arrived && !arrived,
                        .falls = arrived && !arrived,
-                       .broken = active && !finite && h < first_step_ * T(S(0x1p-60))};
-        T delay = zero_;
+                       .broken = active && !finite && h < first_step_ * 0x1p-60};
+        T delay(0);
         if (any<T>(arrived)) {
-            const Mask flat = towards_fall_ > zero_;
+            const Mask flat = towards_fall_ > 0;
             delay =
                 move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
         }
@@ -188,7 +186,7 @@ private:
         const Quintic<T> tilt = dense_output(start, step.end, h);
         const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
         const TurnsInStep<T> turns({start.rate * h, start.acceleration * h * h},
-                                   {step.end.rate * h, step.end.acceleration * h * h}, T(S(1)));
+                                   {step.end.rate * h, step.end.acceleration * h * h}, T(1));
         return {
             end,
             highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
@@ -229,7 +227,7 @@ private:
         const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
                                                                 phase, excitation_.frequency, on);
         const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
-        T lever(S(1)); // of the push
+        T lever(1); // of the push
         if constexpr (theory == Theory::nonlinear) {
             lever = sine_and_cosine(T(block_.slenderness - tilt)).cosine;
         }
@@ -266,12 +264,12 @@ private:
         const StepMotion<T>& end = step.end;
         const Quintic<T> tilt = dense_output(start, end, h);
         const T middle_tilt =
-            ((tilt[0] + tilt[5]) + T(S(5)) * (tilt[1] + tilt[4]) + T(S(10)) * (tilt[2] + tilt[3])) *
+            ((tilt[0] + tilt[5]) + 5 * (tilt[1] + tilt[4]) + 10 * (tilt[2] + tilt[3])) *
             T(S(1) / 32);
         const T phase_step = excitation_.frequency * h;
         const Sample& first = sample_;
         const Sample middle =
-            sample(now.side, middle_tilt, zero_, fma(phase_step, T(S(0.5)), now.phase), now.phase);
+            sample(now.side, middle_tilt, T(0), fma(phase_step, T(0.5), now.phase), now.phase);
         const T rate_gain = h * fma(T(S(7) / 30), first.acceleration + last.acceleration,
                                     fma(T(S(16) / 30), middle.acceleration,
                                         h * T(S(1) / 60) * (first.jerk - last.jerk)));
@@ -284,26 +282,24 @@ private:
         const T rate_error = abs((end.rate - start.rate) - rate_gain);
         // Where the push is linear or negligible, the length is measured in units of 1/p.
         const S& fastest = excitation_.motion.fastest;
-        T length = fastest == S(0) ? h : phase_step * T(fastest);
+        T length = fastest == 0 ? h : phase_step * T(fastest);
         if (is_wavelet_) {
             length = select<T>(now.phase < tail_end_, length, h);
         }
-        const T longest = T(S(longest_variation));
-        const T longest_length(S(1.001 * longest_angle)); // allows for rounding
-        const T unknown =
-            select<T>(length > longest_length || h > longest, T(unknown_error<S>), zero_);
-        const T two(S(2));
-        const T one(S(1));
+        const T longest(longest_variation);
+        const T longest_length(1.001 * longest_angle); // allows for rounding
+        const T unknown = select<T>(length > longest_length || h > longest, T(unknown_error<S>), 0);
+        const T two(2);
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
-            T s = select<T>(turns, share, zero_);
+            T s = select<T>(turns, share, 0);
             for (int i = 0; i < 3; ++i) { // Newton's method; the estimate alone would be too rough
-                const Quintic<T> after = restricted(tilt, s, one);
+                const Quintic<T> after = restricted<T>(tilt, s, 1);
                 const T slope = after[1] - after[0];
-                const T bend = T(S(4)) * (after[2] - after[1] - slope);
-                const T next = s - (one - s) * slope / select<T>(bend != zero_, bend, one);
-                s = select<T>(turns && next > zero_ && next < one, next, s);
+                const T bend = 4 * (after[2] - after[1] - slope);
+                const T next = s - (1 - s) * slope / select<T>(bend != 0, bend, 1);
+                s = select<T>(turns && next > 0 && next < 1, next, s);
             }
-            return restricted(tilt, zero_, s).back();
+            return restricted<T>(tilt, 0, s).back();
         };
         const TurnsInStep<T> turns({start.rate, start.acceleration}, {end.rate, end.acceleration},
                                    h);
@@ -333,9 +329,9 @@ private:
         const T impact = first_fall_below_zero(tilt, noise, suspect);
         const T fall = first_fall_below_zero(room_above(tilt), noise, suspect);
         const T first = select<T>(fall < impact, fall, impact);
-        const Mask event = suspect && first <= T(S(1));
+        const Mask event = suspect && first <= 1;
         step_to_event_ = select<T>(event, h * first, step_to_event_);
-        towards_fall_ = select<T>(event, select<T>(fall < impact, T(S(1)), zero_), towards_fall_);
+        towards_fall_ = select<T>(event, select<T>(fall < impact, 1, 0), towards_fall_);
         return event;
     }
 
@@ -343,16 +339,15 @@ private:
     PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const S tolerance_;
-    const T zero_;
     T first_step_;
 
-    T acceleration_;  // at the beginning of the next step
-    T step_size_;     // next step, unless an event or the end of a smooth piece comes first [1/p]
-    T step_to_event_; // step that ends at an event found previously [1/p]
-    T towards_fall_;  // 1 if that event is the fall, 0 if it is an impact
-    Mask ends_at_event_;
-    T tail_end_ = T(S(0));     // phase after which a wavelet is negligible [rad]
-    T longest_seen_ = T(S(0)); // longest step that resolves a wavelet [1/p]
+    T acceleration_ = T(0); // at the beginning of the next step
+    T step_size_; // next step, unless an event or the end of a smooth piece comes first [1/p]
+    T step_to_event_ = T(0); // step that ends at an event found previously [1/p]
+    T towards_fall_ = T(0);  // 1 if that event is the fall, 0 if it is an impact
+    Mask ends_at_event_ = T(0) != T(0);
+    T tail_end_ = T(0);     // phase after which a wavelet is negligible [rad]
+    T longest_seen_ = T(0); // longest step that resolves a wavelet [1/p]
 
     struct Nothing {};
     [[no_unique_address]] std::conditional_t<outputs.error, Sample, Nothing>

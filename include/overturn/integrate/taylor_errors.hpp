@@ -55,7 +55,7 @@ estimate_t<T> error_of_estimates(const RockingSeries<order, T>& series, const es
     using E = estimate_t<T>;
     constexpr int first = full_terms<T, order + 1>;
     if constexpr (first > order) {
-        return E(0.0);
+        return E(0);
     } else {
         const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
         const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
@@ -75,14 +75,13 @@ class TaylorErrors {
 public:
     explicit TaylorErrors(const E& log2_tolerance)
     {
-        const E one(S(1));
         unrolled<last_terms>([&]<int i>() {
             constexpr int k = order + 1 - last_terms + i;
             E ratio = rough_power_of_two(E(log2_tolerance * E(S(1) / k)));
             if constexpr (theory == Theory::linear) {
                 ratio = lesser<E>(ratio, E(S(1) / 3));
             }
-            following_per_[i] = E(S(2)) / (one - ratio);
+            following_per_[i] = 2 / (1 - ratio);
             unrolled<known_order + 1 - k>(
                 [&]<int>() { following_per_[i] = following_per_[i] * ratio; });
         });
@@ -104,26 +103,24 @@ public:
         decltype(auto) series = leading<order>(step.known);
         const auto& rough = estimate_of(series);
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
-            const E zero(S(0));
-            const E one(S(1));
             E time = h * E(estimate_of(share));
             for (int i = 0; i < 3; ++i) { // Newton's method; the estimate alone would be too rough
                 const E slope = slope_of_series(rough.rate, time);
                 const E newton = time - value_of_series(rough.rate, time) /
-                                            select<E>(turns && slope != zero, slope, one);
-                time = select<E>(turns, lesser<E>(greater<E>(newton, zero), h), zero);
+                                            select<E>(turns && slope != 0, slope, 1);
+                time = select<E>(turns, lesser<E>(greater<E>(newton, 0), h), 0);
             }
             return value_of_series(series.tilt, T(time)); // second-order error
         };
         const E duration = h * unit;
-        const E longest = E(S(longest_variation));
-        const E unknown = select<E>(duration > longest, E(unknown_error<S>), E(S(0)));
+        const E longest(longest_variation);
+        const E unknown = select<E>(duration > longest, unknown_error<S>, 0);
         const E acceleration = slope_of_series(rough.rate, h);
         const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
                                    {end.rate * step.time.unit, T(acceleration)}, step.h);
         return {.variation = variation_over<E>(
                     lesser<E>(duration, longest), stiffness(known.tilt[0], pushes[0]),
-                    stiffness(value_of_series(rough.tilt, E(h * E(S(0.5)))), pushes[1]),
+                    stiffness(value_of_series(rough.tilt, E(h * 0.5)), pushes[1]),
                     stiffness(estimate_of(end.tilt), pushes[2])),
                 .tilt = left_out * h * E(S(1) / (order + 2)),
                 .rate = fma(left_out, per_time, unknown),
@@ -148,7 +145,7 @@ private:
                        const E& beyond) const
     {
         E next = beyond;
-        E following(S(0));
+        E following(0);
         E power = h;
         unrolled<order - last_terms>([&]<int>() { power = power * h; });
         unrolled<last_terms + known_order - order>([&]<int i>() {

@@ -37,11 +37,10 @@ public:
     /// The blocks rock on other sides, of which these are the properties.
     void see_side(const Block<T>& block, const T& frequency)
     {
-        const T one(S(1));
         slenderness_ = block.slenderness;
         excitation_.frequency = frequency;
-        fastest_ = select<T>(frequency > one, frequency, one);
-        unit_ = one / fastest_;
+        fastest_ = select<T>(frequency > 1, frequency, 1);
+        unit_ = 1 / fastest_;
         phase_per_unit_ = frequency * unit_;
         log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
         if (is_wavelet_) {
@@ -82,16 +81,15 @@ public:
             last = last && event.time == h;
             h = event.time;
         }
-        const T zero(S(0));
         const T tilt = value_of_series(series.tilt, h);
         const T rate = value_of_series(series.rate, h) * fastest_;
         StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + h * phase_per_unit_),
-                       .tilt = select<T>(tilt < zero, zero, tilt),
+                       .tilt = select<T>(tilt < 0, 0, tilt),
                        .rate = rate,
                        .moved = active,
                        .strikes = none,
                        .falls = none,
-                       .broken = active && !((tilt - tilt) + (rate - rate) == zero)};
+                       .broken = active && !((tilt - tilt) + (rate - rate) == 0)};
         const Mask ends_at_event = event.strikes || event.falls;
         if (any<T>(ends_at_event)) {
             end.tilt = select<T>(ends_at_event, tilt, end.tilt);
@@ -144,7 +142,7 @@ private:
         const T per_step = h * unit_;
         const TurnsInStep<T> turns({now.rate * per_step, series.rate[1] * h * h},
                                    {end.rate * per_step, slope_of_series(series.rate, h) * h * h},
-                                   T(S(1)));
+                                   T(1));
         return {end, highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, sample_at),
                 lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, active && !end.strikes,
                                sample_at)};
@@ -155,7 +153,7 @@ private:
     T acceleration(const Rocking<T>& now) const
     {
         const T towards = now.side * excitation_.acceleration;
-        return is_wavelet_ ? select<T>(now.phase < lost_, towards, T(S(0))) : towards;
+        return is_wavelet_ ? select<T>(now.phase < lost_, towards, 0) : towards;
     }
 
     /// The longest step, in units: for the last four n, rate[n] h^n is at most the tolerance times
@@ -184,7 +182,7 @@ private:
             // quarter.
             const T ratio =
                 following_ratio<order>(excitation_.motion.pulse, now.phase, phase_per_unit_);
-            const T falling = select<T>(now.phase < lost_, T(S(0.75)) / ratio, T(S(0x1p+60)));
+            const T falling = select<T>(now.phase < lost_, 0.75 / ratio, 0x1p+60);
             return lesser<T>(rough_power_of_two(longest), falling);
         }
         return rough_power_of_two(longest);
@@ -193,7 +191,7 @@ private:
     /// The push at the beginning, in the middle and at the end of a step of length h.
     std::array<T, 3> pushes_at(const Rocking<T>& now, const T& h, const T& end) const
     {
-        const T middle = h * T(S(0.5));
+        const T middle = h * 0.5;
         std::array<T, 3> pushes = excitation_.ground(
             std::array<T, 3>{now.phase, now.phase + middle * phase_per_unit_, end});
         for (T& value : pushes) {
@@ -212,7 +210,7 @@ private:
         const T ratio =
             following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
         const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
-        return term * ratio / (T(S(1)) - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
+        return term * ratio / (1 - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
     }
 
     [[gnu::noinline]] FirstEvent<T> first_event_not_inlined(const Series& series,
@@ -232,7 +230,7 @@ private:
     T fastest_;        // its reciprocal
     T phase_per_unit_; // [rad or samples]
     T log2_most_allowed_;
-    T lost_ = T(S(0)); // see acceleration()
+    T lost_ = T(0); // see acceleration()
     struct NoErrors {
         explicit NoErrors(const E&) {}
     };
