@@ -108,7 +108,7 @@ bool bounces_on_to_rest(const AfterImpact<Excitation>& start, double end)
             motion = step.end;
             phase += h * start.excitation.frequency;
         }
-        const auto impact = event_correction(motion.position, motion.rate, motion.acceleration);
+        const auto impact = event_correction(motion);
         phase += start.excitation.frequency * impact.delay;
         motion = {0, std::sqrt(start.block.restitution) * impact.closing, 0};
         side = -side;

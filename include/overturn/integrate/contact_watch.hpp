@@ -12,14 +12,14 @@ namespace overturn {
 /// The block at a share of a step under a pulse, which begins at `now`.
 template <Number T>
 MovingBlock<T, T> moving_block(const PulseExcitation<T>& excitation, const Rocking<T>& now,
-                               const T& phase_step, const T& share, const MotionSample<T>& sample)
+                               const T& phase_step, const T& share, const StepMotion<T>& motion)
 {
     const T& frequency = excitation.frequency;
     const auto push = excitation.motion.template series<2>(T(now.side * excitation.acceleration),
                                                            T(now.phase + share * phase_step),
                                                            frequency, now.phase);
     const T steps_per_time = frequency / select<T>(phase_step > 0, phase_step, 1);
-    return {sample.tilt, sample.rate * steps_per_time, push[0], push[1]};
+    return {motion.position, motion.rate * steps_per_time, push[0], push[1]};
 }
 
 /// Follows the contact. A block beyond alpha that does not come back has overturned, so that what

@@ -19,14 +19,24 @@ struct EventCorrection {
 ///
 ///     gap + rate delay + acceleration delay^2 / 2 = 0,   closing^2 = rate^2 - 2 acceleration gap
 template <Number T>
-EventCorrection<T> event_correction(const T& gap, const T& rate, const T& acceleration)
+EventCorrection<T> event_correction(const StepMotion<T>& at_end)
 {
+    const auto& [gap, rate, acceleration] = at_end;
     const T square = fma(rate, rate, -(acceleration + acceleration) * gap);
     // With round-off, a closed gap may seem never to have been open; it then closes at its rate.
     const T closing = sqrt(select<T>(square > 0, square, rate * rate));
     const T denominator = closing - rate;
     const T delay = (gap + gap) / select<T>(denominator > 0, denominator, 1);
     return {select<T>(denominator > 0, delay, 0), closing, square >= 0 || gap <= 0};
+}
+
+/// The gap to the ground, or to pi/2 in the lanes in `falls`, of a block with this motion.
+template <Number T>
+StepMotion<T> gap_of(const StepMotion<T>& tilt, const mask_t<T>& falls)
+{
+    return {select<T>(falls, T(pi<scalar_t<T>>() / 2) - tilt.position, tilt.position),
+            select<T>(falls, -tilt.rate, tilt.rate),
+            select<T>(falls, -tilt.acceleration, tilt.acceleration)};
 }
 
 /// Moves the end of a step to the event next to it: to the ground in the lanes in `strikes`, to
@@ -36,19 +46,15 @@ template <Number T>
 T move_to_event(StepEnd<T>& end, const mask_t<T>& strikes, const mask_t<T>& falls,
                 const T& acceleration, const auto& excitation)
 {
-    using S = scalar_t<T>;
-    const T quarter_turn(pi<S>() / 2);
-    const T gap = select<T>(falls, quarter_turn - end.tilt, end.tilt);
-    const T gap_rate = select<T>(falls, -end.rate, end.rate);
-    const T gap_acceleration = select<T>(falls, -acceleration, acceleration);
-    const EventCorrection<T> correction = event_correction(gap, gap_rate, gap_acceleration);
+    const EventCorrection<T> correction =
+        event_correction(gap_of<T>({end.tilt, end.rate, acceleration}, falls));
     end.strikes = strikes && correction.hits;
     end.falls = falls && correction.hits;
     const mask_t<T> hits = end.strikes || end.falls;
     const T last(excitation.motion.end);
     const T delayed = end.phase + excitation.frequency * correction.delay;
-    end.phase = select<T>(hits, select<T>(delayed < last, delayed, last), end.phase);
-    end.tilt = select<T>(hits, select<T>(falls, quarter_turn, 0), end.tilt);
+    end.phase = select<T>(hits, lesser<T>(delayed, last), end.phase);
+    end.tilt = select<T>(hits, select<T>(falls, pi<scalar_t<T>>() / 2, 0), end.tilt);
     end.rate = select<T>(hits, select<T>(falls, correction.closing, -correction.closing), end.rate);
     return select<T>(hits, correction.delay, 0);
 }

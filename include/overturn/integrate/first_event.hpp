@@ -8,6 +8,22 @@
 
 namespace overturn {
 
+/// The motion at a time, both in units of the series.
+template <int order, Number T>
+StepMotion<T> motion_at(const RockingSeries<order, T>& series, const T& time)
+{
+    return {value_of_series(series.tilt, time), value_of_series(series.rate, time),
+            slope_of_series(series.rate, time)};
+}
+
+/// The motion [per step] at a share of a step of length h.
+template <int order, Number T>
+StepMotion<T> motion_at(const RockingSeries<order, T>& series, const T& h, const T& share)
+{
+    const auto [tilt, rate, acceleration] = motion_at(series, T(share * h));
+    return {tilt, rate * h, acceleration * h * h};
+}
+
 template <Number T>
 struct FirstEvent {
     T time; ///< the end of the step: at the event, or before an event that is not yet certain
@@ -23,22 +39,6 @@ mask_t<T> may_meet(const Enclosure<T>& tilt, const T& noise)
     using S = scalar_t<T>;
     return lower_bound(tilt.lower()) < -noise ||
            T(pi<S>() / 2) - upper_bound(tilt.upper()) < -noise;
-}
-
-/// The gap to the ground, or to pi/2.
-template <Number T>
-struct Gap {
-    T width; ///< [rad]
-    T rate;  ///< [rad per unit]
-};
-
-/// The gap in every lane, to pi/2 in those that fall.
-template <int order, Number T>
-Gap<T> gap_at(const RockingSeries<order, T>& series, const T& time, const mask_t<T>& falls)
-{
-    const T tilt = value_of_series(series.tilt, time);
-    const T rate = value_of_series(series.rate, time);
-    return {select<T>(falls, T(pi<scalar_t<T>>() / 2) - tilt, tilt), select<T>(falls, -rate, rate)};
 }
 
 /// The first impact or fall within a step of length h. There is none before the first zero of the
@@ -62,20 +62,20 @@ FirstEvent<T> first_event(const RockingSeries<order, T>& series, const Enclosure
     const Mask near = suspect && share <= 1;
     const T time = h * share;
 
-    const Gap<T> here = gap_at(series, time, falls);
-    const T slope = slope_of_series(series.rate, time);
-    const T acceleration = select<T>(falls, -slope, slope);
+    const StepMotion<T> here = gap_of(motion_at(series, time), falls);
     const T most = steepest(series.rate, h);
     const Mask stuck = share < 0x1p-40;
-    const Mask closes = here.rate <= 0 && (here.rate * here.rate > 4 * most * here.width || stuck);
+    const Mask closes =
+        here.rate <= 0 && (here.rate * here.rate > 4 * most * here.position || stuck);
     // Corrections of third order. Together with the one at the end of the step, three of them
     // are sufficient for doubles: an error of 0.2 of the time becomes less than 1e-18.
-    T event_time = time + event_correction(here.width, here.rate, acceleration).delay;
+    T event_time = time + event_correction(here).delay;
     constexpr int more = std::numeric_limits<scalar_t<T>>::digits <= 53 ? 1 : 2;
     for (int i = 0; i < more; ++i) {
         const T somewhere = select<T>(near && closes, event_time, time); // within the step
-        const Gap<T> there = gap_at(series, somewhere, falls);
-        event_time = event_time + event_correction(there.width, there.rate, acceleration).delay;
+        StepMotion<T> there = gap_of(motion_at(series, somewhere), falls);
+        there.acceleration = here.acceleration;
+        event_time = event_time + event_correction(there).delay;
     }
     const Mask sure = near && closes && event_time <= h;
     const T end = select<T>(near, time, h);

@@ -91,7 +91,8 @@ public:
                        .falls = none,
                        .broken = none};
         if (any<T>(suspect)) {
-            const Meeting meeting = first_meeting(series, bounds, {h, tilt, rate}, suspect);
+            const Meeting meeting =
+                first_meeting(series, bounds, {h, tilt, rate, T(0), none, none}, suspect);
             h = meeting.time;
             end = end_at(meeting, now, left, end_of_piece);
             end.moved = active;
@@ -105,10 +106,9 @@ public:
                 const E length = estimate_of(h);
                 see(parts_seen, motion_within(series, push, length));
                 const T most = greater<T>(now.tilt, end.tilt) + aside;
-                const auto sample_at = [&](const E& at) { return sample_of(rough, length, at); };
-                const E peak =
-                    highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt), estimate_of(most),
-                                    estimate_of(so_far.peak), sample_at);
+                const auto at = [&](const E& share) { return motion_at(rough, length, share); };
+                const E peak = highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt),
+                                               estimate_of(most), estimate_of(so_far.peak), at);
                 return StepEndWithPeak<T, std::remove_cvref_t<decltype(of_step)>>{
                     of_step, T(peak), T(std::numeric_limits<S>::infinity())};
             } else {
@@ -138,10 +138,10 @@ private:
             return [rough = estimate_of(series), pushes = estimate_of(push), length,
                     per_unit = E(estimate_of(time_.per_time))](const E& share) {
                 const E per_step = per_unit / select<E>(length > 0, length, 1);
-                const MotionSample<E> sample = sample_of(rough, length, share);
+                const StepMotion<E> motion = motion_at(rough, length, share);
                 const auto ground = pushes.at(E(share * length));
                 return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
-                    sample.tilt, sample.rate * per_step, ground, pushes.slope_over(per_unit)};
+                    motion.position, motion.rate * per_step, ground, pushes.slope_over(per_unit)};
             };
         };
     }
@@ -159,15 +159,6 @@ private:
         Mask happens() const { return strikes || falls; }
     };
 
-    /// The motion at a time [units].
-    template <Number N>
-    struct InstantIn {
-        N time;
-        N tilt; ///< [rad]
-        N rate; ///< [rad per unit]
-    };
-    using Instant = InstantIn<T>;
-
     /// The end of a step at a meeting, without `moved` and `broken`; left: to the end of the piece
     /// [units].
     StepEnd<T> end_at(const Meeting& meeting, const Rocking<T>& now, const T& left,
@@ -182,12 +173,6 @@ private:
         end.strikes = meeting.strikes;
         end.falls = meeting.falls;
         return end;
-    }
-
-    template <Number N>
-    static InstantIn<N> instant(const auto& tilt, const auto& rate, const N& time)
-    {
-        return {time, value_of_series(tilt, time), value_of_series(rate, time)};
     }
 
     /// The longest step, in units, of at most `left`: for the last n, rate[n] h^n is at most
@@ -258,32 +243,31 @@ private:
         return !(straight >= aside && straight + aside <= T(pi<S>() / 2));
     }
 
-    /// The first impact or fall within a step that ends at `end`, in the lanes in which there may
-    /// be one.
+    /// The first impact or fall within a step, in the lanes in which there may be one. meeting: at
+    /// the end of the whole step.
     ///
     /// If the tilt decreases throughout the step, or if it accelerates towards the ground, it falls
     /// below 0 once, if it is below 0 at the end. A lane in which neither is certain, or that may
     /// reach pi/2, is left to first_event().
-    Meeting first_meeting(const Series& series, const StepBounds<T>& bounds, const Instant& end,
+    Meeting first_meeting(const Series& series, const StepBounds<T>& bounds, Meeting meeting,
                           const Mask& suspect) const
     {
-        const T& h = end.time;
+        const T h = meeting.time;
         const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
         const T& start = series.rate[0];
-        const T acceleration = slope_of_series(series.rate, h);
+        const StepMotion<T> end{meeting.tilt, meeting.rate, slope_of_series(series.rate, h)};
         // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
         // the bound of its slope.
-        const Mask concave = series.rate[1] + acceleration + bounds.jolt * h < 0;
+        const Mask concave = series.rate[1] + end.acceleration + bounds.jolt * h < 0;
         const Mask sinks = start + end.rate + bounds.acceleration * h < 0;
         const T aside = bounds.acceleration * (h * h) * 0.5;
         const Mask low = series.tilt[0] + start * h + aside < T(pi<S>() / 2);
         const Mask simple =
             suspect && low && (concave || sinks) && (series.tilt[0] > 0 || start > 0);
-        const Mask none = suspect && !suspect;
-        Meeting meeting{h, end.tilt, end.rate, 0, simple && end.tilt < -noise, none};
+        meeting.strikes = simple && end.position < -noise;
         Mask odd = suspect && !simple;
         if (any<T>(meeting.strikes)) {
-            const Mask missed = approach_ground(series, bounds, end, acceleration, meeting);
+            const Mask missed = approach_ground(series, bounds, end, meeting);
             odd = odd || missed;
         }
         if (any<T>(odd)) {
@@ -295,32 +279,30 @@ private:
     /// Finds the impact in the lanes that strike: by Halley's method, first of the leading terms of
     /// the series, until Newton's correction to second order is accurate: the error of its rate is
     /// at most jolt delay^2 / 2, that of its delay jolt |delay|^3 / (6 rate). Returns the lanes in
-    /// which this fails.
-    Mask approach_ground(const Series& series, const StepBounds<T>& bounds, const Instant& end,
-                         const T& acceleration, Meeting& meeting) const
+    /// which this fails. end: the motion at the end of the step.
+    Mask approach_ground(const Series& series, const StepBounds<T>& bounds,
+                         const StepMotion<T>& end, Meeting& meeting) const
     {
-        const auto& rough = estimate_of(series);
-        Coefficients<6, E> tilt;
-        std::copy_n(rough.tilt.begin(), tilt.size(), tilt.begin());
-        Coefficients<5, E> rate;
-        std::copy_n(rough.rate.begin(), rate.size(), rate.begin());
-        const E h = estimate_of(end.time);
-        const auto nearer = [&](const InstantIn<E>& at, const E& slope) -> E {
-            return lesser<E>(greater<E>(halley(at, slope), 0), h);
+        const T h = meeting.time;
+        const RockingSeries<4, E> rough = leading<4>(estimate_of(series));
+        const auto nearer = [&](const E& time, const StepMotion<E>& at) -> E {
+            const E square = fma(at.rate, at.rate, -0.5 * at.position * at.acceleration);
+            const E halley = time - at.position * at.rate / square;
+            return lesser<E>(greater<E>(halley, 0), estimate_of(h));
         };
-        E guess =
-            nearer({h, estimate_of(end.tilt), estimate_of(end.rate)}, estimate_of(acceleration));
+        E guess = nearer(estimate_of(h), {estimate_of(end.position), estimate_of(end.rate),
+                                          estimate_of(end.acceleration)});
         for (int i = 0; i < 2; ++i) {
-            guess = nearer(instant(tilt, rate, guess), slope_of_series(rate, guess));
+            guess = nearer(guess, motion_at(rough, guess));
         }
-        const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, 0), end.time); };
+        const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, 0), h); };
         T time = within(T(guess));
         const T enough(2 * std::numeric_limits<S>::epsilon());
         Mask open = meeting.strikes;
+        constexpr int most_passes = 6;
         for (int pass = 0; pass < most_passes; ++pass) {
-            const Instant now = instant(series.tilt, series.rate, time);
-            const auto found =
-                event_correction(now.tilt, now.rate, slope_of_series(series.rate, time));
+            const StepMotion<T> now = motion_at(series, time);
+            const EventCorrection<T> found = event_correction(now);
             const Mask close = open && now.rate < 0 &&
                                bounds.jolt * found.delay * found.delay <= enough * found.closing;
             meeting.time = select<T>(close, time, meeting.time);
@@ -337,24 +319,13 @@ private:
         return open;
     }
 
-    /// A time nearer to that at which the tilt is 0.
-    static E halley(const InstantIn<E>& at, const E& acceleration)
-    {
-        const E half(0.5);
-        const E square = fma(at.rate, at.rate, -half * at.tilt * acceleration);
-        return at.time - at.tilt * at.rate / square;
-    }
-
     [[gnu::noinline]] void search(const Series& series, const T& h, const T& noise,
                                   const Mask& lanes, Meeting& meeting) const
     {
         straight_line<T>([&] {
             const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
-            const Instant there = instant(series.tilt, series.rate, event.time);
-            const Gap<T> gap = gap_at(series, event.time, event.falls);
-            const T slope = slope_of_series(series.rate, event.time);
-            const auto found =
-                event_correction(gap.width, gap.rate, select<T>(event.falls, -slope, slope));
+            const StepMotion<T> there = motion_at(series, event.time);
+            const EventCorrection<T> found = event_correction(gap_of(there, event.falls));
             const Mask strikes = lanes && event.strikes && found.hits;
             const Mask falls = lanes && event.falls && found.hits;
             const auto put = [&](T& of_meeting, const T& without, const T& struck,
@@ -364,16 +335,13 @@ private:
                               select<T>(strikes, struck, select<T>(lanes, without, of_meeting)));
             };
             put(meeting.time, event.time, event.time, event.time);
-            put(meeting.tilt, there.tilt, 0, T(pi<S>() / 2));
+            put(meeting.tilt, there.position, 0, T(pi<S>() / 2));
             put(meeting.rate, there.rate, -found.closing, found.closing);
             put(meeting.delay, 0, found.delay, found.delay);
             meeting.strikes = meeting.strikes || strikes;
             meeting.falls = falls;
-            return 0;
         });
     }
-
-    static constexpr int most_passes = 6;
 
     struct NoErrors {
         explicit NoErrors(const E&) {}

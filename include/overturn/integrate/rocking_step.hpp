@@ -43,39 +43,12 @@ struct StepEndWithPeak : End {
                    ///< it does not turn [rad]
 };
 
-/// The motion at one point of a step, as a function of the share of the step.
-template <Number T>
-struct MotionSample {
-    T tilt;         ///< [rad]
-    T rate;         ///< [rad per step]
-    T acceleration; ///< [rad per step^2]
-};
-
-/// The motion at a share of a step whose tilt is this polynomial, by de Casteljau's scheme.
-template <Number T>
-MotionSample<T> sample_of(Quintic<T> c, const T& share)
-{
-    const auto reduce = [&](std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) {
-            c[i] = fma(share, c[i + 1] - c[i], c[i]);
-        }
-    };
-    reduce(5);
-    reduce(4);
-    reduce(3);
-    const T bend = (c[2] - c[1]) - (c[1] - c[0]);
-    reduce(2);
-    const T slope = c[1] - c[0];
-    reduce(1);
-    return {c[0], 5 * slope, 20 * bend};
-}
-
 /// The largest tilt within a step, or a smaller one if it is not above `so_far` [rad]. most: an
-/// upper bound of it; sample_at(share) returns a MotionSample. Newton's method starts from the
-/// highest of the samples that divide the step into eight parts and finds the zero of the rate.
-template <Number T, class SampleAt>
+/// upper bound of it; motion_at(share) returns a StepMotion [per step]. Newton's method starts from
+/// the highest of the samples that divide the step into eight parts and finds the zero of the rate.
+template <Number T, class MotionAt>
 T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
-               const SampleAt& sample_at)
+               const MotionAt& motion_at)
 {
     using S = scalar_t<T>;
     T highest = greater<T>(start, end);
@@ -86,7 +59,7 @@ T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
     constexpr int parts = 8;
     for (int i = 1; i < parts; ++i) {
         const T share(S(i) / parts);
-        const T tilt = sample_at(share).tilt;
+        const T tilt = motion_at(share).position;
         best = select<T>(tilt > highest, share, best);
         highest = greater<T>(tilt, highest);
     }
@@ -95,27 +68,20 @@ T highest_tilt(const T& start, const T& end, const T& most, const T& so_far,
     const T last = lesser<T>(best + part, 1);
     T share = best;
     for (int i = 0; i < 3; ++i) {
-        const MotionSample<T> here = sample_at(share);
+        const StepMotion<T> here = motion_at(share);
         const mask_t<T> bends = here.acceleration < 0;
         const T newton = share - here.rate / select<T>(bends, here.acceleration, -1);
         share = lesser<T>(greater<T>(newton, first), last);
     }
-    return greater<T>(sample_at(share).tilt, highest);
+    return greater<T>(motion_at(share).position, highest);
 }
-
-/// The motion at the start or at the end of a step, in any unit of time.
-template <Number T>
-struct StepPoint {
-    T rate;
-    T acceleration;
-};
 
 /// Where the rate may change its sign within a step of length h.
 template <Number T>
 struct TurnsInStep {
     using S = scalar_t<T>;
 
-    TurnsInStep(const StepPoint<T>& start, const StepPoint<T>& end, const T& h)
+    TurnsInStep(const StepMotion<T>& start, const StepMotion<T>& end, const T& h)
         : start_rate(start.rate), end_rate(end.rate), inward(start.rate < 0),
           once(start.rate * end.rate < 0), speed(select<T>(inward, -start.rate, end.rate)),
           stop(select<T>(inward, start.acceleration, end.acceleration) * h),
@@ -145,9 +111,9 @@ struct TurnsInStep {
 
 /// The tilt at which the block turns outward within a step; infinite if it does not, or above
 /// `so_far` [rad]. turns: per step; least: a lower bound of the tilt. See highest_tilt().
-template <Number T, class SampleAt>
+template <Number T, class MotionAt>
 T lowest_turn(const TurnsInStep<T>& turns, const T& least, const T& so_far, const mask_t<T>& lanes,
-              const SampleAt& sample_at)
+              const MotionAt& motion_at)
 {
     const T none(std::numeric_limits<scalar_t<T>>::infinity());
     const mask_t<T> suspect =
@@ -156,16 +122,16 @@ T lowest_turn(const TurnsInStep<T>& turns, const T& least, const T& so_far, cons
         return none;
     }
     T share = select<T>(suspect, turns.share(), 0);
-    MotionSample<T> here = sample_at(share);
+    StepMotion<T> here = motion_at(share);
     for (int i = 0; i < 4; ++i) { // Newton's method: the last digits of the tilt are correct
         const mask_t<T> bends = here.acceleration > 0;
         const T newton = share - here.rate / select<T>(bends, here.acceleration, 1);
         share = lesser<T>(greater<T>(newton, 0), 1);
-        here = sample_at(share);
+        here = motion_at(share);
     }
     // If the block does not turn twice, there is no zero to be found.
     const mask_t<T> found = turns.once || abs(here.rate) < turns.speed * 0x1p-10;
-    return select<T>(suspect && found && here.acceleration > 0, here.tilt, none);
+    return select<T>(suspect && found && here.acceleration > 0, here.position, none);
 }
 
 /// The tilt where the rate changes its sign within a step, if it may be near the ground

@@ -159,7 +159,7 @@ private:
             return [this, &now, phase_step,
                     tilt =
                         dense_output(trial.start, trial.step.end, trial.length)](const T& share) {
-                return moving_block(excitation_, now, phase_step, share, sample_of(tilt, share));
+                return moving_block(excitation_, now, phase_step, share, motion_at(tilt, share));
             };
         };
     }
@@ -184,13 +184,13 @@ private:
     {
         const auto& [start, step, h] = trial;
         const Quintic<T> tilt = dense_output(start, step.end, h);
-        const auto sample_at = [&](const T& share) { return sample_of(tilt, share); };
-        const TurnsInStep<T> turns({start.rate * h, start.acceleration * h * h},
-                                   {step.end.rate * h, step.end.acceleration * h * h}, T(1));
-        return {
-            end,
-            highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, sample_at),
-            lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, sample_at)};
+        const auto at = [&](const T& share) { return motion_at(tilt, share); };
+        const auto per_step = [&](const StepMotion<T>& motion) -> StepMotion<T> {
+            return {motion.position, motion.rate * h, motion.acceleration * h * h};
+        };
+        const TurnsInStep<T> turns(per_step(start), per_step(step.end), T(1));
+        return {end, highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, at),
+                lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, at)};
     }
 
     /// Local error over the allowed error. The latter is the tolerance times the size of the
@@ -301,8 +301,7 @@ private:
             }
             return restricted<T>(tilt, 0, s).back();
         };
-        const TurnsInStep<T> turns({start.rate, start.acceleration}, {end.rate, end.acceleration},
-                                   h);
+        const TurnsInStep<T> turns(start, end, h);
         return {.variation = variation_over<T>(lesser<T>(h + delay, longest), first.stiffness,
                                                middle.stiffness, last.stiffness),
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),

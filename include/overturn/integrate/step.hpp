@@ -9,7 +9,7 @@
 
 namespace overturn {
 
-/// The motion at the start or at the end of a step.
+/// The motion at one point of a step, in any unit of time.
 template <Number T>
 struct StepMotion {
     T position;
@@ -40,6 +40,26 @@ Quintic<T> dense_output(const StepMotion<T>& start, const StepMotion<T>& end, co
             fma(bend, end.acceleration, fma(-fifth, end.rate, last)),
             last,
             end.position};
+}
+
+/// The motion [per step] at a share of a step whose position is this polynomial, by de Casteljau's
+/// scheme.
+template <Number T>
+StepMotion<T> motion_at(Quintic<T> c, const T& share)
+{
+    const auto reduce = [&](std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) {
+            c[i] = fma(share, c[i + 1] - c[i], c[i]);
+        }
+    };
+    reduce(5);
+    reduce(4);
+    reduce(3);
+    const T bend = (c[2] - c[1]) - (c[1] - c[0]);
+    reduce(2);
+    const T slope = c[1] - c[0];
+    reduce(1);
+    return {c[0], 5 * slope, 20 * bend};
 }
 
 template <Number T>

@@ -20,15 +20,6 @@ inline constexpr int last_terms = order < 10 ? 2 : 4;
 template <int order, Theory theory>
 inline constexpr int order_for_errors = order + (theory == Theory::linear ? 3 : 1);
 
-/// The motion at a share of a step of length h.
-template <int order, Number T>
-MotionSample<T> sample_of(const RockingSeries<order, T>& series, const T& h, const T& share)
-{
-    const T time = share * h;
-    return {value_of_series(series.tilt, time), value_of_series(series.rate, time) * h,
-            slope_of_series(series.rate, time) * h * h};
-}
-
 /// The unit of time of a series.
 template <Number T>
 struct TimeUnit {
@@ -116,8 +107,8 @@ public:
         const E longest(longest_variation);
         const E unknown = select<E>(duration > longest, unknown_error<S>, 0);
         const E acceleration = slope_of_series(rough.rate, h);
-        const TurnsInStep<T> turns({series.rate[0], series.rate[1]},
-                                   {end.rate * step.time.unit, T(acceleration)}, step.h);
+        const TurnsInStep<T> turns({series.tilt[0], series.rate[0], series.rate[1]},
+                                   {end.tilt, end.rate * step.time.unit, T(acceleration)}, step.h);
         return {.variation = variation_over<E>(
                     lesser<E>(duration, longest), stiffness(known.tilt[0], pushes[0]),
                     stiffness(value_of_series(rough.tilt, E(h * 0.5)), pushes[1]),

@@ -127,7 +127,7 @@ private:
         return [&, this] {
             return [this, &now, series, h](const T& share) {
                 return moving_block(excitation_, now, T(h * phase_per_unit_), share,
-                                    sample_of(series, h, share));
+                                    motion_at(series, h, share));
             };
         };
     }
@@ -138,14 +138,13 @@ private:
     {
         const Series& series = step.known;
         const T& h = step.h;
-        const auto sample_at = [&](const T& share) { return sample_of(series, h, share); };
+        const auto at = [&](const T& share) { return motion_at(series, h, share); };
         const T per_step = h * unit_;
-        const TurnsInStep<T> turns({now.rate * per_step, series.rate[1] * h * h},
-                                   {end.rate * per_step, slope_of_series(series.rate, h) * h * h},
-                                   T(1));
-        return {end, highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, sample_at),
-                lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, active && !end.strikes,
-                               sample_at)};
+        const TurnsInStep<T> turns(
+            {now.tilt, now.rate * per_step, series.rate[1] * h * h},
+            {end.tilt, end.rate * per_step, slope_of_series(series.rate, h) * h * h}, T(1));
+        return {end, highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, at),
+                lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, active && !end.strikes, at)};
     }
 
     /// The excitation's `acceleration`, positive towards the side of the tilt; 0 once a wavelet
