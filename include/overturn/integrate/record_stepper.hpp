@@ -4,12 +4,9 @@
 #pragma once
 
 #include "overturn/integrate/first_event.hpp"
-#include "overturn/integrate/power_series.hpp"
-#include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
-#include "overturn/mechanics/rocking_series.hpp"
 
 namespace overturn {
 
@@ -91,8 +88,8 @@ public:
                        .falls = none,
                        .broken = none};
         if (any<T>(suspect)) {
-            const Meeting meeting =
-                first_meeting(series, bounds, {h, tilt, rate, T(0), none, none}, suspect);
+            const Meeting<T> meeting =
+                first_meeting(series, bounds, {h, T(0), tilt, rate, none, none}, suspect);
             h = meeting.time;
             end = end_at(meeting, now, left, end_of_piece);
             end.moved = active;
@@ -146,22 +143,9 @@ private:
         };
     }
 
-    /// The end of a step at `time`, which is that of the event but for the delay [units]. Without
-    /// an event, it is the end of the whole step, or comes before an event that is not yet certain.
-    struct Meeting {
-        T time;
-        T tilt; ///< at time + delay: 0 at an impact, pi/2 at a fall [rad]
-        T rate; ///< [rad per unit]
-        T delay;
-        Mask strikes;
-        Mask falls;
-
-        Mask happens() const { return strikes || falls; }
-    };
-
     /// The end of a step at a meeting, without `moved` and `broken`; left: to the end of the piece
     /// [units].
-    StepEnd<T> end_at(const Meeting& meeting, const Rocking<T>& now, const T& left,
+    StepEnd<T> end_at(const Meeting<T>& meeting, const Rocking<T>& now, const T& left,
                       const T& end_of_piece) const
     {
         const T phase = now.phase + (meeting.time + meeting.delay) * samples_per_unit_;
@@ -249,8 +233,8 @@ private:
     /// If the tilt decreases throughout the step, or if it accelerates towards the ground, it falls
     /// below 0 once, if it is below 0 at the end. A lane in which neither is certain, or that may
     /// reach pi/2, is left to first_event().
-    Meeting first_meeting(const Series& series, const StepBounds<T>& bounds, Meeting meeting,
-                          const Mask& suspect) const
+    Meeting<T> first_meeting(const Series& series, const StepBounds<T>& bounds, Meeting<T> meeting,
+                             const Mask& suspect) const
     {
         const T h = meeting.time;
         const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
@@ -281,7 +265,7 @@ private:
     /// at most jolt delay^2 / 2, that of its delay jolt |delay|^3 / (6 rate). Returns the lanes in
     /// which this fails. end: the motion at the end of the step.
     Mask approach_ground(const Series& series, const StepBounds<T>& bounds,
-                         const StepMotion<T>& end, Meeting& meeting) const
+                         const StepMotion<T>& end, Meeting<T>& meeting) const
     {
         const T h = meeting.time;
         const RockingSeries<4, E> rough = leading<4>(estimate_of(series));
@@ -320,26 +304,17 @@ private:
     }
 
     [[gnu::noinline]] void search(const Series& series, const T& h, const T& noise,
-                                  const Mask& lanes, Meeting& meeting) const
+                                  const Mask& lanes, Meeting<T>& meeting) const
     {
         straight_line<T>([&] {
             const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
-            const StepMotion<T> there = motion_at(series, event.time);
-            const EventCorrection<T> found = event_correction(gap_of(there, event.falls));
-            const Mask strikes = lanes && event.strikes && found.hits;
-            const Mask falls = lanes && event.falls && found.hits;
-            const auto put = [&](T& of_meeting, const T& without, const T& struck,
-                                 const T& fallen) {
-                of_meeting =
-                    select<T>(falls, fallen,
-                              select<T>(strikes, struck, select<T>(lanes, without, of_meeting)));
-            };
-            put(meeting.time, event.time, event.time, event.time);
-            put(meeting.tilt, there.position, 0, T(pi<S>() / 2));
-            put(meeting.rate, there.rate, -found.closing, found.closing);
-            put(meeting.delay, 0, found.delay, found.delay);
-            meeting.strikes = meeting.strikes || strikes;
-            meeting.falls = falls;
+            const Meeting<T> found = meeting_near(event, motion_at(series, event.time));
+            meeting.time = select<T>(lanes, found.time, meeting.time);
+            meeting.delay = select<T>(lanes, found.delay, meeting.delay);
+            meeting.tilt = select<T>(lanes, found.tilt, meeting.tilt);
+            meeting.rate = select<T>(lanes, found.rate, meeting.rate);
+            meeting.strikes = meeting.strikes || (lanes && found.strikes);
+            meeting.falls = lanes && found.falls;
         });
     }
 

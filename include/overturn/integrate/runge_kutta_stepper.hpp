@@ -2,11 +2,7 @@
 // is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
-#include "overturn/integrate/event_correction.hpp"
-#include "overturn/integrate/first_root.hpp"
-#include "overturn/integrate/rocking_step.hpp"
-#include "overturn/integrate/step.hpp"
-#include "overturn/mechanics/block.hpp"
+#include "overturn/integrate/first_event.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
 #include <type_traits>
@@ -109,8 +105,10 @@ public:
         T delay(0);
         if (any<T>(arrived)) {
             const Mask flat = towards_fall_ > 0;
-            delay =
-                move_to_event(end, arrived && !flat, arrived && flat, acceleration_, excitation_);
+            const Meeting<T> meeting = meeting_near<T>({h, arrived && !flat, arrived && flat},
+                                                       {end.tilt, end.rate, acceleration_});
+            move_to(meeting, end, excitation_);
+            delay = meeting.delay;
         }
         if constexpr (outputs.error) {
             const T phase = now.phase + phase_step;
@@ -325,12 +323,10 @@ private:
     [[gnu::noinline]] Mask aim_at_event(const Quintic<T>& tilt, const T& noise, const T& h,
                                         const Mask& suspect)
     {
-        const T impact = first_fall_below_zero(tilt, noise, suspect);
-        const T fall = first_fall_below_zero(room_above(tilt), noise, suspect);
-        const T first = select<T>(fall < impact, fall, impact);
-        const Mask event = suspect && first <= 1;
-        step_to_event_ = select<T>(event, h * first, step_to_event_);
-        towards_fall_ = select<T>(event, select<T>(fall < impact, 1, 0), towards_fall_);
+        const FirstEvent<T> contact = first_contact<T>({tilt, T(0)}, noise, suspect);
+        const Mask event = contact.strikes || contact.falls;
+        step_to_event_ = select<T>(event, h * contact.time, step_to_event_);
+        towards_fall_ = select<T>(event, select<T>(contact.falls, 1, 0), towards_fall_);
         return event;
     }
 

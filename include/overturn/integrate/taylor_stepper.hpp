@@ -4,12 +4,8 @@
 #pragma once
 
 #include "overturn/integrate/first_event.hpp"
-#include "overturn/integrate/first_root.hpp"
-#include "overturn/integrate/power_series.hpp"
-#include "overturn/integrate/rocking_step.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
-#include "overturn/mechanics/rocking_series.hpp"
 
 namespace overturn {
 
@@ -77,7 +73,7 @@ public:
         const T noise = dip_of_round_off(slenderness_, T(h * unit_));
         const Mask suspect = active && may_meet<T>(bounds, noise);
         if (any<T>(suspect)) {
-            event = first_event_not_inlined(series, bounds, h, noise, suspect);
+            event = first_event(series, bounds, h, noise, suspect);
             last = last && event.time == h;
             h = event.time;
         }
@@ -92,9 +88,9 @@ public:
                        .broken = active && !((tilt - tilt) + (rate - rate) == 0)};
         const Mask ends_at_event = event.strikes || event.falls;
         if (any<T>(ends_at_event)) {
-            end.tilt = select<T>(ends_at_event, tilt, end.tilt);
-            move_to_event(end, event.strikes, event.falls,
-                          T(slope_of_series(series.rate, h) * (fastest_ * fastest_)), excitation_);
+            const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
+            const StepMotion<T> there{select<T>(ends_at_event, tilt, end.tilt), rate, acceleration};
+            move_to(meeting_near(event, there), end, excitation_);
         }
         const auto taken = [&] {
             return TaylorStep<known_order, T>{known,
@@ -210,14 +206,6 @@ private:
             following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
         const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
         return term * ratio / (1 - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
-    }
-
-    [[gnu::noinline]] FirstEvent<T> first_event_not_inlined(const Series& series,
-                                                            const Enclosure<T>& bounds, const T& h,
-                                                            const T& noise,
-                                                            const Mask& suspect) const
-    {
-        return straight_line<T>([&] { return first_event(series, bounds, h, noise, suspect); });
     }
 
     T slenderness_;
