@@ -143,7 +143,7 @@ bool is_doubtful_after(const Rocking<double>& start, double end_tilt, double end
     const Block<double> block{0.2, 0.9};
     const auto excitation = pulse_excitation<Theory::linear>(
         pulse_motion<double>(PulseKind::one_sine), Block<double>{0.2, 1}, 2.0, 3.0);
-    StepEndWithErrors<double> step{};
+    StepEnd<double, Outputs{.error = true}> step{};
     step.phase = start.phase + 1;
     step.tilt = end_tilt;
     step.rate = end_rate;

@@ -96,7 +96,7 @@ Meeting<T> meeting_near(const FirstEvent<T>& event, const StepMotion<T>& end)
 
 /// Moves the end of a step to a meeting next to it, whose delay is in 1/p.
 template <Number T>
-void move_to(const Meeting<T>& meeting, StepEnd<T>& end, const auto& excitation)
+void move_to(const Meeting<T>& meeting, auto& end, const auto& excitation)
 {
     const T delayed = end.phase + excitation.frequency * meeting.delay;
     end.phase =

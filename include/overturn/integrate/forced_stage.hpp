@@ -12,7 +12,6 @@
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 namespace overturn {
@@ -112,9 +111,9 @@ public:
         }
         if constexpr (outputs.peak) {
             T& peak = end_of_run_.peak;
-            peak = select<T>(moved, greater<T>(step.peak, peak), peak);
+            peak = select<T>(moved, greater<T>(step.extremes.peak, peak), peak);
             T& turn = end_of_run_.lowest_turn;
-            turn = select<T>(moved, lesser<T>(step.lowest_turn, turn), turn);
+            turn = select<T>(moved, lesser<T>(step.extremes.lowest_turn, turn), turn);
         }
         if constexpr (may_watch) {
             if (watch_) {
@@ -421,15 +420,9 @@ private:
     T rate_ratio_; // of an impact on the side on which the block rocks
     T fastest_series_;
 
-    struct NoWatch {};
-    struct NoError {};
-    struct NoEvents {};
-    [[no_unique_address]] std::conditional_t<may_watch, std::optional<ContactWatch<E>>, NoWatch>
-        watch_;
-    [[no_unique_address]] std::conditional_t<outputs.error, MarginError<theory, T>, NoError>
-        margin_error_;
-    [[no_unique_address]] std::conditional_t<outputs.events, std::vector<Event<T>>, NoEvents>
-        events_;
+    [[no_unique_address]] OnlyIf<may_watch, std::optional<ContactWatch<E>>> watch_;
+    [[no_unique_address]] OnlyIf<outputs.error, MarginError<theory, T>> margin_error_;
+    [[no_unique_address]] OnlyIf<outputs.events, std::vector<Event<T>>> events_;
     UncertainImpact uncertain_impact_;
 };
 

@@ -29,7 +29,7 @@ public:
 
     /// Propagates the errors over a step and adds its local errors.
     void pass_step(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
-                   const StepEndWithErrors<T>& step, const Mask& lanes)
+                   const auto& step, const Mask& lanes)
     {
         const E rounding(scalar_t<E>(std::numeric_limits<S>::epsilon()));
         const E end_rate = estimate_of(step.rate);

@@ -77,52 +77,49 @@ public:
         const Mask none = active && !active;
         const StepBounds<T> bounds = bounds_over(series, push, h);
         const Mask suspect = active && may_meet(series, bounds, h);
-        T tilt = value_of_series(series.tilt, h);
-        T rate = value_of_series(series.rate, h);
-        StepEnd<T> end{.phase =
-                           select<T>(h == left, end_of_piece, now.phase + h * samples_per_unit_),
-                       .tilt = select<T>(tilt < 0, 0, tilt),
-                       .rate = rate * time_.per_time,
-                       .moved = active,
-                       .strikes = none,
-                       .falls = none,
-                       .broken = none};
+        const T tilt = value_of_series(series.tilt, h);
+        const T rate = value_of_series(series.rate, h);
+        StepEnd<T, outputs> end;
+        end.phase = select<T>(h == left, end_of_piece, now.phase + h * samples_per_unit_);
+        end.tilt = select<T>(tilt < 0, 0, tilt);
+        end.rate = rate * time_.per_time;
+        end.moved = active;
+        end.strikes = none;
+        end.falls = none;
+        end.broken = none;
         if (any<T>(suspect)) {
             const Meeting<T> meeting =
                 first_meeting(series, bounds, {h, T(0), tilt, rate, none, none}, suspect);
             h = meeting.time;
-            end = end_at(meeting, now, left, end_of_piece);
-            end.moved = active;
+            const T phase = now.phase + (h + meeting.delay) * samples_per_unit_;
+            end.phase = select<T>(h == left && !meeting.happens(), end_of_piece,
+                                  lesser<T>(phase, end_of_piece));
+            end.tilt = select<T>(meeting.tilt < 0, 0, meeting.tilt);
+            end.rate = meeting.rate * time_.per_time;
+            end.strikes = meeting.strikes;
+            end.falls = meeting.falls;
             end.broken = active && !((tilt - tilt) + (rate - rate) == 0);
         }
         // The tilt is nowhere farther from its values at both ends.
         const T aside = bounds.acceleration * h * h * T(S(1) / 8);
-        const auto with_peak = [&](const auto& of_step) {
-            if constexpr (outputs.peak) {
-                const auto& rough = estimate_of(series);
-                const E length = estimate_of(h);
-                see(parts_seen, motion_within(series, push, length));
-                const T most = greater<T>(now.tilt, end.tilt) + aside;
-                const auto at = [&](const E& share) { return motion_at(rough, length, share); };
-                const E peak = highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt),
-                                               estimate_of(most), estimate_of(so_far.peak), at);
-                return StepEndWithPeak<T, std::remove_cvref_t<decltype(of_step)>>{
-                    of_step, T(peak), T(std::numeric_limits<S>::infinity())};
-            } else {
-                return of_step;
-            }
-        };
+        const T highest = greater<T>(now.tilt, end.tilt) + aside;
         if constexpr (outputs.error) {
             const TaylorStep<known_order, T> step{known, time_, h,
-                                                  lesser<T>(now.tilt, end.tilt) - aside,
-                                                  greater<T>(now.tilt, end.tilt) + aside};
+                                                  lesser<T>(now.tilt, end.tilt) - aside, highest};
             const std::array pushes{push.at(T(0)), push.at(T(h * 0.5)), push.at(h)};
-            return with_peak(StepEndWithErrors<T>{
-                end, errors_.of(step, slenderness_, pushes, end,
-                                error_of_estimates(series, E(estimate_of(h))))});
-        } else {
-            return with_peak(end);
+            end.errors = errors_.of(step, slenderness_, pushes, end,
+                                    error_of_estimates(series, E(estimate_of(h))));
         }
+        if constexpr (outputs.peak) {
+            const auto& rough = estimate_of(series);
+            const E length = estimate_of(h);
+            see(parts_seen, motion_within(series, push, length));
+            const auto at = [&](const E& share) { return motion_at(rough, length, share); };
+            const E peak = highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt),
+                                           estimate_of(highest), estimate_of(so_far.peak), at);
+            end.extremes = {T(peak), T(std::numeric_limits<S>::infinity())};
+        }
+        return end;
     }
 
 private:
@@ -141,22 +138,6 @@ private:
                     motion.position, motion.rate * per_step, ground, pushes.slope_over(per_unit)};
             };
         };
-    }
-
-    /// The end of a step at a meeting, without `moved` and `broken`; left: to the end of the piece
-    /// [units].
-    StepEnd<T> end_at(const Meeting<T>& meeting, const Rocking<T>& now, const T& left,
-                      const T& end_of_piece) const
-    {
-        const T phase = now.phase + (meeting.time + meeting.delay) * samples_per_unit_;
-        StepEnd<T> end;
-        end.phase = select<T>(meeting.time == left && !meeting.happens(), end_of_piece,
-                              lesser<T>(phase, end_of_piece));
-        end.tilt = select<T>(meeting.tilt < 0, 0, meeting.tilt);
-        end.rate = meeting.rate * time_.per_time;
-        end.strikes = meeting.strikes;
-        end.falls = meeting.falls;
-        return end;
     }
 
     /// The longest step, in units, of at most `left`: for the last n, rate[n] h^n is at most
@@ -318,10 +299,6 @@ private:
         });
     }
 
-    struct NoErrors {
-        explicit NoErrors(const E&) {}
-    };
-
     T slenderness_;
     Excitation excitation_;
     const T tolerance_;
@@ -329,9 +306,7 @@ private:
     T samples_per_unit_;
     T units_per_sample_;
     E most_allowed_;
-    [[no_unique_address]] std::conditional_t<outputs.error, TaylorErrors<order, theory, T>,
-                                             NoErrors>
-        errors_;
+    [[no_unique_address]] OnlyIf<outputs.error, TaylorErrors<order, theory, T>> errors_;
 };
 
 } // namespace overturn

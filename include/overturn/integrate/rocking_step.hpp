@@ -6,6 +6,9 @@
 #include "overturn/integrate/outputs.hpp"
 #include "overturn/integrate/step.hpp"
 
+#include <limits>
+#include <type_traits>
+
 namespace overturn {
 
 /// The state of a rocking block during the pulse.
@@ -17,8 +20,25 @@ struct Rocking {
     T side;  ///< +1 or -1: the sign of theta
 };
 
-/// The end of a step: after the step size chosen by the stepper, or at the first event before that.
+template <class Part>
+struct Without {
+    Without() = default;
+    explicit Without(const auto&) {}
+};
+/// A part that exists only if it is wanted.
+template <bool wanted, class Part>
+using OnlyIf = std::conditional_t<wanted, Part, Without<Part>>;
+
+/// The extremes of the tilt within a step [rad].
 template <Number T>
+struct StepExtremes {
+    T peak;        ///< the largest tilt
+    T lowest_turn; ///< the tilt at which the block turns outward without an impact; infinite if
+                   ///< it does not turn
+};
+
+/// The end of a step: after the step size chosen by the stepper, or at the first event before that.
+template <Number T, Outputs outputs = Outputs{}>
 struct StepEnd {
     T phase;           ///< exactly the end of the motion if that is reached [rad or samples]
     T tilt;            ///< 0 at an impact, pi/2 at a fall [rad]
@@ -27,20 +47,9 @@ struct StepEnd {
     mask_t<T> strikes; ///< the block strikes the ground at the speed -rate
     mask_t<T> falls;   ///< the tilt has reached pi/2
     mask_t<T> broken;  ///< a number is not finite, and would not be with any other step
-};
 
-/// A step with the output `error`.
-template <Number T>
-struct StepEndWithErrors : StepEnd<T> {
-    StepErrors<T> errors;
-};
-
-/// A step with the output `peak`. End: StepEnd, or StepEndWithErrors.
-template <Number T, class End = StepEnd<T>>
-struct StepEndWithPeak : End {
-    T peak;        ///< the largest tilt within the step [rad]
-    T lowest_turn; ///< the tilt at which the block turns outward without an impact; infinite if
-                   ///< it does not turn [rad]
+    [[no_unique_address]] OnlyIf<outputs.error, StepErrors<T>> errors;
+    [[no_unique_address]] OnlyIf<outputs.peak, StepExtremes<T>> extremes;
 };
 
 /// The largest tilt within a step, or a smaller one if it is not above `so_far` [rad]. most: an

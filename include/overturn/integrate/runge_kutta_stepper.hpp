@@ -5,8 +5,6 @@
 #include "overturn/integrate/first_event.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
-#include <type_traits>
-
 namespace overturn {
 
 /// tolerance: largest local error per step of tilt and rate, over the size of the motion [1].
@@ -28,7 +26,6 @@ public:
         step_size_ = first_step_;
         if constexpr (outputs.error) {
             embedded_share_ = 8 * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
-            sample_ = {T(0), T(0), T(0)};
         }
     }
 
@@ -95,13 +92,14 @@ public:
         const Mask arrived = moved && ends_at_event_;
         ends_at_event_ = event;
         const Mask finite = h * (step.end.position - step.end.position) == 0;
-        StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + phase_step),
-                       .tilt = step.end.position,
-                       .rate = step.end.rate,
-                       .moved = moved,
-                       .strikes = arrived && !arrived,
-                       .falls = arrived && !arrived,
-                       .broken = active && !finite && h < first_step_ * 0x1p-60};
+        StepEnd<T, outputs> end;
+        end.phase = select<T>(last, end_of_piece, now.phase + phase_step);
+        end.tilt = step.end.position;
+        end.rate = step.end.rate;
+        end.moved = moved;
+        end.strikes = arrived && !arrived;
+        end.falls = arrived && !arrived;
+        end.broken = active && !finite && h < first_step_ * 0x1p-60;
         T delay(0);
         if (any<T>(arrived)) {
             const Mask flat = towards_fall_ > 0;
@@ -112,21 +110,20 @@ public:
         }
         if constexpr (outputs.error) {
             const T phase = now.phase + phase_step;
-            const Sample last_sample =
-                sample(now.side, step.end.position, step.end.rate, phase, now.phase);
-            const StepErrors<T> errors = this->errors(now, {start, step, h}, delay, last_sample);
+            const auto end_on = [&](const T& piece) { // the jerk is different on the next piece
+                return sample(now.side, step.end.position, step.end.rate, phase, piece);
+            };
+            const Sample last_sample = end_on(now.phase);
+            end.errors = errors(now, {start, step, h}, delay, last_sample);
             remember(last_sample, moved);
-            if (excitation_.motion.has_kink()) { // the jerk is different on the next piece
-                remember(sample(now.side, step.end.position, step.end.rate, phase, end.phase),
-                         moved);
+            if (excitation_.motion.has_kink()) {
+                remember(end_on(end.phase), moved);
             }
-            return StepEndWithErrors<T>{end, errors};
         } else if constexpr (outputs.peak) {
             see(parts_seen, motion_within({start, step, h}, now, phase_step));
-            return with_extremes({start, step, h}, end, so_far, moved && !arrived);
-        } else {
-            return end;
+            end.extremes = extremes({start, step, h}, end, so_far, moved && !arrived);
         }
+        return end;
     }
 
 private:
@@ -177,8 +174,8 @@ private:
     }
 
     /// turning: the lanes in which the turns of the step count.
-    StepEndWithPeak<T> with_extremes(const TrialStep& trial, const StepEnd<T>& end,
-                                     const auto& so_far, const Mask& turning) const
+    StepExtremes<T> extremes(const TrialStep& trial, const StepEnd<T, outputs>& end,
+                             const auto& so_far, const Mask& turning) const
     {
         const auto& [start, step, h] = trial;
         const Quintic<T> tilt = dense_output(start, step.end, h);
@@ -187,7 +184,7 @@ private:
             return {motion.position, motion.rate * h, motion.acceleration * h * h};
         };
         const TurnsInStep<T> turns(per_step(start), per_step(step.end), T(1));
-        return {end, highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, at),
+        return {highest_tilt<T>(start.position, end.tilt, upper_bound(tilt), so_far.peak, at),
                 lowest_turn<T>(turns, lower_bound(tilt), so_far.lowest_turn, turning, at)};
     }
 
@@ -214,9 +211,9 @@ private:
 
     /// The terms of the equation of motion at one point.
     struct Sample {
-        T acceleration;
-        T jerk; // derivative of the acceleration with respect to tau, along the motion
-        T stiffness;
+        T acceleration = T(0);
+        T jerk = T(0); // derivative of the acceleration with respect to tau, along the motion
+        T stiffness = T(0);
     };
 
     /// At a phase of the smooth piece that contains or begins at the phase `on`.
@@ -344,11 +341,9 @@ private:
     T tail_end_ = T(0);     // phase after which a wavelet is negligible [rad]
     T longest_seen_ = T(0); // longest step that resolves a wavelet [1/p]
 
-    struct Nothing {};
-    [[no_unique_address]] std::conditional_t<outputs.error, Sample, Nothing>
+    [[no_unique_address]] OnlyIf<outputs.error, Sample>
         sample_; // at the beginning of the next step
-    [[no_unique_address]] std::conditional_t<outputs.error, T, Nothing>
-        embedded_share_; // see errors()
+    [[no_unique_address]] OnlyIf<outputs.error, T> embedded_share_; // see errors()
 };
 
 /// Selects Dormand-Prince 5(4).

@@ -81,7 +81,7 @@ public:
     /// pushes: at the beginning, in the middle and at the end of the step. beyond: a bound of the
     /// contribution of the push to the rate beyond the known series [rad per unit].
     StepErrors<T> of(const TaylorStep<known_order, T>& step, const T& slenderness,
-                     const auto& pushes, const StepEnd<T>& end, const E& beyond) const
+                     const auto& pushes, const auto& end, const E& beyond) const
     {
         const auto& known = estimate_of(step.known);
         const E h = estimate_of(step.h);

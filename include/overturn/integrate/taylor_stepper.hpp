@@ -35,10 +35,10 @@ public:
     {
         slenderness_ = block.slenderness;
         excitation_.frequency = frequency;
-        fastest_ = select<T>(frequency > 1, frequency, 1);
-        unit_ = 1 / fastest_;
-        phase_per_unit_ = frequency * unit_;
-        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * unit_));
+        const T fastest = select<T>(frequency > 1, frequency, 1);
+        time_ = {1 / fastest, fastest};
+        phase_per_unit_ = frequency * time_.unit;
+        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * time_.unit));
         if (is_wavelet_) {
             const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
             lost_ = end_of_tail(
@@ -58,8 +58,8 @@ public:
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
-        const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * unit_),
-                                                               slenderness_, push, unit_);
+        const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * time_.unit),
+                                                               slenderness_, push, time_.unit);
         decltype(auto) series = leading<order>(known);
         const T longest = longest_step(now, series);
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
@@ -70,7 +70,7 @@ public:
         const Mask none = active && !active;
         FirstEvent<T> event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
-        const T noise = dip_of_round_off(slenderness_, T(h * unit_));
+        const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
         const Mask suspect = active && may_meet<T>(bounds, noise);
         if (any<T>(suspect)) {
             event = first_event(series, bounds, h, noise, suspect);
@@ -78,40 +78,35 @@ public:
             h = event.time;
         }
         const T tilt = value_of_series(series.tilt, h);
-        const T rate = value_of_series(series.rate, h) * fastest_;
-        StepEnd<T> end{.phase = select<T>(last, end_of_piece, now.phase + h * phase_per_unit_),
-                       .tilt = select<T>(tilt < 0, 0, tilt),
-                       .rate = rate,
-                       .moved = active,
-                       .strikes = none,
-                       .falls = none,
-                       .broken = active && !((tilt - tilt) + (rate - rate) == 0)};
+        const T rate = value_of_series(series.rate, h) * time_.per_time;
+        StepEnd<T, outputs> end;
+        end.phase = select<T>(last, end_of_piece, now.phase + h * phase_per_unit_);
+        end.tilt = select<T>(tilt < 0, 0, tilt);
+        end.rate = rate;
+        end.moved = active;
+        end.strikes = none;
+        end.falls = none;
+        end.broken = active && !((tilt - tilt) + (rate - rate) == 0);
         const Mask ends_at_event = event.strikes || event.falls;
         if (any<T>(ends_at_event)) {
-            const T acceleration = slope_of_series(series.rate, h) * (fastest_ * fastest_);
+            const T acceleration =
+                slope_of_series(series.rate, h) * (time_.per_time * time_.per_time);
             const StepMotion<T> there{select<T>(ends_at_event, tilt, end.tilt), rate, acceleration};
             move_to(meeting_near(event, there), end, excitation_);
         }
-        const auto taken = [&] {
-            return TaylorStep<known_order, T>{known,
-                                              {unit_, fastest_},
-                                              h,
-                                              lower_bound(bounds.lower()),
-                                              upper_bound(bounds.upper())};
-        };
+        const TaylorStep<known_order, T> taken{known, time_, h, lower_bound(bounds.lower()),
+                                               upper_bound(bounds.upper())};
         if constexpr (outputs.error) {
             E beyond = error_of_estimates(series, E(estimate_of(h)));
             if (is_wavelet_) {
                 beyond = beyond + E(estimate_of(left_out_of(push, now.phase, h)));
             }
-            return StepEndWithErrors<T>{
-                end, errors_.of(taken(), slenderness_, pushes_at(now, h, end.phase), end, beyond)};
+            end.errors = errors_.of(taken, slenderness_, pushes_at(now, h, end.phase), end, beyond);
         } else if constexpr (outputs.peak) {
             see(parts_seen, motion_within(series, now, h));
-            return with_extremes(taken(), now, end, so_far, active);
-        } else {
-            return end;
+            end.extremes = extremes(taken, now, end, so_far);
         }
+        return end;
     }
 
 private:
@@ -128,19 +123,19 @@ private:
         };
     }
 
-    StepEndWithPeak<T> with_extremes(const TaylorStep<order, T>& step, const Rocking<T>& now,
-                                     const StepEnd<T>& end, const auto& so_far,
-                                     const Mask& active) const
+    StepExtremes<T> extremes(const TaylorStep<order, T>& step, const Rocking<T>& now,
+                             const StepEnd<T, outputs>& end, const auto& so_far) const
     {
         const Series& series = step.known;
         const T& h = step.h;
         const auto at = [&](const T& share) { return motion_at(series, h, share); };
-        const T per_step = h * unit_;
+        const T per_step = h * time_.unit;
         const TurnsInStep<T> turns(
             {now.tilt, now.rate * per_step, series.rate[1] * h * h},
             {end.tilt, end.rate * per_step, slope_of_series(series.rate, h) * h * h}, T(1));
-        return {end, highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, at),
-                lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, active && !end.strikes, at)};
+        return {
+            highest_tilt<T>(now.tilt, end.tilt, step.highest, so_far.peak, at),
+            lowest_turn<T>(turns, step.lowest, so_far.lowest_turn, end.moved && !end.strikes, at)};
     }
 
     /// The excitation's `acceleration`, positive towards the side of the tilt; 0 once a wavelet
@@ -157,7 +152,7 @@ private:
     T longest_step(const Rocking<T>& now, const Series& series) const
     {
         const T start = now.tilt + abs(now.rate);
-        const T allowed = rough_log2(T(tolerance_ * unit_ * start));
+        const T allowed = rough_log2(T(tolerance_ * time_.unit * start));
         // From rest the rate grows to rate[1] h + rate[2] h^2, and h < 1.
         const T growth = abs(series.rate[1]) + abs(series.rate[2]);
         const T allowed_growing = log2_tolerance_ + rough_log2(growth);
@@ -205,7 +200,7 @@ private:
         const T ratio =
             following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
         const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
-        return term * ratio / (1 - ratio) * h * (unit_ * unit_ * T(S(1) / (last + 2)));
+        return term * ratio / (1 - ratio) * h * (time_.unit * time_.unit * T(S(1) / (last + 2)));
     }
 
     T slenderness_;
@@ -213,17 +208,11 @@ private:
     const bool is_wavelet_;
     const T tolerance_;
     const T log2_tolerance_;
-    T unit_;           // of time: 1/p, or 1/omega_p or about a sample if that is shorter [1/p]
-    T fastest_;        // its reciprocal
-    T phase_per_unit_; // [rad or samples]
+    TimeUnit<T> time_; // 1/p, or 1/omega_p if that is shorter
+    T phase_per_unit_; // [rad]
     T log2_most_allowed_;
     T lost_ = T(0); // see acceleration()
-    struct NoErrors {
-        explicit NoErrors(const E&) {}
-    };
-    [[no_unique_address]] std::conditional_t<outputs.error, TaylorErrors<order, theory, T>,
-                                             NoErrors>
-        errors_;
+    [[no_unique_address]] OnlyIf<outputs.error, TaylorErrors<order, theory, T>> errors_;
 };
 
 } // namespace overturn
