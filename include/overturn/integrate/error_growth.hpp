@@ -41,12 +41,7 @@ class ErrorGrowth {
 public:
     /// Resets the errors: earlier errors do not affect a block at rest, and are meaningless once it
     /// is uncertain whether an event happened.
-    void forget(const Mask& lanes)
-    {
-        tilt_tilt_ = select<T>(lanes, 0, tilt_tilt_);
-        tilt_rate_ = select<T>(lanes, 0, tilt_rate_);
-        rate_rate_ = select<T>(lanes, 0, rate_rate_);
-    }
+    void forget(const Mask& lanes) { set(lanes, 0, 0, 0); }
 
     /// Replaces P by V P V^T and adds the error of V and round-off: if errors shrink in one
     /// direction and grow in another, P is a small difference of large numbers and would be lost to
@@ -67,12 +62,9 @@ public:
         const T lost_rate = round_off * fma(rt * rt, tilt_tilt_, rr * rr * rate_rate_);
         const T time = by.time * by.time;
         const T unsure = by.unsure * by.unsure * fma(time, rate_rate_, tilt_tilt_);
-        tilt_tilt_ =
-            select<T>(lanes, fma(tilt_tilt, tt, fma(tilt_rate, tr, fma(time, unsure, lost_tilt))),
-                      tilt_tilt_);
-        tilt_rate_ = select<T>(lanes, fma(tilt_tilt, rt, tilt_rate * rr), tilt_rate_);
-        rate_rate_ = select<T>(lanes, fma(rate_tilt, rt, fma(rate_rate, rr, lost_rate + unsure)),
-                               rate_rate_);
+        set(lanes, fma(tilt_tilt, tt, fma(tilt_rate, tr, fma(time, unsure, lost_tilt))),
+            fma(tilt_tilt, rt, tilt_rate * rr),
+            fma(rate_tilt, rt, fma(rate_rate, rr, lost_rate + unsure)));
     }
 
     /// Adds the error of a step, at most `tilt` and `rate` in size. The smallest axis-parallel
@@ -93,9 +85,8 @@ public:
         steps_ = select<T>(lanes, steps_ + 1, steps_);
         const T weight = greater<T>(lesser<T>(size, own * steps_), tiny); // w (tilt + rate)
         const T grown = (weight + own) / weight;
-        tilt_tilt_ = select<T>(lanes, fma(grown, tilt_tilt_, (weight + own) * tilt), tilt_tilt_);
-        tilt_rate_ = select<T>(lanes, grown * tilt_rate_, tilt_rate_);
-        rate_rate_ = select<T>(lanes, fma(grown, rate_rate_, (weight + own) * rate), rate_rate_);
+        set(lanes, fma(grown, tilt_tilt_, (weight + own) * tilt), grown * tilt_rate_,
+            fma(grown, rate_rate_, (weight + own) * rate));
     }
 
     /// Adds round-off, whose squares add up because it is random. speed, acceleration: of the
@@ -105,12 +96,8 @@ public:
     {
         const T along = error.time * speed;
         const T faster = error.time * acceleration;
-        const auto sum = [&](const T& to, const T& own, const T& shift) -> T {
-            return select<T>(lanes, to + fma(own, own, shift), to);
-        };
-        tilt_tilt_ = sum(tilt_tilt_, error.tilt, along * along);
-        tilt_rate_ = sum(tilt_rate_, 0, along * faster);
-        rate_rate_ = sum(rate_rate_, error.rate, faster * faster);
+        set(lanes, tilt_tilt_ + fma(error.tilt, error.tilt, along * along),
+            tilt_rate_ + along * faster, rate_rate_ + fma(error.rate, error.rate, faster * faster));
     }
 
     /// The error bound of by_tilt * tilt + by_rate * rate.
@@ -125,6 +112,13 @@ public:
     }
 
 private:
+    void set(const Mask& lanes, const T& tilt_tilt, const T& tilt_rate, const T& rate_rate)
+    {
+        tilt_tilt_ = select<T>(lanes, tilt_tilt, tilt_tilt_);
+        tilt_rate_ = select<T>(lanes, tilt_rate, tilt_rate_);
+        rate_rate_ = select<T>(lanes, rate_rate, rate_rate_);
+    }
+
     T tilt_tilt_ = T(0);
     T tilt_rate_ = T(0);
     T rate_rate_ = T(0);
