@@ -102,7 +102,7 @@ bool bounces_on_to_rest(const AfterImpact<Excitation>& start, double end)
             }
             motion.acceleration = pull(motion.position, phase, side);
             const auto step = runge_kutta_step(motion, h, [&](std::size_t stage, double tilt) {
-                const double node = DormandPrince::node_value<double>(stage);
+                const double node = DormandPrince::node[stage].in<double>();
                 return pull(tilt, phase + node * h * start.excitation.frequency, side);
             });
             motion = step.end;

@@ -26,7 +26,7 @@ Motion50 start()
 Step<Digits50> step_from(const Motion50& motion, const Digits50& t, const Digits50& h)
 {
     return runge_kutta_step(motion, h, [&](std::size_t stage, const Digits50& x) {
-        return acceleration(t + DormandPrince::node_value<Digits50>(stage) * h, x);
+        return acceleration(t + DormandPrince::node[stage].in<Digits50>() * h, x);
     });
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "overturn/integrate/step.hpp"
-#include "overturn/number/unrolled.hpp"
 
 namespace overturn {
 
@@ -100,10 +99,10 @@ Enclosure<T> enclosure(const std::array<T, count>& c, const T& t)
     const T square = t * t;
     const T fourth = square * square;
     Quintic<T> b{c[0],
-                 c[1] * (t * T(value_of<S, Ratio{1, 5}>())),
-                 c[2] * (square * T(value_of<S, Ratio{1, 10}>())),
-                 c[3] * (square * t * T(value_of<S, Ratio{1, 10}>())),
-                 c[4] * (fourth * T(value_of<S, Ratio{1, 5}>())),
+                 c[1] * (t * T(S(1) / 5)),
+                 c[2] * (square * T(S(1) / 10)),
+                 c[3] * (square * t * T(S(1) / 10)),
+                 c[4] * (fourth * T(S(1) / 5)),
                  T(0)};
     for (std::size_t level = 0; level < 5; ++level) {
         for (std::size_t i = 5; i > level; --i) {

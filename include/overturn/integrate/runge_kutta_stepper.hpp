@@ -166,7 +166,8 @@ private:
     {
         return excitation_.motion.with_formula([&](const auto& formula) {
             return runge_kutta_step(start, h, [&](std::size_t stage, const T& tilt) {
-                const T phase = fma(T(DormandPrince::node_value<S>(stage)), phase_step, now.phase);
+                const T phase =
+                    fma(T(DormandPrince::node[stage].template in<S>()), phase_step, now.phase);
                 const T push = now.side * (excitation_.acceleration * formula.value(phase));
                 return rocking_acceleration<theory>(tilt, block_.slenderness, push);
             });

@@ -4,8 +4,7 @@
 
 #include "overturn/integrate/tableau.hpp"
 #include "overturn/number/number.hpp"
-
-#include <utility>
+#include "overturn/number/unrolled.hpp"
 
 namespace overturn {
 
@@ -30,8 +29,8 @@ template <Number T>
 Quintic<T> dense_output(const StepMotion<T>& start, const StepMotion<T>& end, const T& h)
 {
     using S = scalar_t<T>;
-    const T fifth = h * T(value_of<S, Ratio{1, 5}>());
-    const T bend = h * h * T(value_of<S, Ratio{1, 20}>());
+    const T fifth = h * T(S(1) / 5);
+    const T bend = h * h * T(S(1) / 20);
     const T first = fma(fifth, start.rate, start.position);
     const T last = fma(-fifth, end.rate, end.position);
     return {start.position,
@@ -70,19 +69,17 @@ struct Step {
 };
 
 /// The sum of row[j] x[j] over j < count; zeros are skipped.
-template <auto row, std::size_t count, Number T>
+template <auto row, int count, Number T>
 T weighted_sum(const std::array<T, DormandPrince::stages>& x)
 {
     using S = scalar_t<T>;
-    T sum = T(value_of<S, row[0]>()) * x[0];
-    const auto add = [&]<std::size_t j>() {
-        if constexpr (!row[j].is_zero()) {
-            sum = fma(T(value_of<S, row[j]>()), x[j], sum);
+    T sum = T(row[0].template in<S>()) * x[0];
+    unrolled<count - 1>([&]<int i>() {
+        constexpr int j = i + 1;
+        if constexpr (row[j].numerator != 0) {
+            sum = fma(T(row[j].template in<S>()), x[j], sum);
         }
-    };
-    [&]<std::size_t... j>(std::index_sequence<j...>) {
-        (add.template operator()<j + 1>(), ...);
-    }(std::make_index_sequence<count - 1>());
+    });
     return sum;
 }
 
@@ -95,15 +92,12 @@ Step<T> runge_kutta_step(const StepMotion<T>& start, const T& h, const Accelerat
     std::array<T, Table::stages> rate{start.rate};
     std::array<T, Table::stages> pull{start.acceleration};
     T position = start.position;
-    const auto run_stage = [&]<std::size_t i>() {
+    unrolled<Table::stages - 1>([&]<int before>() {
+        constexpr int i = before + 1;
         position = fma(h, weighted_sum<Table::stage[i], i>(rate), start.position);
         rate[i] = fma(h, weighted_sum<Table::stage[i], i>(pull), start.rate);
         pull[i] = acceleration(i, position);
-    };
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-        (run_stage.template operator()<i + 1>(), ...);
-    }(std::make_index_sequence<Table::stages - 1>());
-
+    });
     return {.end = {position, rate[6], pull[6]},
             .position_error = h * weighted_sum<Table::error, 7>(rate),
             .rate_error = h * weighted_sum<Table::error, 7>(pull)};

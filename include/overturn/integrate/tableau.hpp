@@ -11,17 +11,14 @@ struct Ratio {
     std::int64_t numerator = 0;
     std::int64_t denominator = 1;
 
-    constexpr bool is_zero() const { return numerator == 0; }
+    /// Rounded once. Always inlined: kernels must not define functions that the rest of the program
+    /// may use.
+    template <class S>
+    [[gnu::always_inline]] S in() const
+    {
+        return S(numerator) / S(denominator);
+    }
 };
-
-/// A ratio in a scalar type, rounded once. Always inlined: kernels must not define functions that
-/// the rest of the program may use.
-template <class S, Ratio ratio>
-[[gnu::always_inline]] inline const S& value_of()
-{
-    static const S value = S(ratio.numerator) / S(ratio.denominator);
-    return value;
-}
 
 struct DormandPrince {
     static constexpr int stages = 7; ///< the last stage of a step is the first of the next
@@ -29,11 +26,6 @@ struct DormandPrince {
     using Row = std::array<Ratio, stages>;
 
     static constexpr Row node{{{0}, {1, 5}, {3, 10}, {4, 5}, {8, 9}, {1}, {1}}};
-    template <class S>
-    static S node_value(std::size_t stage)
-    {
-        return S(node[stage].numerator) / S(node[stage].denominator);
-    }
 
     /// Stage weights; row 6 holds the weights of the solution of order 5.
     static constexpr std::array<Row, stages> stage{{
