@@ -76,17 +76,13 @@ struct Enclosure {
     Quintic<T> center;
     T slack;
 
-    Quintic<T> lower() const
+    Quintic<T> lower() const { return ending_at(center[5] - slack); }
+    Quintic<T> upper() const { return ending_at(center[5] + slack); }
+
+private:
+    Quintic<T> ending_at(const T& end) const
     {
-        Quintic<T> bound = center;
-        bound[5] = bound[5] - slack;
-        return bound;
-    }
-    Quintic<T> upper() const
-    {
-        Quintic<T> bound = center;
-        bound[5] = bound[5] + slack;
-        return bound;
+        return {center[0], center[1], center[2], center[3], center[4], end};
     }
 };
 
