@@ -96,11 +96,7 @@ public:
     void advance()
     {
         const auto see = [&](int parts, const auto& motion) {
-            if constexpr (may_watch) {
-                if (watch_) {
-                    see_step(parts, motion());
-                }
-            }
+            if_watched([&](auto&) { see_step(parts, motion()); });
         };
         const auto step =
             straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_, see); });
@@ -115,11 +111,7 @@ public:
             T& turn = end_of_run_.lowest_turn;
             turn = select<T>(moved, lesser<T>(step.extremes.lowest_turn, turn), turn);
         }
-        if constexpr (may_watch) {
-            if (watch_) {
-                watch_->take_step(moved);
-            }
-        }
+        if_watched([&](auto& watch) { watch.take_step(moved); });
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
@@ -163,6 +155,16 @@ public:
     }
 
 private:
+    /// Calls visit(watch) if the contact is watched.
+    void if_watched([[maybe_unused]] const auto& visit)
+    {
+        if constexpr (may_watch) {
+            if (watch_) {
+                visit(*watch_);
+            }
+        }
+    }
+
     // Not inlined: these would change what the compiler does with other scenes.
     template <class MotionAt>
     [[gnu::noinline]] void see_step(int parts, const MotionAt& motion_at)
@@ -248,11 +250,7 @@ private:
     {
         const T next = excitation_.next_uplift(lanes, now_.phase, lifted_);
         const Mask lifted = lanes && next < end_;
-        if constexpr (may_watch) {
-            if (watch_) {
-                see_rest(lanes, now_.phase, select<T>(lifted, next, end_));
-            }
-        }
+        if_watched([&](auto&) { see_rest(lanes, now_.phase, select<T>(lifted, next, end_)); });
         if (is_two_sided_) {
             now_.side = select<T>(lanes, sides_->at_rest, now_.side);
         }
@@ -353,11 +351,7 @@ private:
         if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
-        if constexpr (may_watch) {
-            if (watch_ && any<T>(rests)) {
-                rests = ends_series(rests, after.rate);
-            }
-        }
+        if_watched([&](auto&) { rests = any<T>(rests) ? ends_series(rests, after.rate) : rests; });
         if constexpr (outputs.error) {
             margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, {lanes, rests});
         }
