@@ -53,7 +53,8 @@ public:
           stepper_(block, excitation, tolerance),
           now_{T(excitation.motion.begin), T(0), T(0), T(1)},
           lifted_(-std::numeric_limits<S>::infinity()), active_(T(0) == T(0)),
-          is_two_sided_(any<T>(!block.is_symmetric())), rate_ratio_(rate_ratio()),
+          is_two_sided_(any<T>(!block.is_symmetric())), from_plus_(block),
+          frequency_(excitation.frequency), rate_ratio_(block.rate_ratio()),
           fastest_series_(fastest_bounce_series(block, excitation)),
           uncertain_impact_(uncertain_impact)
     {
@@ -78,7 +79,7 @@ public:
             }
         }
         if (is_two_sided_) {
-            prepare_sides();
+            side_at_rest_ = side_of_higher_barrier(block);
         }
         wait_for_uplift(active_);
     }
@@ -136,7 +137,7 @@ public:
         ForcedEnd<T> end = end_of_run_;
         if constexpr (outputs.peak) {
             if (is_two_sided_) {
-                end.peak = end.peak * (sides_->plus.slenderness / block_.slenderness);
+                end.peak = end.peak * (from_plus_.slenderness / block_.slenderness);
             }
         }
         if constexpr (outputs.error) {
@@ -252,7 +253,7 @@ private:
         const Mask lifted = lanes && next < end_;
         if_watched([&](auto&) { see_rest(lanes, now_.phase, select<T>(lifted, next, end_)); });
         if (is_two_sided_) {
-            now_.side = select<T>(lanes, sides_->at_rest, now_.side);
+            now_.side = select<T>(lanes, side_at_rest_, now_.side);
         }
         now_.tilt = select<T>(lanes, 0, now_.tilt);
         now_.rate = select<T>(lanes, 0, now_.rate);
@@ -260,56 +261,42 @@ private:
         lifted_ = select<T>(lifted, next, lifted_);
         const Mask pushed_to_plus = horizontal_of(excitation_.ground(now_.phase)) < 0;
         now_.side = select<T>(lifted, select<T>(pushed_to_plus, 1, -1), now_.side);
-        see_sides();
+        if (is_two_sided_) {
+            change_sides();
+        }
         record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
         stepper_.lift(now_, lifted);
     }
 
-    T rate_ratio() const
+    // Not inlined: these would change what the compiler does with symmetric blocks.
+    [[gnu::noinline, gnu::cold]] static T side_of_higher_barrier(const Block<T>& block)
     {
-        return is_two_sided_ ? block_.rate_ratio() : T(sqrt(block_.restitution));
+        const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+        return select<T>(barrier_ratio<theory>(largest, block) > 1, -1, 1);
     }
 
     /// Sees the blocks from the sides on which they rock now. The peak remains the largest share of
     /// alpha, times the alpha of the side.
-    void see_sides()
-    {
-        if (is_two_sided_) {
-            change_sides();
-        }
-    }
-
-    // Not inlined: these would change what the compiler does with symmetric blocks.
-    [[gnu::noinline, gnu::cold]] void prepare_sides()
-    {
-        const T barriers =
-            barrier_ratio<theory>(separatrix_rate<theory>(T(0), block_.slenderness), block_);
-        sides_ = Sides{.frequency = excitation_.frequency,
-                       .plus = block_,
-                       .minus = block_.turned(),
-                       .at_rest = select<T>(barriers > 1, -1, 1)};
-    }
-
     [[gnu::noinline, gnu::cold]] void change_sides()
     {
-        const Sides& sides = *sides_;
         [[maybe_unused]] const T before = block_.slenderness;
-        const Mask plus = now_.side > 0;
-        const auto seen = [&](auto Block<T>::*member) -> T {
-            return select<T>(plus, sides.plus.*member, sides.minus.*member);
+        const Mask is_plus = now_.side > 0;
+        const Block<T> turned = from_plus_.turned();
+        const auto side_of = [&](const Block<T>& plus, const Block<T>& minus) -> BlockSide<T> {
+            return {select<T>(is_plus, plus.slenderness, minus.slenderness),
+                    select<T>(is_plus, plus.size, minus.size),
+                    select<T>(is_plus, plus.pace, minus.pace)};
         };
-        block_ = {seen(&Block<T>::slenderness), block_.restitution, seen(&Block<T>::size),
-                  seen(&Block<T>::pace)};
-        block_.other = {select<T>(plus, sides.minus.slenderness, sides.plus.slenderness),
-                        select<T>(plus, sides.minus.size, sides.plus.size),
-                        select<T>(plus, sides.minus.pace, sides.plus.pace)};
+        const BlockSide<T> here = side_of(from_plus_, turned);
+        block_ = {here.slenderness, block_.restitution, here.size, here.pace,
+                  side_of(turned, from_plus_)};
         if constexpr (outputs.peak) {
             T& peak = end_of_run_.peak;
             peak = peak * (block_.slenderness / before);
         }
-        rate_ratio_ = rate_ratio();
-        excitation_.frequency = sides.frequency / block_.pace;
+        rate_ratio_ = block_.rate_ratio();
+        excitation_.frequency = frequency_ / block_.pace;
         fastest_series_ = fastest_bounce_series(block_, excitation_);
         stepper_.see_side(block_, excitation_.frequency);
     }
@@ -371,7 +358,9 @@ private:
             T& impacts = end_of_run_.impacts;
             impacts = select<T>(lanes, impacts + 1, impacts);
         }
-        see_sides();
+        if (is_two_sided_) {
+            change_sides();
+        }
         record(EventKind::impact, lanes);
         record(EventKind::rest, rests);
         end_of_run_.rested = end_of_run_.rested || rests;
@@ -389,14 +378,6 @@ private:
         }
     }
 
-    /// What see_sides() needs, if any lane has a block with two different sides.
-    struct Sides {
-        T frequency; ///< of the motion, in the unit of Block::pace
-        Block<T> plus;
-        Block<T> minus;
-        T at_rest; ///< the side of the higher barrier: the margin is smaller there
-    };
-
     Block<T> block_;
     Excitation excitation_;
     const T end_;
@@ -410,8 +391,10 @@ private:
     Mask active_;
     ForcedEnd<T> end_of_run_;
     const bool is_two_sided_;
-    std::optional<Sides> sides_;
-    T rate_ratio_; // of an impact on the side on which the block rocks
+    const Block<T> from_plus_; // the blocks as seen from the side plus
+    const T frequency_;        // of the motion, in the unit of Block::pace
+    T side_at_rest_;           // that of the higher barrier: the margin is smaller there
+    T rate_ratio_;             // of an impact on the side on which the block rocks
     T fastest_series_;
 
     [[no_unique_address]] OnlyIf<may_watch, std::optional<ContactWatch<E>>> watch_;
