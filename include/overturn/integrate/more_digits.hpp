@@ -11,25 +11,15 @@
 
 namespace overturn {
 
-/// How a number type with more digits is used. most_steps: points with more steps bounce for a long
-/// time and are not computed.
+/// How a number type with more digits is used: Digits31, for pulses (under a record, a kernel
+/// integrates in 31 digits), or Digits50, with at least 25 digits at the end of a pulse, after
+/// about a hundred steps of half a millisecond.
 template <class T>
-struct MoreDigits;
-
-/// For pulses; under a record, a kernel integrates in 31 digits.
-template <>
-struct MoreDigits<Digits31> {
-    using Method = Taylor<20>;
-    static constexpr double tolerance = 1e-29;
-    static constexpr int most_steps = 20000;
-};
-
-/// At least 25 digits at the end of a pulse, after about a hundred steps of half a millisecond.
-template <>
-struct MoreDigits<Digits50> {
-    using Method = Taylor<30>;
-    static constexpr double tolerance = 1e-30;
-    static constexpr int most_steps = 2000;
+struct MoreDigits {
+    static constexpr bool are_50 = std::same_as<T, Digits50>;
+    static constexpr double tolerance = are_50 ? 1e-30 : 1e-29;
+    /// Points with more steps bounce for a long time and are not computed.
+    static constexpr int most_steps = are_50 ? 2000 : 20000;
 };
 
 /// Like run_forced_stage(), for one block, with the outputs impacts and error, under a record also
@@ -44,11 +34,10 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
                                 int step_limit = MoreDigits<T>::most_steps)
 {
     constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
-    using Chosen = std::conditional_t<std::same_as<T, Digits50> && is_recorded, Taylor<20>,
-                                      typename MoreDigits<T>::Method>;
-    ForcedStage<Chosen, theory, Outputs{.impacts = true, .error = true, .peak = is_recorded}, T,
-                Excitation>
-        stage(block, excitation, T(tolerance));
+    constexpr int order = MoreDigits<T>::are_50 && !is_recorded ? 30 : 20;
+    constexpr Outputs outputs{.impacts = true, .error = true, .peak = is_recorded};
+    ForcedStage<Taylor<order>, theory, outputs, T, Excitation> stage(block, excitation,
+                                                                     T(tolerance));
     constexpr int steps_between_checks = 16;
     const int limit = step_limit + int(excitation.motion.pieces());
     for (int steps = 0; stage.is_active() && steps < limit; ++steps) {
