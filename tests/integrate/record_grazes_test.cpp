@@ -1,6 +1,6 @@
 // Motions that graze the ground within one interval of a record, planted at a known distance: the
 // series of the motion about its lowest point, in 50 digits, gives the state at the beginning.
-#include "overturn/integrate/taylor.hpp"
+#include "overturn/integrate/record_stepper.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/random_record.hpp"
 

@@ -7,8 +7,9 @@
 #include "overturn/integrate/event.hpp"
 #include "overturn/integrate/forced_end.hpp"
 #include "overturn/integrate/margin_error.hpp"
+#include "overturn/integrate/record_stepper.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
-#include "overturn/integrate/taylor.hpp"
+#include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <optional>
@@ -27,6 +28,22 @@ template <Number T>
 struct Event {
     EventKind kind;
     Rocking<T> rocking;
+};
+
+/// Selects Dormand-Prince 5(4), only for pulses.
+struct RungeKutta {
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+        requires std::same_as<Excitation, PulseExcitation<T>>
+    using Stepper = RungeKuttaStepper<theory, T, outputs>;
+};
+
+/// Selects Taylor series of this order.
+template <int order>
+struct Taylor {
+    template <Theory theory, Number T, Outputs outputs, class Excitation>
+    using Stepper = std::conditional_t<std::same_as<Excitation, PulseExcitation<T>>,
+                                       TaylorStepper<order, theory, T, outputs>,
+                                       RecordStepper<order, theory, T, outputs, Excitation>>;
 };
 
 /// Integrates one block per lane. Method: RungeKutta or Taylor<order>. Excitation: PulseExcitation

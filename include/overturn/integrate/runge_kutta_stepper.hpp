@@ -347,11 +347,4 @@ private:
     [[no_unique_address]] OnlyIf<outputs.error, T> embedded_share_; // see errors()
 };
 
-/// Selects Dormand-Prince 5(4).
-struct RungeKutta {
-    template <Theory theory, Number T, Outputs outputs, class Excitation>
-        requires std::same_as<Excitation, PulseExcitation<T>>
-    using Stepper = RungeKuttaStepper<theory, T, outputs>;
-};
-
 } // namespace overturn
