@@ -42,7 +42,6 @@ public:
         see_side(block, excitation.frequency);
     }
 
-    /// The blocks rock on other sides, of which these are the properties.
     void see_side(const Block<T>& block, const T& frequency)
     {
         slenderness_ = block.slenderness;
@@ -60,9 +59,6 @@ public:
     void lift(const Rocking<T>&, const Mask&) {}
     void turn(const Rocking<T>&, const Mask&) {}
 
-    /// One step in every lane; the results of inactive lanes are meaningless. so_far: the peak of
-    /// the previous steps, if it is an output; see(parts, motion_at): called with the motion within
-    /// the step, see ContactWatch::see_step().
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
               [[maybe_unused]] const auto& see) const
     {

@@ -1,5 +1,9 @@
-// Common types of the two steppers: the state of a rocking block and the end of a step.
-// A stepper integrates the motion on one side; ForcedStage handles impacts, rest and uplift.
+// Common types of the steppers, each of which integrates the motion on one side; ForcedStage
+// handles impacts, rest and uplift. see_side(): the blocks rock on other sides, of which these are
+// the properties. lift(), turn(): a block was lifted, or continues about its other corner. step():
+// one trial step in every lane; the results of inactive lanes are meaningless. so_far: the
+// StepExtremes of previous steps, if they are outputs; see(parts, motion_at): called with the
+// motion within the step, see ContactWatch::see_step().
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"

@@ -29,7 +29,7 @@ public:
         }
     }
 
-    /// The blocks rock on other sides, of which these are the properties, before lift() or turn().
+    /// Before lift() or turn().
     void see_side(const Block<T>& block, const T& frequency)
     {
         block_ = block;
@@ -45,14 +45,13 @@ public:
         }
     }
 
-    /// Uplift: the step size is reset.
+    /// The step size is reset.
     void lift(const Rocking<T>& now, const Mask& lanes)
     {
         step_size_ = select<T>(lanes, first_step_, step_size_);
         turn(now, lanes);
     }
 
-    /// The block continues to rock about its other corner.
     void turn(const Rocking<T>& now, const Mask& lanes)
     {
         const T push = now.side * excitation_.ground(now.phase);
@@ -63,9 +62,6 @@ public:
         }
     }
 
-    /// One trial step in every lane; the results of inactive lanes are meaningless. so_far: peak
-    /// and lowest turn of the previous steps, if they are outputs; see(parts, motion_at): called
-    /// with the motion within the step, see ContactWatch::see_step().
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
               [[maybe_unused]] const auto& see)
     {
