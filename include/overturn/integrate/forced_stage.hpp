@@ -360,7 +360,7 @@ private:
             margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, {lanes, rests});
         }
         // For filling, which is for pulses only.
-        if constexpr (outputs.peak && std::same_as<Excitation, PulseExcitation<T>>) {
+        if constexpr (outputs.peak && !is_recorded) {
             const T push = now_.side * excitation_.ground(now_.phase);
             const Mask outward = rocking_acceleration<theory>(T(0), block_.slenderness, push) > 0;
             T& softest = end_of_run_.softest_impact;

@@ -19,26 +19,26 @@ class RungeKuttaStepper {
 public:
     RungeKuttaStepper(const Block<T>& block, const PulseExcitation<T>& excitation,
                       const S& tolerance)
-        : block_(block), excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
+        : excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
           tolerance_(tolerance)
     {
         see_side(block, excitation.frequency);
         step_size_ = first_step_;
         if constexpr (outputs.error) {
-            embedded_share_ = 8 * rough_power_of_two(T(rough_log2(T(tolerance)) * T(S(2) / 5)));
+            embedded_share_ = 8 * rough_power_of_two(T(rough_log2(tolerance_) * T(S(2) / 5)));
         }
     }
 
     /// Before lift() or turn().
     void see_side(const Block<T>& block, const T& frequency)
     {
-        block_ = block;
+        slenderness_ = block.slenderness;
         excitation_.frequency = frequency;
         const T fastest = select<T>(frequency > 1, frequency, 1);
-        first_step_ = step_error_power(T(tolerance_)) / fastest;
+        first_step_ = step_error_power(tolerance_) / fastest;
         if (is_wavelet_) {
             longest_seen_ = T(longest_angle) / frequency;
-            const T negligible = T(tolerance_) * T(S(1) / 128) * block.slenderness;
+            const T negligible = tolerance_ * T(S(1) / 128) * slenderness_;
             tail_end_ = end_of_tail(
                 excitation_.motion.pulse,
                 T(rough_log2(negligible) - rough_log2(T(abs(excitation_.acceleration)))));
@@ -55,7 +55,7 @@ public:
     void turn(const Rocking<T>& now, const Mask& lanes)
     {
         const T push = now.side * excitation_.ground(now.phase);
-        const T acceleration = rocking_acceleration<theory>(now.tilt, block_.slenderness, push);
+        const T acceleration = rocking_acceleration<theory>(now.tilt, slenderness_, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
         if constexpr (outputs.error) {
             remember(sample(now.side, now.tilt, now.rate, now.phase, now.phase), lanes);
@@ -165,7 +165,7 @@ private:
                 const T phase =
                     fma(T(DormandPrince::node[stage].template in<S>()), phase_step, now.phase);
                 const T push = now.side * (excitation_.acceleration * formula.value(phase));
-                return rocking_acceleration<theory>(tilt, block_.slenderness, push);
+                return rocking_acceleration<theory>(tilt, slenderness_, push);
             });
         });
     }
@@ -192,12 +192,12 @@ private:
     /// bounces would propagate this error.
     T relative_error(const Step<T>& step, const T& h) const
     {
-        const T& alpha = block_.slenderness;
+        const T& alpha = slenderness_;
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
         const T size = lesser<T>(tilt + rate, alpha);
         const T round_off = T(16 * std::numeric_limits<S>::epsilon()) * fma(alpha, h, tilt + rate);
-        const T allowed = fma(T(tolerance_), size, round_off);
+        const T allowed = fma(tolerance_, size, round_off);
         const T position_error = abs(step.position_error);
         const T rate_error = abs(step.rate_error);
         // Written so that NaN propagates.
@@ -218,12 +218,12 @@ private:
     {
         const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
                                                                 phase, excitation_.frequency, on);
-        const T stiffness = rocking_stiffness<theory>(tilt, block_.slenderness, push[0]);
+        const T stiffness = rocking_stiffness<theory>(tilt, slenderness_, push[0]);
         T lever(1); // of the push
         if constexpr (theory == Theory::nonlinear) {
-            lever = sine_and_cosine(T(block_.slenderness - tilt)).cosine;
+            lever = sine_and_cosine(T(slenderness_ - tilt)).cosine;
         }
-        return {rocking_acceleration<theory>(tilt, block_.slenderness, push[0]),
+        return {rocking_acceleration<theory>(tilt, slenderness_, push[0]),
                 fma(stiffness, rate, -push[1] * lever), stiffness};
     }
 
@@ -299,7 +299,7 @@ private:
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
-                .turning_tilt = turning_tilt<T>(block_.slenderness, turns, lower_bound(tilt),
+                .turning_tilt = turning_tilt<T>(slenderness_, turns, lower_bound(tilt),
                                                 upper_bound(tilt), tilt_at_turn)};
     }
 
@@ -307,7 +307,7 @@ private:
     /// step ends at it.
     Mask find_event(const StepMotion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
-        const T noise = dip_of_round_off(block_.slenderness, h);
+        const T noise = dip_of_round_off(slenderness_, h);
         const Quintic<T> tilt = dense_output(start, step.end, h);
         const Mask suspect =
             lanes && (lower_bound(tilt) < -noise || T(pi<S>() / 2) - upper_bound(tilt) < -noise);
@@ -324,10 +324,10 @@ private:
         return event;
     }
 
-    Block<T> block_;
+    T slenderness_;
     PulseExcitation<T> excitation_;
     const bool is_wavelet_;
-    const S tolerance_;
+    const T tolerance_;
     T first_step_;
 
     T acceleration_ = T(0); // at the beginning of the next step
