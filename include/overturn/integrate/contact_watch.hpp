@@ -35,10 +35,10 @@ public:
     }
 
     /// The trial of a step on a side. start: the tilt at its beginning [rad]; motion_at(share)
-    /// returns the MovingBlock at a share of the step.
-    template <class MotionAt>
-    void see_step(const T& side, const T& slenderness, const T& start, int parts,
-                  const MotionAt& motion_at)
+    /// returns the MovingBlock at a share of the step. Not inlined: it would change what the
+    /// compiler does with other scenes.
+    [[gnu::noinline]] void see_step(const T& side, const T& slenderness, const T& start, int parts,
+                                    const auto& motion_at)
     {
         const ContactSide<T> seen = sides_.seen_from(side);
         const auto force_at = [&](const T& share) {

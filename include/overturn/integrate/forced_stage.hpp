@@ -114,7 +114,10 @@ public:
     void advance()
     {
         const auto see = [&](int parts, const auto& motion) {
-            if_watched([&](auto&) { see_step(parts, motion()); });
+            if_watched([&](auto& watch) {
+                watch.see_step(estimate_of(now_.side), estimate_of(block_.slenderness),
+                               estimate_of(now_.tilt), parts, motion());
+            });
         };
         const auto step =
             straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_, see); });
@@ -181,14 +184,6 @@ private:
                 visit(*watch_);
             }
         }
-    }
-
-    // Not inlined: these would change what the compiler does with other scenes.
-    template <class MotionAt>
-    [[gnu::noinline]] void see_step(int parts, const MotionAt& motion_at)
-    {
-        watch_->see_step(estimate_of(now_.side), estimate_of(block_.slenderness),
-                         estimate_of(now_.tilt), parts, motion_at);
     }
 
     /// Whether the rest of a series of bounces that dies out, of which the first has this rate,
