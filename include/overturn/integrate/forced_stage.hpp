@@ -352,7 +352,7 @@ private:
         }
         if_watched([&](auto&) { rests = any<T>(rests) ? ends_series(rests, after.rate) : rests; });
         if constexpr (outputs.error) {
-            margin_error_.pass_impact(block_, rate_ratio_, excitation_, now_, {lanes, rests});
+            margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
         }
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && !is_recorded) {

@@ -15,12 +15,6 @@ class MarginError {
     using Mask = mask_t<T>;
 
 public:
-    /// The lanes that strike the ground, and those of them that come to rest.
-    struct Struck {
-        Mask lanes;
-        Mask rests;
-    };
-
     /// Whether it is uncertain that an event has happened, so that the error is unknown.
     const Mask& is_doubtful() const { return doubtful_; }
 
@@ -66,11 +60,11 @@ public:
     /// below 1/64 where a series of bounces dies out. A block that stood on its edge for a long
     /// time before it came back may also have overturned: its distance from the top has grown since
     /// then, as has its error, which must still be small compared with alpha.
-    /// block: as seen from the side of `now`, before the impact.
-    void pass_impact(const Block<T>& block, const T& rate_ratio, const auto& excitation,
-                     const Rocking<T>& now, const Struck& struck)
+    /// block: as seen from the side of `now`, before the impact of these lanes. rests: those of
+    /// them that come to rest.
+    void pass_impact(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
+                     const Mask& lanes, const Mask& rests)
     {
-        const auto& [lanes, rests] = struck;
         const auto push = now.side * excitation.ground(now.phase);
         const T before = rocking_acceleration<theory>(T(0), block.slenderness, push);
         const T after = rocking_acceleration<theory>(T(0), block.other.slenderness, T(-1) * push);
@@ -82,7 +76,7 @@ public:
         doubtful_ = doubtful_ || (lanes && !(known && now.rate < 0));
         growth_.forget(doubtful_); // it would only grow until it overflows
         const T pace = block.other.pace / block.pace;
-        growth_.pass(variation_over_impact<E>(estimate_of(rate_ratio), estimate_of(pace),
+        growth_.pass(variation_over_impact<E>(estimate_of(block.rate_ratio()), estimate_of(pace),
                                               estimate_of(speed), estimate_of(before),
                                               estimate_of(after)),
                      lanes);
