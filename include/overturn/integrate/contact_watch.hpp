@@ -15,9 +15,8 @@ MovingBlock<T, T> moving_block(const PulseExcitation<T>& excitation, const Rocki
                                const T& phase_step, const T& share, const StepMotion<T>& motion)
 {
     const T& frequency = excitation.frequency;
-    const auto push = excitation.motion.template series<2>(T(now.side * excitation.acceleration),
-                                                           T(now.phase + share * phase_step),
-                                                           frequency, now.phase);
+    const auto push = excitation.motion.template series<2>(
+        now.side * excitation.acceleration, now.phase + share * phase_step, frequency, now.phase);
     const T steps_per_time = frequency / select<T>(phase_step > 0, phase_step, 1);
     return {motion.position, motion.rate * steps_per_time, push[0], push[1]};
 }

@@ -20,7 +20,7 @@ StepMotion<T> motion_at(const RockingSeries<order, T>& series, const T& time)
 template <int order, Number T>
 StepMotion<T> motion_at(const RockingSeries<order, T>& series, const T& h, const T& share)
 {
-    const auto [tilt, rate, acceleration] = motion_at(series, T(share * h));
+    const auto [tilt, rate, acceleration] = motion_at(series, share * h);
     return {tilt, rate * h, acceleration * h * h};
 }
 

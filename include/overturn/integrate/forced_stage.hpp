@@ -219,7 +219,7 @@ private:
         const T end = select<T>(ends, lesser<T>(now_.phase + duration, end_), now_.phase);
         for (const T& phase : {now_.phase, end}) {
             see(phase, block_, now_.side);
-            see(phase, other, T(-now_.side));
+            see(phase, other, -now_.side);
         }
         return ends;
     }
@@ -234,7 +234,7 @@ private:
                 const auto push = estimate_of(excitation_.ground(phase));
                 watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
             };
-            for (T phase = first; any<T>(lanes && phase < last); phase = T(floor(phase)) + 1) {
+            for (T phase = first; any<T>(lanes && phase < last); phase = floor(phase) + 1) {
                 see(phase, lanes && phase < last);
             }
             see(last, lanes);
@@ -341,7 +341,7 @@ private:
     {
         const State<T> after = state_after_impact<T>({T(0), now_.rate, now_.side}, rate_ratio_);
         // As measured on the side from which the block strikes, see bounces_die_out().
-        const T rate = is_two_sided_ ? T(sqrt(block_.restitution) * -now_.rate) : after.rate;
+        const T rate = is_two_sided_ ? sqrt(block_.restitution) * -now_.rate : after.rate;
         Mask rests = lanes && rate <= fastest_series_;
         if (any<T>(rests)) {
             rests =

@@ -27,20 +27,18 @@ public:
     {
         const E rounding(scalar_t<E>(std::numeric_limits<S>::epsilon()));
         const E end_rate = estimate_of(step.rate);
-        const E rate = abs(E(estimate_of(now.rate))) + abs(end_rate);
-        const E acceleration =
-            estimate_of(T(excitation.largest_acceleration() + block.slenderness));
+        const E rate = abs(estimate_of(now.rate)) + abs(end_rate);
+        const E acceleration = estimate_of(excitation.largest_acceleration() + block.slenderness);
         // A constant rounding error, e.g. that of the peak of the pulse, adds up; those of the
         // phase and the state are random.
         const E frequency = estimate_of(excitation.frequency);
-        const E duration = E(estimate_of(T(step.phase - now.phase))) / frequency;
-        const E late = abs(E(estimate_of(step.phase))) / frequency;
+        const E duration = estimate_of(step.phase - now.phase) / frequency;
+        const E late = abs(estimate_of(step.phase)) / frequency;
         growth_.pass(step.errors.variation, lanes);
         growth_.add(fma(rounding * duration, rate, step.errors.tilt),
                     fma(rounding * duration, acceleration + acceleration, step.errors.rate), lanes);
-        growth_.add_round_off(
-            {rounding * E(estimate_of(step.tilt)), rounding * rate, rounding * late}, end_rate,
-            step.errors.acceleration, lanes);
+        growth_.add_round_off({rounding * estimate_of(step.tilt), rounding * rate, rounding * late},
+                              end_rate, step.errors.acceleration, lanes);
 
         // A block that turned closer to the ground, or to pi/2, than its error may have reached it.
         const T turn = step.errors.turning_tilt;
@@ -69,7 +67,7 @@ public:
         const T before = rocking_acceleration<theory>(T(0), block.slenderness, push);
         const T after = rocking_acceleration<theory>(T(0), block.other.slenderness, T(-1) * push);
         const T speed = select<T>(lanes && now.rate < 0, -now.rate, 1);
-        const T square_error = bound(T(before + before), T(speed + speed));
+        const T square_error = bound(before + before, speed + speed);
         const T share = select<T>(rests, 64, 4);
         const T radius = bound(1, 0);
         const Mask known = share * square_error < speed * speed && 4 * radius < block.slenderness;
@@ -104,7 +102,7 @@ public:
         const auto push = now.side * excitation.ground(now.phase);
         const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
         const T lying =
-            (bound(T(pull + pull), T(now.rate + now.rate)) + roundings() * now.rate * now.rate) /
+            (bound(pull + pull, now.rate + now.rate) + roundings() * now.rate * now.rate) /
             (largest * largest);
         // Whether it is uncertain that the block falls before the pulse ends.
         const T left = (excitation.motion.end - now.phase) / excitation.frequency;
@@ -172,7 +170,7 @@ private:
         const auto with_gradient = [&](const T& c) -> T {
             const T limit = inward.limit_at(c);
             const T gradient = c / select<T>(limit > 0, limit, at.largest);
-            return bound(T(at.slope * gradient), 1);
+            return bound(at.slope * gradient, 1);
         };
         const T error =
             greater<T>(with_gradient(at.c - at.radius), with_gradient(at.c + at.radius));
@@ -190,10 +188,10 @@ private:
         const T low = inward.signed_root(inward.square_at(at.c - at.radius) - lost);
         const T high = inward.signed_root(inward.square_at(at.c + at.radius) + lost);
         const auto with_gradient = [&](const T& c, const T& limit) -> T {
-            const T divisor = select<T>(limit == 0, at.largest, T(abs(limit)));
+            const T divisor = select<T>(limit == 0, at.largest, abs(limit));
             const T gradient = abs(c) / divisor;
-            const T inwards = bound(T(at.slope * gradient), 1);
-            const T outwards = bound(T(at.slope * gradient), -1);
+            const T inwards = bound(at.slope * gradient, 1);
+            const T outwards = bound(at.slope * gradient, -1);
             const T of_rate = bound(0, 1);
             return lost / divisor +
                    select<T>(rate > of_rate, outwards,

@@ -30,10 +30,9 @@ T sum_of_small_powers(const T& t, const Term& term)
     constexpr int full = full_terms<T, first + count>;
     if constexpr (full < first + count) {
         using E = estimate_t<T>;
-        const T rest(
-            sum_of_powers<full, first + count - full>(E(estimate_of(t)), [&]<int k>() -> E {
-                return estimate_of(term.template operator()<k>());
-            }));
+        const T rest(sum_of_powers<full, first + count - full>(estimate_of(t), [&]<int k>() -> E {
+            return estimate_of(term.template operator()<k>());
+        }));
         return sum_of_powers<first, full - first + 1>(t, [&]<int k>() -> T {
             if constexpr (k < full) {
                 return term.template operator()<k>();

@@ -37,7 +37,7 @@ public:
         : excitation_(excitation),
           tolerance_(double(tolerance) < loosest_record_tolerance ? tolerance
                                                                   : S(loosest_record_tolerance)),
-          errors_(estimate_of(T(rough_log2(tolerance_))))
+          errors_(estimate_of(rough_log2(tolerance_)))
     {
         see_side(block, excitation.frequency);
     }
@@ -49,11 +49,11 @@ public:
         // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
         // change by the same share of epsilon in each of thousands of steps, and the error would
         // exceed its bound, in which round-off is random.
-        const T fastest = power_of_two_below(T(select<T>(frequency > 1, frequency, 1)));
+        const T fastest = power_of_two_below(select<T>(frequency > 1, frequency, 1));
         time_ = {1 / fastest, fastest};
         samples_per_unit_ = frequency * time_.unit;
         units_per_sample_ = 1 / samples_per_unit_;
-        most_allowed_ = estimate_of(T(tolerance_ * slenderness_ * time_.unit));
+        most_allowed_ = estimate_of(tolerance_ * slenderness_ * time_.unit);
     }
 
     void lift(const Rocking<T>&, const Mask&) {}
@@ -65,7 +65,7 @@ public:
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
                                                          now.phase, samples_per_unit_);
-        const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * time_.unit),
+        const auto known = rocking_series<theory, known_order>(now.tilt, now.rate * time_.unit,
                                                                slenderness_, push, time_.unit);
         decltype(auto) series = leading<order>(known);
         const T left = (end_of_piece - now.phase) * units_per_sample_;
@@ -102,9 +102,9 @@ public:
         if constexpr (outputs.error) {
             const TaylorStep<known_order, T> step{known, time_, h,
                                                   lesser<T>(now.tilt, end.tilt) - aside, highest};
-            const std::array pushes{push.at(T(0)), push.at(T(h * 0.5)), push.at(h)};
+            const std::array pushes{push.at(T(0)), push.at(h * 0.5), push.at(h)};
             end.errors = errors_.of(step, slenderness_, pushes, end,
-                                    error_of_estimates(series, E(estimate_of(h))));
+                                    error_of_estimates(series, estimate_of(h)));
         }
         if constexpr (outputs.peak) {
             const auto& rough = estimate_of(series);
@@ -126,10 +126,10 @@ private:
     {
         return [&, this] {
             return [rough = estimate_of(series), pushes = estimate_of(push), length,
-                    per_unit = E(estimate_of(time_.per_time))](const E& share) {
+                    per_unit = estimate_of(time_.per_time)](const E& share) {
                 const E per_step = per_unit / select<E>(length > 0, length, 1);
                 const StepMotion<E> motion = motion_at(rough, length, share);
-                const auto ground = pushes.at(E(share * length));
+                const auto ground = pushes.at(share * length);
                 return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
                     motion.position, motion.rate * per_step, ground, pushes.slope_over(per_unit)};
             };
@@ -142,11 +142,10 @@ private:
     T longest_step(const Rocking<T>& now, const Series& series, const T& left,
                    const Mask& active) const
     {
-        const E tolerance = estimate_of(T(tolerance_));
-        const E speed = estimate_of(T(abs(now.rate)));
-        const E at_start =
-            tolerance * E(estimate_of(time_.unit)) * (E(estimate_of(now.tilt)) + speed);
-        const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
+        const E tolerance = estimate_of(tolerance_);
+        const E speed = estimate_of(abs(now.rate));
+        const E at_start = tolerance * estimate_of(time_.unit) * (estimate_of(now.tilt) + speed);
+        const auto size_of = [&](int k) -> E { return abs(estimate_of(series.rate[k])); };
         // From rest the rate grows to rate[1] h + rate[2] h^2, and h <= 1.
         const E growth = tolerance * (size_of(1) + size_of(2));
         T length = left;
@@ -154,8 +153,8 @@ private:
             const E h = estimate_of(length);
             E term = size_of(order);
             unrolled<last_terms - 1>(
-                [&]<int i>() { term = greater<E>(E(term * h), size_of(order - 1 - i)); });
-            const E allowed = lesser<E>(greater<E>(at_start, E(growth * (h * h))), most_allowed_);
+                [&]<int i>() { term = greater<E>(term * h, size_of(order - 1 - i)); });
+            const E allowed = lesser<E>(greater<E>(at_start, growth * (h * h)), most_allowed_);
             E largest = term * power<order + 1 - last_terms>(h);
             if constexpr (full_terms<T, order + 1> <= order) {
                 largest = greater<E>(largest, error_of_estimates(series, h));
@@ -214,7 +213,7 @@ private:
                              const Mask& suspect) const
     {
         const T h = meeting.time;
-        const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
+        const T noise = dip_of_round_off(slenderness_, h * time_.unit);
         const T& start = series.rate[0];
         const StepMotion<T> end{meeting.tilt, meeting.rate, slope_of_series(series.rate, h)};
         // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
@@ -274,7 +273,7 @@ private:
             if (!any<T>(open)) {
                 break;
             }
-            time = within(T(time + found.delay));
+            time = within(time + found.delay);
         }
         meeting.strikes = meeting.strikes && !open;
         return open;

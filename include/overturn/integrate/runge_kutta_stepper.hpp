@@ -25,7 +25,7 @@ public:
         see_side(block, excitation.frequency);
         step_size_ = first_step_;
         if constexpr (outputs.error) {
-            embedded_share_ = 8 * rough_power_of_two(T(rough_log2(tolerance_) * T(S(2) / 5)));
+            embedded_share_ = 8 * rough_power_of_two(rough_log2(tolerance_) * T(S(2) / 5));
         }
     }
 
@@ -39,9 +39,9 @@ public:
         if (is_wavelet_) {
             longest_seen_ = T(longest_angle) / frequency;
             const T negligible = tolerance_ * T(S(1) / 128) * slenderness_;
-            tail_end_ = end_of_tail(
-                excitation_.motion.pulse,
-                T(rough_log2(negligible) - rough_log2(T(abs(excitation_.acceleration)))));
+            tail_end_ =
+                end_of_tail(excitation_.motion.pulse,
+                            rough_log2(negligible) - rough_log2(abs(excitation_.acceleration)));
         }
     }
 
@@ -216,12 +216,12 @@ private:
     /// At a phase of the smooth piece that contains or begins at the phase `on`.
     Sample sample(const T& side, const T& tilt, const T& rate, const T& phase, const T& on) const
     {
-        const auto push = excitation_.motion.template series<2>(T(side * excitation_.acceleration),
+        const auto push = excitation_.motion.template series<2>(side * excitation_.acceleration,
                                                                 phase, excitation_.frequency, on);
         const T stiffness = rocking_stiffness<theory>(tilt, slenderness_, push[0]);
         T lever(1); // of the push
         if constexpr (theory == Theory::nonlinear) {
-            lever = sine_and_cosine(T(slenderness_ - tilt)).cosine;
+            lever = sine_and_cosine(slenderness_ - tilt).cosine;
         }
         return {rocking_acceleration<theory>(tilt, slenderness_, push[0]),
                 fma(stiffness, rate, -push[1] * lever), stiffness};

@@ -48,10 +48,10 @@ estimate_t<T> error_of_estimates(const RockingSeries<order, T>& series, const es
     if constexpr (first > order) {
         return E(0);
     } else {
-        const auto size_of = [&](int k) -> E { return abs(E(estimate_of(series.rate[k]))); };
-        const E terms = greater<E>(E(size_of(first - 1) * E(1.0 / 16)), E(size_of(first) * h));
+        const auto size_of = [&](int k) -> E { return abs(estimate_of(series.rate[k])); };
+        const E terms = greater<E>(size_of(first - 1) * E(1.0 / 16), size_of(first) * h);
         return E(16 * std::numeric_limits<scalar_t<E>>::epsilon()) * power<first - 1>(h) *
-               greater<E>(terms, E(size_of(first + 1) * (h * h)));
+               greater<E>(terms, size_of(first + 1) * (h * h));
     }
 }
 
@@ -89,12 +89,12 @@ public:
         const E per_time = estimate_of(step.time.per_time);
         const E left_out = truncation_error(known, h, beyond);
         const auto stiffness = [&](const E& tilt, const auto& push) -> E {
-            return rocking_stiffness<theory>(tilt, E(estimate_of(slenderness)), estimate_of(push));
+            return rocking_stiffness<theory>(tilt, estimate_of(slenderness), estimate_of(push));
         };
         decltype(auto) series = leading<order>(step.known);
         const auto& rough = estimate_of(series);
         const auto tilt_at_turn = [&](const Mask& turns, const T& share) -> T {
-            E time = h * E(estimate_of(share));
+            E time = h * estimate_of(share);
             for (int i = 0; i < 3; ++i) { // Newton's method; the estimate alone would be too rough
                 const E slope = slope_of_series(rough.rate, time);
                 const E newton = time - value_of_series(rough.rate, time) /
@@ -111,7 +111,7 @@ public:
                                    {end.tilt, end.rate * step.time.unit, T(acceleration)}, step.h);
         return {.variation = variation_over<E>(
                     lesser<E>(duration, longest), stiffness(known.tilt[0], pushes[0]),
-                    stiffness(value_of_series(rough.tilt, E(h * 0.5)), pushes[1]),
+                    stiffness(value_of_series(rough.tilt, h * 0.5), pushes[1]),
                     stiffness(estimate_of(end.tilt), pushes[2])),
                 .tilt = left_out * h * E(S(1) / (order + 2)),
                 .rate = fma(left_out, per_time, unknown),
@@ -146,7 +146,7 @@ private:
             if constexpr (k > order) {
                 next = next + term;
             } else {
-                following = greater<E>(following, E(term * following_per_[i]));
+                following = greater<E>(following, term * following_per_[i]);
             }
         });
         const E sum = next + following;

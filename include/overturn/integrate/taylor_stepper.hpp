@@ -37,12 +37,11 @@ public:
         const T fastest = select<T>(frequency > 1, frequency, 1);
         time_ = {1 / fastest, fastest};
         phase_per_unit_ = frequency * time_.unit;
-        log2_most_allowed_ = rough_log2(T(tolerance_ * slenderness_ * time_.unit));
+        log2_most_allowed_ = rough_log2(tolerance_ * slenderness_ * time_.unit);
         if (is_wavelet_) {
             const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
-            lost_ = end_of_tail(
-                excitation_.motion.pulse,
-                T(rough_log2(round_off) - rough_log2(T(abs(excitation_.acceleration)))));
+            lost_ = end_of_tail(excitation_.motion.pulse,
+                                rough_log2(round_off) - rough_log2(abs(excitation_.acceleration)));
         }
     }
 
@@ -54,7 +53,7 @@ public:
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
-        const auto known = rocking_series<theory, known_order>(now.tilt, T(now.rate * time_.unit),
+        const auto known = rocking_series<theory, known_order>(now.tilt, now.rate * time_.unit,
                                                                slenderness_, push, time_.unit);
         decltype(auto) series = leading<order>(known);
         const T longest = longest_step(now, series);
@@ -66,7 +65,7 @@ public:
         const Mask none = active && !active;
         FirstEvent<T> event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
-        const T noise = dip_of_round_off(slenderness_, T(h * time_.unit));
+        const T noise = dip_of_round_off(slenderness_, h * time_.unit);
         const Mask suspect = active && may_meet<T>(bounds, noise);
         if (any<T>(suspect)) {
             event = first_event(series, bounds, h, noise, suspect);
@@ -93,9 +92,9 @@ public:
         const TaylorStep<known_order, T> taken{known, time_, h, lower_bound(bounds.lower()),
                                                upper_bound(bounds.upper())};
         if constexpr (outputs.error) {
-            E beyond = error_of_estimates(series, E(estimate_of(h)));
+            E beyond = error_of_estimates(series, estimate_of(h));
             if (is_wavelet_) {
-                beyond = beyond + E(estimate_of(left_out_of(push, now.phase, h)));
+                beyond = beyond + estimate_of(left_out_of(push, now.phase, h));
             }
             end.errors = errors_.of(taken, slenderness_, pushes_at(now, h, end.phase), end, beyond);
         } else if constexpr (outputs.peak) {
@@ -113,7 +112,7 @@ private:
     {
         return [&, this] {
             return [this, &now, series, h](const T& share) {
-                return moving_block(excitation_, now, T(h * phase_per_unit_), share,
+                return moving_block(excitation_, now, h * phase_per_unit_, share,
                                     motion_at(series, h, share));
             };
         };
@@ -148,12 +147,12 @@ private:
     T longest_step(const Rocking<T>& now, const Series& series) const
     {
         const T start = now.tilt + abs(now.rate);
-        const T allowed = rough_log2(T(tolerance_ * time_.unit * start));
+        const T allowed = rough_log2(tolerance_ * time_.unit * start);
         // From rest the rate grows to rate[1] h + rate[2] h^2, and h < 1.
         const T growth = abs(series.rate[1]) + abs(series.rate[2]);
         const T allowed_growing = log2_tolerance_ + rough_log2(growth);
         const auto log2_longest = [&]<int n>() -> T {
-            const T last = rough_log2(T(abs(series.rate[n])));
+            const T last = rough_log2(abs(series.rate[n]));
             const T at_start = (allowed - last) * T(S(1) / n);
             const T growing = (allowed_growing - last) * T(S(1) / (n - 2));
             const T at_most = (log2_most_allowed_ - last) * T(S(1) / n);
@@ -194,8 +193,8 @@ private:
         T power = h;
         unrolled<last - 2>([&]<int>() { power = power * h; });
         const T ratio =
-            following_ratio<known_order>(excitation_.motion.pulse, phase, T(phase_per_unit_ * h));
-        const T term = greater<T>(abs(push[last]) * h, T(ratio * abs(push[last - 1]))) * power;
+            following_ratio<known_order>(excitation_.motion.pulse, phase, phase_per_unit_ * h);
+        const T term = greater<T>(abs(push[last]) * h, ratio * abs(push[last - 1])) * power;
         return term * ratio / (1 - ratio) * h * (time_.unit * time_.unit * T(S(1) / (last + 2)));
     }
 
