@@ -116,7 +116,7 @@ class Toppling(Scratch):
         began = time.monotonic()
         text = self.topple(*RECORD, "--scale", "1.5")
         self.assertLess(time.monotonic() - began, 60)
-        self.assertIn("does not topple at 0.6000 g", text)
+        self.assertIn("does not topple at 1.5 times the record, 0.6000 g", text)
         self.assertIn("synthetic.AT2: 2001 samples, 20 s, 0.4 g", text)
         self.assertIn("ranges narrower than the steps of 0.5 % may be missed", text)
         self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["narrower_ranges_exist"])
