@@ -180,8 +180,8 @@ def _notes(hazard, p, contribution, points, within, interval):
     low, high = within.sum(axis=-1)
     is_bounded = bool(np.isfinite(contribution[1, 0]))
     most = f"at most {contribution[1, 0]:.3g} a year" if is_bounded else "unbounded"
-    notes = [f"of the rate, shaking below the first level of the hazard, {first}: {most}",
-             f"of the rate, shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
+    notes = [f"contribution of shaking below the first level of the hazard, {first}: {most}",
+             f"contribution of shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
     if not is_bounded or np.isinf(interval[1]):
         what = "the confidence" if is_bounded else "the rate"
         notes.append(f"{what} has no upper end: if the hazard continued below its first level as above it, weaker "
