@@ -5,8 +5,6 @@
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
-#include <optional>
-
 namespace overturn {
 
 /// The block at a share of a step under a pulse, which begins at `now`.

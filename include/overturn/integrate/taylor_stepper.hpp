@@ -19,7 +19,6 @@ class TaylorStepper {
     using Series = RockingSeries<order, T>;
     static constexpr int last_terms = overturn::last_terms<order>;
     static constexpr int known_order = outputs.error ? order_for_errors<order, theory> : order;
-    using KnownSeries = RockingSeries<known_order, T>;
 
 public:
     TaylorStepper(const Block<T>& block, const PulseExcitation<T>& excitation, const S& tolerance)

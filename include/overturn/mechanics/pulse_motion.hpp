@@ -4,7 +4,6 @@
 
 #include "overturn/mechanics/modulated_sine.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace overturn {

@@ -9,7 +9,6 @@
 #include "overturn/sweep/kernel.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
