@@ -3,7 +3,8 @@ and q; under a record the ground and the tilt; and the friction coefficient that
 
 from __future__ import annotations
 
-import tomllib
+import json
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -194,13 +195,18 @@ def mark_events(axes, history):
     return handles
 
 
+def word_of_record(file, key):
+    """Returns a text in `scene.record` of the resolved job; empty if there is none."""
+    found = re.search(rf'^record = .*\b{key} = ("(?:[^"\\]|\\.)*")', job_text(file, "job_resolved"), re.MULTILINE)
+    return json.loads(found[1]) if found else ""
+
+
 def motion_words(file):
     """Returns what determines the ground motion besides its scale and its time: the record, its components, and the
     direction if it is not that of the record or pulse."""
     words, second, direction = [], "", float(file.attrs.get("direction", 0))
     if is_recorded(file):
-        record = tomllib.loads(job_text(file, "job_resolved")).get("scene", {}).get("record", {})
-        first, second, vertical = (file_name(record.get(key, ""))
+        first, second, vertical = (file_name(word_of_record(file, key))
                                    for key in ("component", "second_component", "vertical"))
         words = [ground_text(file)]
         if second:
