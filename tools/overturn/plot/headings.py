@@ -11,6 +11,8 @@ LINE = 1.3  # height of a line over the size of the font
 
 def width_of(text, size):
     """Returns the width [inches] of a line in a font of this size [points]."""
+    if not text.strip():
+        return 0.0  # some versions of Matplotlib refuse a path without glyphs
     return TextPath((0, 0), text, size=size, prop=FontProperties()).get_extents().x1 / POINTS
 
 
