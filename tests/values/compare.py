@@ -105,7 +105,7 @@ def execute(command):
     done = subprocess.run([str(word) for word in command], env=ENVIRONMENT, capture_output=True,
                           text=True, stdin=subprocess.DEVNULL)
     seconds = time.monotonic() - began
-    messages = [line for line in done.stderr.splitlines(True) if not line.rstrip().endswith(" left")]
+    messages = [line for line in done.stderr.splitlines(True) if not re.match(r"\d+ of \d+ \w+, .*(left|%)$", line)]
     return done.returncode, (done.stdout + "".join(messages)).strip(), seconds
 
 
