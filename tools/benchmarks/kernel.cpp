@@ -51,6 +51,7 @@ void register_all()
 
 int main(int count, char** words)
 {
+    overturn::keep_freed_memory(); // as in the program
     overturn::benchmarks::register_all();
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) {
