@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Builds the documentation as a site and checks links and anchors, the API of the headers and the
-spelling; runs every code block of sh, python and toml, and the notebooks. Called by tools/check docs."""
+spelling; runs every code block of sh, python and toml, and the notebooks, and compares what they print
+with the documentation. Called by tools/check docs."""
 
 import argparse
 import json
@@ -31,10 +32,19 @@ NOT_RUN = {
 
 
 def blocks_of(page):
-    """Yields the language, the number of the first line and the text of each code block."""
+    """Yields the language, the number of the first line and the text of each code block. The language
+    is "printed" if the block is what the previous one prints."""
     text = (CHECKOUT / page).read_text()
     for match in re.finditer(r"^```(\w+)\n(.*?)^```$", text, re.DOTALL | re.MULTILINE):
-        yield match[1], text.count("\n", 0, match.start()) + 2, match[2]
+        introduction = text[:match.start()].rstrip().rpartition("\n")[2]
+        is_printed = match[1] == "text" and "prints" in introduction
+        yield "printed" if is_printed else match[1], text.count("\n", 0, match.start()) + 2, match[2]
+
+
+def not_printed(text, output):
+    """Returns the lines of a text that a program did not print."""
+    printed = {line.rstrip() for line in output.splitlines()}
+    return [line for line in text.splitlines() if line.strip() and line.rstrip() not in printed]
 
 
 def run_block(language, text, folder, python):
@@ -61,6 +71,9 @@ def run_blocks(python):
         shutil.copytree(CHECKOUT, folder, ignore=shutil.ignore_patterns(".git", "build*", "results", "gallery"))
         (folder / "build").symlink_to(CHECKOUT / "build")
         for language, line, text in blocks_of(page):
+            if language == "printed":
+                failed += [f"{page}:{line}: not printed by the previous block: {missing}"
+                           for missing in not_printed(text, result.stdout)]
             if language not in ("sh", "python", "toml"):
                 continue
             exception = next((key for key in NOT_RUN if key[0] == page and text.startswith(key[1])), None)
