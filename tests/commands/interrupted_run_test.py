@@ -25,7 +25,9 @@ class ScratchWithRuns(Scratch):
     def start_long_run(self, ranks=None):
         """Starts the long job, and returns when some of its tiles are done."""
         before = self.tiles_done() if "long.h5" in self.files() else 0
-        process = self.start("run", "long.toml", ranks=ranks, variables=self.with_slow("long.h5"))
+        # Fewer tiles remain after each interruption, and a busy machine interrupts late.
+        slow = self.with_slow("long.h5", milliseconds=16 if before else 4)
+        process = self.start("run", "long.toml", ranks=ranks, variables=slow)
         deadline = time.monotonic() + PATIENCE
         while "long.h5" not in self.files() or self.tiles_done() < before + 3:
             time.sleep(0.02)

@@ -158,11 +158,11 @@ class Scratch(unittest.TestCase):
         with h5py.File(self.folder / name, "r+") as file:
             file["run/checksum"][tiles] = 0
 
-    def with_slow(self, name):
-        """Returns the variables with which each write to this file takes 4 ms, until self.go_on(): a
+    def with_slow(self, name, milliseconds=4):
+        """Returns the variables with which each write to this file takes so long, until self.go_on(): a
         run lasts as long as the test needs it. Requires the library FAULTY_DISK of tests/faults."""
         self.slow.touch()
-        return {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": "4",
+        return {"LD_PRELOAD": os.environ["FAULTY_DISK"], "WRITE_TAKES": str(milliseconds),
                 "SLOW_WHILE": str(self.slow), "FAULTY_FILE": str(self.folder / name)}
 
     def go_on(self):
