@@ -145,7 +145,8 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
-        largest = std::isnan(largest) || friction[i] <= largest ? largest : friction[i];
+        const bool is_covered = std::isnan(largest) || std::islessequal(friction[i], largest);
+        largest = is_covered ? largest : friction[i];
         if (needed.size() < ends.size() && accelerations[i] == ends[needed.size()]) {
             needed.push_back(largest);
         }

@@ -72,7 +72,7 @@ double Accelerogram::lifting_scale(const UpliftThresholds& thresholds) const
             const double towards = std::max(0.0, -side * horizontal_[i]);
             strongest = std::max(strongest, towards - upwards * threshold);
         }
-        return threshold / strongest;
+        return strongest > 0 ? threshold / strongest : std::numeric_limits<double>::infinity();
     };
     return std::min(scale_on_side(thresholds.plus, 1), scale_on_side(thresholds.minus, -1));
 }

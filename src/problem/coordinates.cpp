@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -59,7 +60,11 @@ double lifting_pga(const Scene& scene, const Point& point)
     // A positive ground acceleration pushes the block towards its side minus.
     const LobeAmplitudes<double> lobes =
         largest_lobes(pulse_motion<double>(scene.pulse, scene.shape));
-    return std::min(thresholds.minus / lobes.positive, thresholds.plus / lobes.negative);
+    const auto lifting = [](double threshold, double lobe) {
+        return lobe > 0 ? threshold / lobe : std::numeric_limits<double>::infinity();
+    };
+    return std::min(lifting(thresholds.minus, lobes.positive),
+                    lifting(thresholds.plus, lobes.negative));
 }
 
 namespace {

@@ -33,7 +33,7 @@ std::vector<std::shared_ptr<const Accelerogram>> records_of(const Scene& scene,
 Digits31 in_31_digits(const Digits50& x)
 {
     const double high(x);
-    return {high, double(x - high)};
+    return {high, std::isfinite(high) ? double(x - high) : 0};
 }
 
 PerLobe<Digits31> in_31_digits(const PerLobe<Digits50>& exact)
@@ -241,7 +241,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         const double margin = double(margin_of<theory>(end, block));
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
-        const bool in_doubt = !(error < std::abs(margin));
+        const bool in_doubt = end.is_stopped() || !(error < std::abs(margin));
         const auto flag = [](bool holds, std::uint8_t bit) { return holds ? bit : 0; };
         const int flags =
             flag(end.fell, outcome_flag::fell) | flag(end.rested, status::came_to_rest) |

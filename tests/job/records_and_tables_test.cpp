@@ -2,6 +2,7 @@
 #include "job_file.hpp"
 
 #include "support/scratch_folder.hpp"
+#include "support/untrapped_floating_point.hpp"
 
 #include "overturn/problem/given.hpp"
 
@@ -198,6 +199,7 @@ using Strengths = JobWithFiles;
 
 TEST_F(Strengths, WhoseFactorOnTheRecordOverflowsAreRefused)
 {
+    const UntrappedFloatingPoint overflows;
     std::mt19937_64 random(5);
     for (int i = 0; i < 20; ++i) {
         const double peak = std::pow(10.0, -308.5 - double(random() % 100) / 10);

@@ -2,6 +2,7 @@
 #include "overturn/problem/coordinates.hpp"
 #include "support/given_values.hpp"
 #include "support/short_records.hpp"
+#include "support/untrapped_floating_point.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -228,6 +229,7 @@ TEST(GridOf, RefusesAShareOfWhichAnyCombinationIsNotAllowed)
 
 TEST(GridOf, RefusesAFactorOnARecordThatOverflows)
 {
+    const UntrappedFloatingPoint overflows;
     Scene scene;
     scene.records = {short_record(1e-5, 0.01)};
     const Quantities others = block + loss + Quantities{number("motion", 1)};

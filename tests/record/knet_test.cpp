@@ -1,6 +1,8 @@
 // Files of K-NET and KiK-net.
 #include "reading.hpp"
 
+#include "support/untrapped_floating_point.hpp"
+
 namespace overturn {
 namespace {
 
@@ -112,6 +114,7 @@ TEST(Knet, MayHaveItsHeaderInAnotherOrder)
 // clang-format off
 TEST(Knet, IsRefusedWithFileLineAndReason)
 {
+    const UntrappedFloatingPoint overflows;
     expect_refused({
         {"FewerSamples", with(sound, "109       91", "109         "),
             "a.txt:19: the file ends after 11 samples, but the product of Duration Time(s) and Sampling Freq(Hz) "

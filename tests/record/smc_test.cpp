@@ -1,6 +1,8 @@
 // Files of USGS.
 #include "reading.hpp"
 
+#include "support/untrapped_floating_point.hpp"
+
 namespace overturn {
 namespace {
 
@@ -97,6 +99,7 @@ TEST(Smc, MayHaveTheLineEndsOfAnySystem)
 // clang-format off
 TEST(Smc, IsRefusedWithFileLineAndReason)
 {
+    const UntrappedFloatingPoint overflows;
     expect_refused({
         {"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
             "a.txt:1: \"3 VELOCITY\" does not announce accelerations. Give the file of the acceleration."},

@@ -137,7 +137,7 @@ void resolve(Resolving& resolving, const Scene& scene, const Grid& grid, const O
     for (std::size_t point = 0; point < region.size(); ++point) {
         ++resolving.points[without_loss];
         const bool decided = !(flags[point] & status::unresolved);
-        const bool known = truth[point].error < std::abs(truth[point].margin);
+        const bool known = std::isless(truth[point].error, std::abs(truth[point].margin));
         if (!decided) {
             ++resolving.unresolved[without_loss];
             name_point("unresolved", scene, resolved, grid, int(point),

@@ -26,7 +26,9 @@ inline Outcomes truth_of(const PointRun& run)
         // Half a million impacts in 50 digits would take hours.
         const bool hopeless = outcomes[i].flags & status::cap_was_hit;
         const double margin = std::abs(outcomes[i].margin);
-        if (!hopeless && !(margin >= margin_that_wants_digits && outcomes[i].error < margin)) {
+        const bool is_known = std::isgreaterequal(margin, margin_that_wants_digits) &&
+                              std::isless(outcomes[i].error, margin);
+        if (!hopeless && !is_known) {
             run.run_in_more_digits<Digits50>(point, outcomes);
         }
     }

@@ -151,8 +151,10 @@ public:
     {
         const D root = sqrt(x.high_);
         const D rest = (x - exact_product(root, root)).high_;
-        return select<DoubleDouble>(
-            x.high_ > D(0.0), exact_sum_of_ordered(root, rest / (root + root)), DoubleDouble(root));
+        const Mask is_positive = x.high_ > D(0.0);
+        const D twice = select<D>(is_positive, root + root, D(1.0));
+        return select<DoubleDouble>(is_positive, exact_sum_of_ordered(root, rest / twice),
+                                    DoubleDouble(root));
     }
 
     /// To the accuracy of a double.

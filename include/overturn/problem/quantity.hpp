@@ -2,6 +2,7 @@
 // allowed values.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,7 +36,7 @@ struct Quantity {
     Interval interval;          ///< of the allowed values
     std::string_view reason;    ///< for the interval
 
-    bool allows(double value) const { return interval.contains(value); }
+    bool allows(double value) const { return !std::isnan(value) && interval.contains(value); }
     bool is_coordinate() const { return role != Role::derived && role != Role::setting; }
 
     /// Why a value that is not allowed is refused, as a text that follows the name.
