@@ -219,8 +219,8 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         const double height = 2 * extent_of(coordinates.of("half_height").values).last;
         findings.push_back(highest <= height ? ""
                                              : fmt::format("center_height = {:.4g} m is above the "
-                                                           "block, which is {:.4g} m high (lengths "
-                                                           "are in metres)",
+                                                           "top of the block, which is {:.4g} m "
+                                                           "high (lengths are in metres)",
                                                            highest, height));
     }
     judge(period, "pulse_period", "frequency");

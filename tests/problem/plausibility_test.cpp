@@ -311,8 +311,9 @@ TEST(Plausibility, OfALeaningBlockExpectsRadiansAndACentreWithinTheBlock)
     EXPECT_THAT(found(0.2, 0.9),
                 HasSubstr("the incline = 11.46 degrees is outside -10 to 10 degrees"));
     EXPECT_THAT(found(-0.2, 0.9), HasSubstr("angles are in radians"));
-    EXPECT_THAT(found(0.02, 1.9),
-                HasSubstr("center_height = 1.9 m is above the block, which is 1.8 m high"));
+    EXPECT_THAT(
+        found(0.02, 1.9),
+        HasSubstr("center_height = 1.9 m is above the top of the block, which is 1.8 m high"));
 }
 
 TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
