@@ -10,10 +10,11 @@ LINE = 1.3  # height of a line over the size of the font
 
 
 def width_of(text, size):
-    """Returns the width [inches] of a line in a font of this size [points]."""
+    """Returns the width [inches] of a line in a font of this size [points]: that of the control points of its outlines,
+    because Matplotlib computes the extrema of their curves slowly."""
     if not text.strip():
         return 0.0  # some versions of Matplotlib refuse a path without glyphs
-    return TextPath((0, 0), text, size=size, prop=FontProperties()).get_extents().x1 / POINTS
+    return TextPath((0, 0), text, size=size, prop=FontProperties()).vertices[:, 0].max(initial=0) / POINTS
 
 
 def wrapped(text, size, width, separator=""):
