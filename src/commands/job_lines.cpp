@@ -137,8 +137,14 @@ std::string contact_line(const Job& job)
         const std::string last = fmt::format("{:.3g}", extent.last);
         return first == last ? first : fmt::format("{} to {}", first, last);
     };
+    const auto impact_text = [&] {
+        constexpr std::string_view none = "more than any, since the base would have to pull";
+        return std::isfinite(impact.last)    ? text(impact)
+               : std::isfinite(impact.first) ? fmt::format("from {:.3g} to {}", impact.first, none)
+                                             : std::string(none);
+    };
     return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
-                       text(lift), text(impact),
+                       text(lift), impact_text(),
                        lift.last > large ? fmt::format("; few contacts have more than {}", large)
                                          : "");
 }

@@ -164,6 +164,15 @@ class TwoSides(Scratch):
         self.assert_exit(self.overturn("info", "run.h5"), 0)
         self.assert_exit(self.overturn("verify", "run.h5"), 0)
 
+    def test_need_more_friction_than_any_if_the_base_would_have_to_pull(self):
+        block = "size_plus = 1, size_minus = 0.7, slenderness_plus = 0.3, slenderness_minus = 0.2, radius_of_gyration = 0.6"
+        for share, impact in (("1.0", "an impact 0.202 to 0.626"),
+                              ("0.1", "an impact from 0.628 to more than any, since the base would have to pull")):
+            (self.folder / "rock.toml").write_text(f'scene.pulse = "one_sine"\nblock = {{ {block} }}\n[plane]\n'
+                                                   f"pulse_period = 0.5\npga = 1\nrestitution_of_maximum = {share}\n")
+            self.assert_exit(self.overturn("check", "rock.toml"), 0,
+                             f"lifting needs a friction coefficient of 0.37 to 1.15 (b / h), {impact}")
+
     def test_are_refused_with_what_to_do(self):
         self.write(LEANING, "pulse_period = 0.5\npga = 0.5")
         for override, words in (("plane.incline=4", "4 degrees are 0.06981 rad"),
