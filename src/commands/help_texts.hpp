@@ -52,6 +52,8 @@ restitution, and for 0.8 to 1 times r_max, because restitutions are rarely known
 within the search and in none of the ranges are safe, except for very narrow ranges that may be
 missed. The search ends at --pga-max, or where the vertical motion cancels gravity. g is 9.81 m/s2,
 unless --set scene.gravity=... changes it. Values that are probably in another unit cause a warning.
+If a record is the motion of a floor (--set scene.motion_of=floor, unless its file states this), all
+accelerations are those of the floor, from its peak floor acceleration (PFA).
 The exit code is 0 whatever the verdict. Spectra and suites of records need a job file: see overturn
 run.)";
 

@@ -301,7 +301,7 @@ void warn_of_probable_mistakes(const Job& job)
         }
         if (is_one_of(column.name, keys_of("scene")) || find_quantity(column.name) != nullptr) {
             warn(fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
-                             "property of the blocks under this ground motion",
+                             "property of the blocks under this motion",
                              in_quotes(column.name), job.blocks->file));
         } else if (const std::string_view meant = quantity_meant_by(column.name, grid);
                    !meant.empty()) {

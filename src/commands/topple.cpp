@@ -286,6 +286,7 @@ void print_question(const Job& job, const ToppleOptions& options)
         direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job)));
     }
     print_row("motion", motion + direction);
+    print_motion_of("", scene.motion_of);
     if (scene.theory != Theory::nonlinear) {
         print_row("theory", name_of(scene.theory));
     }
@@ -314,7 +315,7 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                                                *options.scale, answer.pga, decimals));
         print_row("peak tilt", peak_text(answer.peak, alpha));
         if (answer.friction) {
-            print_row("friction", friction_text(*answer.friction));
+            print_row("friction", scene.worded(friction_text(*answer.friction)));
         }
     }
     print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
@@ -328,7 +329,8 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
                   "friction coefficient to topple: " + friction_to_topple_text(answer, decimals));
     }
     if (answer.by_restitution.size() > 1) {
-        fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
+        fmt::print("\n{:>8}{:>9}   {}\n", "r/r_max", "r",
+                   scene.worded("topples at a peak ground acceleration of"));
     }
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
@@ -415,6 +417,7 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
                        });
     member("block", fmt::format("{{{}}}", fmt::join(block, ", ")));
     member("motion", json_of_motion(job, options));
+    member("motion_of", quoted_utf8(std::string(name_of(job.problem.scene.motion_of))));
     member("direction", options.direction.value_or(0));
     member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
     member("topples", answer.verdict == Verdict::topples ? "true"

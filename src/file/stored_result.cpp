@@ -125,6 +125,9 @@ FileOrigin read_origin(hid_t file, const std::string& path)
                     origin.format > layout::newest_format ? "a newer" : "an older");
     }
     origin.title = hdf5::read_text_attribute(file, "title");
+    origin.motion_of =
+        enumerator_named<MotionOf>(hdf5::read_text_attribute(file, layout::motion_of))
+            .value_or(origin.motion_of);
     origin.program_version = hdf5::read_text_attribute(file, "program_version");
     origin.program_commit = hdf5::read_text_attribute(file, "program_commit");
     origin.resolved_job = read_text(file, layout::job_resolved, origin.bytes);

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <initializer_list>
 #include <map>
 #include <set>
 
@@ -183,6 +185,18 @@ void expect_other(const Entry& choice, const RecordComponent& other,
     }
 }
 
+/// What the first of the components that state it says.
+std::optional<MotionOf>
+stated_motion_of(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
+{
+    for (const RecordComponent& component : components) {
+        if (component.motion_of) {
+            return component.motion_of;
+        }
+    }
+    return std::nullopt;
+}
+
 /// The motion, whose name is that of the file and the component.
 Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
 {
@@ -227,6 +241,8 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
             horizontal.is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
         .header = mapped(horizontal.header, as_utf8),
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
+        .stated_motion_of = stated_motion_of({horizontal, second, vertical}),
+        .ground_pga = horizontal.ground_pga,
         .checksum = checksum_of(*record),
         .record = record};
     if (!(motion.measures.pga > 0)) {
@@ -309,6 +325,31 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
     }
     shorten_names(motions);
     return motions;
+}
+
+MotionOf read_motion_of(const Entry& scene, const std::vector<Motion>& motions)
+{
+    const auto given = find(scene, "motion_of");
+    const MotionOf otherwise = given ? choice_of<MotionOf>(*given) : MotionOf::ground;
+    std::map<MotionOf, std::string> files;
+    for (const Motion& motion : motions) {
+        const MotionOf of_file = motion.stated_motion_of.value_or(otherwise);
+        if (given && of_file != otherwise) {
+            refuse(*given,
+                   " = \"{}\", but the file {} states motion_of = {}. Remove the key, or correct "
+                   "the file.",
+                   name_of(otherwise), in_quotes(motion.file), name_of(of_file));
+        }
+        files.emplace(of_file, motion.file);
+    }
+    if (files.size() > 1) {
+        refuse(*find(scene, "record"),
+               ": {} is the motion of a floor, but {} does not state that it is one. Give the "
+               "motions of floors and of the ground to different jobs; if all are of floors, give "
+               "motion_of = \"floor\".",
+               in_quotes(files.at(MotionOf::floor)), in_quotes(files.at(MotionOf::ground)));
+    }
+    return files.empty() ? otherwise : files.begin()->first;
 }
 
 } // namespace overturn

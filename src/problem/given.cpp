@@ -103,7 +103,8 @@ void expect_motion(const Scene& scene, const Coordinates& coordinates, const Gri
         expect(coordinates, "frequency_parameter", "size",
                "Give size [m] or frequency_parameter [1/s], or width and height [m].");
     } else if (grid.has_two_sides()) {
-        expect(coordinates, "pga", "pga", "Give the peak ground acceleration over g.");
+        expect(coordinates, "pga", "pga",
+               scene.worded("Give the peak ground acceleration over g."));
         expect(coordinates, "pulse_period", "pulse_period",
                "Give it in s, or pulse_frequency in Hz.");
     } else {

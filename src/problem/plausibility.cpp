@@ -241,7 +241,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     }
     findings.push_back(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);
-    return text_of(findings);
+    return scene.worded(text_of(findings));
 }
 
 } // namespace overturn

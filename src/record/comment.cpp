@@ -170,6 +170,19 @@ bool is_comment(std::string_view line)
     return text.starts_with('#') || text.starts_with('%');
 }
 
+std::optional<std::string_view> value_of(std::string_view comment, std::string_view key)
+{
+    const std::size_t equals = comment.find('=');
+    std::string_view name = trimmed(comment.substr(0, equals));
+    name.remove_prefix(std::min(name.find_first_not_of("#%"), name.size()));
+    if (equals == comment.npos || trimmed(name) != key) {
+        return std::nullopt;
+    }
+    const std::string_view value = trimmed(comment.substr(equals + 1));
+    const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+    return is_quoted ? value.substr(1, value.size() - 2) : value;
+}
+
 void expect_unit(const Lines& comment, AccelerationUnit unit)
 {
     const std::string text = text_of_comment(comment.line());

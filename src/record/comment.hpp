@@ -5,12 +5,16 @@
 #include "lines.hpp"
 #include "overturn/record/read_record.hpp"
 
+#include <optional>
 #include <string_view>
 
 namespace overturn {
 
 /// Whether a line of text is a comment.
 bool is_comment(std::string_view line);
+
+/// The value of a comment `KEY = VALUE`, without quotes; nullopt if it is another comment.
+std::optional<std::string_view> value_of(std::string_view comment, std::string_view key);
 
 /// Refuses a comment that contains another unit than this one, in brackets, in the name of a column
 /// (acc_g) or anywhere else, a multiple (g/10, 0.01 g, % of g), or a unit of time other than the

@@ -194,6 +194,29 @@ void expect_no_count(const Lines& lines, const std::vector<double>& column)
     }
 }
 
+/// Reads a comment such as `motion_of = floor`; false if it is another one.
+bool read_statement(const Lines& comment, RecordComponent& component)
+{
+    if (const auto value = value_of(comment.line(), "motion_of")) {
+        component.motion_of = enumerator_named<MotionOf>(*value);
+        if (!component.motion_of) {
+            comment.refuse("motion_of = {} is not one of {}. Correct the comment, or remove it.",
+                           *value, fmt::join(names_of<MotionOf>, ", "));
+        }
+        return true;
+    }
+    if (const auto value = value_of(comment.line(), "ground_pga")) {
+        component.ground_pga = number_of(comment, *value);
+        if (!(*component.ground_pga > 0)) {
+            comment.refuse("ground_pga = {} is outside (0, inf). It is the peak acceleration of "
+                           "the ground over g. Correct the comment, or remove it.",
+                           *value);
+        }
+        return true;
+    }
+    return false;
+}
+
 } // namespace
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
@@ -217,6 +240,9 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     std::size_t columns = 0;
     while (lines.next()) {
         if (is_comment(lines.line())) {
+            if (read_statement(lines, component)) {
+                continue;
+            }
             expect_unit(lines, *options.unit);
             if (!speaks_of_accelerations) {
                 expect_acceleration(lines);

@@ -404,6 +404,53 @@ TEST_F(Motions, AreNotVerticalAndHorizontalAtOnce)
                 HasSubstr("has the accelerations of the horizontal component"));
 }
 
+TEST_F(Motions, AreThoseOfTheGroundUnlessTheJobOrAFileSaysOtherwise)
+{
+    write_record("a.AT2", "0 1 0");
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    write("ground.txt", "# motion_of = ground\n0 0\n1 1\n");
+    const auto motion_of = [&](const std::string& scene) {
+        return plane(scene).problem.scene.motion_of;
+    };
+    EXPECT_EQ(motion_of("record = 'a.AT2'"), MotionOf::ground);
+    EXPECT_EQ(motion_of("record = 'ground.txt'\nunits = 'g'"), MotionOf::ground);
+    EXPECT_EQ(motion_of("record = 'a.AT2'\nmotion_of = 'floor'"), MotionOf::floor);
+    EXPECT_EQ(motion_of("record = 'floor.txt'\nunits = 'g'"), MotionOf::floor);
+    EXPECT_EQ(motion_of("record = 'floor.txt'\nunits = 'g'\nmotion_of = 'floor'"), MotionOf::floor);
+}
+
+TEST_F(Motions, OfAFloorAreStatedInTheResolvedJob)
+{
+    write("floor.txt", "# motion_of = floor\n# ground_pga = 0.25\n0 0\n1 1\n");
+    const Job floor = plane("record = 'floor.txt'\nunits = 'g'");
+    EXPECT_THAT(floor.resolved, HasSubstr("\nmotion_of = \"floor\"\n"));
+    EXPECT_THAT(floor.resolved, HasSubstr(", ground_pga = 0.25, "));
+    write_record("a.AT2", "0 1 0");
+    EXPECT_THAT(plane("record = 'a.AT2'").resolved, testing::Not(HasSubstr("motion_of")));
+}
+
+TEST_F(Motions, AreRefusedIfAFileContradictsTheJob)
+{
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    EXPECT_THAT(refusal(exit_code::job,
+                        [&] { plane("record = 'floor.txt'\nunits = 'g'\nmotion_of = 'ground'"); }),
+                HasSubstr("job.toml:4:13: scene.motion_of = \"ground\", but the file \"floor.txt\" "
+                          "states motion_of = floor. Remove the key, or correct the file."));
+}
+
+TEST_F(Motions, OfAFloorAndOfTheGroundAreRefusedInOneJob)
+{
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    write("other.txt", "0 0\n1 2\n");
+    EXPECT_THAT(
+        refusal(exit_code::job, [&] { plane("record = ['floor.txt', 'other.txt']\nunits = 'g'"); }),
+        HasSubstr("job.toml:2:10: scene.record: \"floor.txt\" is the motion of a floor, but "
+                  "\"other.txt\" does not state that it is one."));
+    EXPECT_EQ(plane("record = ['floor.txt', 'other.txt']\nunits = 'g'\nmotion_of = 'floor'")
+                  .problem.scene.motion_of,
+              MotionOf::floor);
+}
+
 TEST_F(Motions, OfAFileWhoseNameIsAPatternAreFound)
 {
     write_record("a[1].AT2", "0 0.1 0");

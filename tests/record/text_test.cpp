@@ -44,6 +44,44 @@ TEST(Text, KeepsItsCommentsAsHeader)
               header);
 }
 
+TEST(Text, StatesWhoseMotionItIsInAComment)
+{
+    for (const char* comment :
+         {"# motion_of = floor", "%motion_of=floor", "  # motion_of = \"floor\""}) {
+        const RecordComponent component =
+            component_of(std::string(comment) + "\n1\n2\n", one_column);
+        EXPECT_EQ(component.motion_of, MotionOf::floor) << comment;
+    }
+    EXPECT_EQ(component_of("1\n# motion_of = ground\n2\n", one_column).motion_of, MotionOf::ground);
+}
+
+TEST(Text, DoesNotStateWhoseMotionItIsInOtherWords)
+{
+    for (const char* comment : {"# floor 3", "# motion of = floor", "# the motion_of = floor",
+                                "# =", "#", "# motion_of floor"}) {
+        const RecordComponent component =
+            component_of(std::string(comment) + "\n1\n2\n", one_column);
+        EXPECT_FALSE(component.motion_of) << comment;
+        EXPECT_FALSE(component.ground_pga) << comment;
+    }
+}
+
+TEST(Text, StatesTheAccelerationOfTheGroundBelowAFloor)
+{
+    EXPECT_EQ(component_of("# ground_pga = 0.25\n1\n2\n", one_column).ground_pga, 0.25);
+}
+
+TEST(Text, IsRefusedIfAStatementOnItsMotionIsNotAllowed)
+{
+    EXPECT_EQ(
+        refusal_of("# motion_of = roof\n1\n", one_column),
+        "a.txt:1: motion_of = roof is not one of ground, floor. Correct the comment, or remove "
+        "it.");
+    EXPECT_EQ(refusal_of("# ground_pga = -1\n1\n", one_column),
+              "a.txt:1: ground_pga = -1 is outside (0, inf). It is the peak acceleration of the "
+              "ground over g. Correct the comment, or remove it.");
+}
+
 TEST(Text, IsNotAnAt2FileIfTheFourthLineIsAComment)
 {
     EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .02\n1\n2\n", one_column).acceleration,

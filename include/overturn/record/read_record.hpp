@@ -3,6 +3,7 @@
 // or corrected. Only counts of a digitiser are converted, and lose their mean.
 #pragma once
 
+#include "overturn/text/motion_words.hpp"
 #include "overturn/text/names.hpp"
 
 #include <cstddef>
@@ -31,6 +32,9 @@ struct RecordComponent {
     /// Whether the file states that it was neither filtered nor corrected for the instrument.
     bool is_uncorrected = false;
     double start = 0; ///< time of the first sample, if the file states times [s]
+    std::optional<MotionOf> motion_of = {}; ///< if the file states it
+    /// Peak acceleration over g of the ground that caused the motion of a floor, if it is stated.
+    std::optional<double> ground_pga = {};
     /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
     std::vector<std::string> header;
 };
