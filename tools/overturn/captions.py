@@ -6,6 +6,7 @@ import pathlib
 
 import numpy as np
 from overturn.fields import count_tiles
+from overturn.motion_words import is_of_floor, worded
 from overturn.result_file import escaped, title_of
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
@@ -67,7 +68,7 @@ def quantity_text(file, name, value):
     """Returns a quantity and its value."""
     units = file[name].attrs.get("units", "1")
     units = UNITS.get(name, UNITS.get(units, units))
-    return f"{SYMBOLS.get(name, name)} = {value:.4g} {units}".rstrip()
+    return f"{worded(file.attrs, SYMBOLS.get(name, name))} = {value:.4g} {units}".rstrip()
 
 
 def block_text(plane, units):
@@ -92,7 +93,8 @@ def motion_text(plane, units):
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
     if "scale" not in plane.quantities(units):
         return name
-    words = (f"PGA {plane.value('record_pga'):.3g} g", plane.file["record_pga"].attrs.get("comment", ""))
+    words = (f"{worded(plane.file.attrs, 'PGA')} {plane.value('record_pga'):.3g} g",
+             plane.file["record_pga"].attrs.get("comment", ""))
     return f"{name}, {' '.join(filter(None, words))}"
 
 
@@ -128,6 +130,7 @@ def subtitle(planes, units=JOB):
     if not is_recorded(file):
         words.append(PULSES.get(file.text("pulse"), ground_text(file) + " pulse"))
     words += [f"{name} {float(file.attrs[name]):g}" for name in PULSE_NUMBERS if name in file.attrs]
+    words += ["motion of a floor"] * is_of_floor(file.attrs)
     if is_linear(file):
         words.append("linear theory")
     for column in zip(*(spectrum_words(plane, units) for plane in planes)):

@@ -8,6 +8,7 @@ import numpy as np
 
 from overturn.choice import add_choice_arguments, chosen
 from overturn.fields import read_field
+from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import new_file
 from overturn.result_file import damage_reported
 from overturn.spectrum_file import open_spectrum
@@ -20,7 +21,8 @@ example:
   tools/to_csv smoke.h5                          # writes smoke.csv
 
 Columns: the dimensions, with their names in the file (such as frequency and amplitude), and every
-field of the file, with the codes of docs/results.md. Rows: the first column varies fastest.
+field of the file, with the codes of docs/results.md. Under the motion of a floor, pga is called pfa.
+Rows: the first column varies fastest.
 Numbers have enough digits to be read back exactly.
 To write a part of the points only, choose an index along some dimensions:
   tools/to_csv four_axes.h5 --slenderness 0 --restitution 2 -o third.csv"""
@@ -50,7 +52,7 @@ def parts_of(file, choices):
 
 def rows_of(file, choices):
     names = file.fields()
-    yield [*reversed(file.dimensions), *names]
+    yield [column_named(file.attrs, name) for name in (*reversed(file.dimensions), *names)]
     for part in parts_of(file, choices):
         with damage_reported(file.filename):
             axes = np.meshgrid(*(file[name][each] for name, each in zip(file.dimensions, part)), indexing="ij")
@@ -61,7 +63,7 @@ def rows_of(file, choices):
 def is_own(beginning):
     """Whether a file begins with the names of such columns, dimensions first, and rows of numbers."""
     header, *rows = beginning.decode(errors="replace").split("\n")
-    names = header.split(",")
+    names = [VARIABLES.get(name, name) for name in header.split(",")]
     fields = len(FIELDS.intersection(names))
     return (REGION in names and COLUMNS.issuperset(names) and FIELDS.issuperset(names[-fields:])
             and all(row.count(",") == header.count(",") and ROW.fullmatch(row) for row in rows[:-1]))

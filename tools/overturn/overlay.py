@@ -45,7 +45,7 @@ def open_boundary(path, plane, units):
     expect_same_motion(file, spectrum)
     if NEEDING_A_SIZE.intersection(plane.quantities(units)):
         expect_size(file, PHYSICAL)
-    for name in ("pulse", "theory", *PULSE_NUMBERS):
+    for name in ("pulse", "theory", "motion_of", *PULSE_NUMBERS):
         expect_equal(file, spectrum, name, file.text(name), spectrum.text(name))
     if is_recorded(file) or plane.quantities(units)[0] in RECIPROCALS:
         expect_equal(file, spectrum, "gravity", file.text("gravity"), spectrum.text("gravity"))

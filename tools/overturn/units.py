@@ -2,6 +2,7 @@
 
 import numpy as np
 from overturn.captions import is_linear, is_recorded
+from overturn.motion_words import worded
 from overturn.result_file import escaped
 from overturn.spectrum_file import JOB, PHYSICAL, Axis, scanned_quantity
 from overturn.tool import USAGE, ToolError
@@ -47,7 +48,8 @@ def label_of(file, quantity):
         attributes = file[quantity].attrs
         units = attributes.get("units", "1")
         return escaped(attributes.get("long_name", quantity)) + f" [{units}]" * (units != "1")
-    return LABELS[quantity].replace("{threshold}", r"\alpha" if is_linear(file) else r"\tan\,\alpha")
+    label = LABELS[quantity].replace("{threshold}", r"\alpha" if is_linear(file) else r"\tan\,\alpha")
+    return worded(file.attrs, label)
 
 
 def name_axes(plane, units=JOB):

@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from overturn import regions
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
 from overturn.choice import add_choice_arguments, planes_of
+from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
@@ -62,7 +63,7 @@ class Lines:
         self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
         scan = scan_of(plane, up)
         self.up, self.scan = Axis(scan), (np.min(scan), np.max(scan))
-        self.ground, self.word = ground_word(plane.file), WORDS[up]
+        self.ground, self.word = ground_word(plane.file), worded(plane.file.attrs, WORDS[up])
         self.flips = plane.read(name_of_flips(up))
         codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
         self.below, self.above = VERDICTS[codes]

@@ -35,7 +35,9 @@ BAND, POINT = "#b9cfdd", "#b3541e"
 # Of the curves: CIE L* from 24 to 60, with markers of their own.
 COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#3f7a43", "#8f2d56", "#7d7d85", "#4b2e83"), "osD^vP"
 NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
-         "significant_duration": "significant duration"}
+         "significant_duration": "significant duration", "pfa": "PFA", "pfv": "PFV",
+         "floor_arias_intensity": "Arias intensity of the floor",
+         "floor_significant_duration": "significant duration of the floor"}
 UNITS = {"m s-1": "m/s"}
 TEXT_WIDTH = 58  # characters that fit below a panel
 
@@ -134,8 +136,8 @@ def compute_curve(dataset, im, arguments, **further):
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
-                        help="intensity measures: pga, pgv, arias_intensity or significant_duration "
-                             "(default: pgv)")
+                        help="intensity measures: pga, pgv, arias_intensity or significant_duration; under motions "
+                             "of a floor, those of the floor, and ground_pga if it is known (default: pgv)")
     parser.add_argument("--by", metavar="COLUMN",
                         help="a curve for each value of a column of the table of blocks, or of an axis such as "
                              "size; of more than 6 numbers, for each quarter of the blocks")

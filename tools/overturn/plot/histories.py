@@ -12,6 +12,7 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from overturn.captions import SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, slenderness_text
 from overturn.file_variables import text_of
+from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
@@ -98,6 +99,7 @@ class History:
         if units == PHYSICAL:
             self.panels = [(name, PHYSICAL_LABELS[name], share) for name, _, share in self.panels]
             per_angle = np.radians(1)
+        self.panels = [(name, worded(file.attrs, label), share) for name, label, share in self.panels]
         time = file["time"][:] / per_time
         shown = (time >= start) & (time <= until)
         self.start, self.time = start, time[shown]
@@ -245,7 +247,7 @@ def describe(file, units=JOB):
         outcome += "; the curve is uncertain"
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     shown = point_of(file, units)
-    point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
+    point = [f"{worded(attributes, symbol).replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
              for name, symbol, unit in AXES if name in shown]
     if "frequency_parameter_minus" in attributes and "frequency_parameter" in shown:
         minus = attributes["frequency_parameter_minus"]
