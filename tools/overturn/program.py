@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 _WARNING = "overturn: warning: "  # begins a line of the program
 
 # Keys that name files: what to give, and which function takes arrays.
-FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations",
+FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations, "
+                         "and FloorMotion.to_text() writes those of a floor",
          "scene.vertical": "a component of the record, a path, or a list of them. overturn.evaluate(vertical=...) "
                            "takes accelerations",
          "scene.second_component": "a component of the record, a path, or a list of them. "
