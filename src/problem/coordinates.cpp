@@ -206,6 +206,7 @@ constexpr Derivation of_block_with_two_sides[]{
          return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
      }},
     {"gyration_over_size", {"radius_of_gyration", "size_plus"}, ratio},
+    {"center_over_half_height", {"center_height", "half_height"}, ratio},
     {"largest_restitution",
      {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
      [](const Scene&, const Values& of) {

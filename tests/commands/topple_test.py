@@ -68,7 +68,7 @@ class Toppling(Scratch):
     def test_knows_the_friction_at_the_lower_ends_of_ranges(self):
         # At an end itself, the margin may be too close to zero to be settled.
         for words in (("--width", "0.8", "--height", "2", "--center-offset", "0.1", "--center-height", "0.9", "--period",
-                       "0.6"), ("--width", "60", "--height", "180", "--period", "50")):
+                       "0.6"), ("--width", "6", "--height", "18", "--period", "15.8114")):
             needed = self.answer(*words)["friction_to_topple"]
             self.assertTrue(needed and all(0.3 < friction < 1 for friction in needed), needed)
 
@@ -332,7 +332,7 @@ class Toppling(Scratch):
                              65, "second_component", "is zero at all times")
 
     def test_warns_of_other_units(self):
-        for wrong, words in ((("--width", "62", "--height", "210", "--period", "0.5"), "R = 109"),
+        for wrong, words in ((("--width", "20", "--height", "60", "--period", "0.5"), "R = 31.62"),
                              ((*STATUE, "--period", "600"), "the period of the pulse = 600 s"),
                              ((*PULSE, "--pga", "40"), "the peak ground acceleration = 40 g"),
                              ((*PULSE, "--restitution", "0.9"), "r = 0.9 is above r_max = 0.7225")):
@@ -365,6 +365,8 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--restitution", "1.2"), 65,
                          "outside (0, 1]")
         self.assert_exit(self.overturn("topple", *PULSE, "--pulse", "sinus"), 65, "is unknown")
+        self.assert_exit(self.overturn("topple", "--width", "42", "--height", "155", "--period", "0.5"), 65,
+                         "Lengths are in metres: 0.42 m x 1.55 m?")
         self.assert_exit(self.overturn("topple", *STATUE, "--record", "none\n\"\\.AT2"), 65,
                          "none \"\\.AT2: cannot be read")
 

@@ -106,7 +106,7 @@ class TwoSides(Scratch):
             result = self.overturn("check", "job.toml", "--set", f"plane.direction={direction}")
             self.assertNotIn("warning", result.stderr)
         result = self.overturn("check", "job.toml", "--set", "plane.direction=0", "--set",
-                               "plane.radius_of_gyration=60")
+                               "plane.radius_of_gyration=6")
         self.assertIn("the radius of gyration", result.stderr)
         (self.folder / "blocks.csv").write_text("width,height,centre_offset,lean,restitution\n0.5,2,0.1,4,0.8\n")
         (self.folder / "table.toml").write_text(
