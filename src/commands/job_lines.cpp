@@ -37,8 +37,8 @@ std::string degrees_text(const Extent& angle)
     return Extent{in_degrees(angle.first), in_degrees(angle.last)}.text(" degrees");
 }
 
-/// What describes blocks with two different sides: alpha, p and R of the sides plus and minus,
-/// r_max.
+/// What describes blocks with two different sides: the incline unless the base is level, alpha, p
+/// and R of the sides plus and minus, r_max.
 std::string two_sides_line(const Job& job)
 {
     const auto of_both = [&](std::string_view plus, std::string_view minus, const auto& text) {
@@ -48,7 +48,11 @@ std::string two_sides_line(const Job& job)
     const auto in = [](std::string_view unit) {
         return [unit](const Extent& extent) { return extent.text(unit); };
     };
-    return fmt::format("alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
+    constexpr double rounding = 1e-12; // [rad], of an incline that angles and distances imply
+    const Extent incline = *extent_of(job, "incline");
+    const bool is_level = std::max(-incline.first, incline.last) < rounding;
+    return fmt::format("{}alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
+                       is_level ? "" : fmt::format("incline {}, ", degrees_text(incline)),
                        of_both("slenderness_plus", "slenderness_minus", degrees_text),
                        of_both("size_plus", "size_minus", in(" m")),
                        of_both("frequency_parameter", "frequency_parameter_minus", in(" 1/s")),

@@ -252,7 +252,8 @@ std::string shape_text(const Scene& scene, const char* format)
     return text;
 }
 
-/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, incline 1.5 degrees, ".
+/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, height of the centre of mass 1
+/// m, ".
 std::string dimensions_text(const std::map<std::string, double>& given)
 {
     std::string text;
@@ -263,9 +264,6 @@ std::string dimensions_text(const std::map<std::string, double>& given)
         if (given.contains(name)) {
             text += fmt::format("{} {} m, ", quantity(name).long_name, given.at(name));
         }
-    }
-    if (given.contains("incline")) {
-        text += fmt::format("incline {:.4g} degrees, ", in_degrees(given.at("incline")));
     }
     return text;
 }

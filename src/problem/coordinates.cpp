@@ -184,6 +184,13 @@ constexpr Derivation of_block_with_two_sides[]{
      [](const Scene&, const Values& of) {
          return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
      }},
+    {"incline", // of a block that is given by angles and distances
+     {"size_plus", "slenderness_plus", "size_minus", "slenderness_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [plus, alpha_plus, minus, alpha_minus, _] = of;
+         return std::atan((plus * std::cos(alpha_plus) - minus * std::cos(alpha_minus)) /
+                          (plus * std::sin(alpha_plus) + minus * std::sin(alpha_minus)));
+     }},
     {"incline", {}, zero},
     {"base_plus", {"half_width", "center_offset"}, difference},
     {"base_minus", {"half_width", "center_offset"}, sum},

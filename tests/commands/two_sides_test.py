@@ -159,7 +159,8 @@ class TwoSides(Scratch):
     def test_are_described_by_check_and_info(self):
         self.write(LEANING, "pulse_period = 0.5\npga = { first = 0.1, last = 1, count = 5 }")
         self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 10.04 degrees (+), 18.04 degrees (-)",
-                         "R = 1.031 m (+), 1.031 m (-)", "p = 2.672 1/s (+), 2.672 1/s (-)", "r_max = 0.8313")
+                         "incline 4 degrees", "R = 1.031 m (+), 1.031 m (-)", "p = 2.672 1/s (+), 2.672 1/s (-)",
+                         "r_max = 0.8313")
         self.assert_computes("run", "run.h5")
         self.assert_exit(self.overturn("info", "run.h5"), 0)
         self.assert_exit(self.overturn("verify", "run.h5"), 0)
@@ -172,6 +173,12 @@ class TwoSides(Scratch):
                                                    f"pulse_period = 0.5\npga = 1\nrestitution_of_maximum = {share}\n")
             self.assert_exit(self.overturn("check", "rock.toml"), 0,
                              f"lifting needs a friction coefficient of 0.37 to 1.15 (b / h), {impact}")
+    def test_that_imply_an_incline_are_described_with_it(self):
+        self.write({"slenderness_plus": 0.3, "slenderness_minus": 0.2, "size_plus": 1, "size_minus": 0.7,
+                    "radius_of_gyration": 0.6}, "pulse_period = 0.5\npga = 0.3\ndirection = 0")
+        result = self.overturn("check", "job.toml")
+        self.assert_exit(result, 0, "incline 31.78 degrees")
+        self.assertIn("the incline that the angles and distances imply = 31.78 degrees is outside", result.stderr)
 
     def test_are_refused_with_what_to_do(self):
         self.write(LEANING, "pulse_period = 0.5\npga = 0.5")
