@@ -92,13 +92,6 @@ std::vector<std::string> lines_of_equal_records(const Job& job)
 
 } // namespace
 
-std::optional<double> r_max_of_only_block(const Job& job)
-{
-    return job.problem.grid.has_two_sides()
-               ? std::optional(extent_of(job, "largest_restitution")->first)
-               : r_max_of(extent_of(job, "slenderness")->first);
-}
-
 std::string block_line(const Job& job)
 {
     std::string line;

@@ -6,7 +6,7 @@
 #include "only_point.hpp"
 #include "output_lines.hpp"
 #include "progress.hpp"
-#include "verdict_ranges.hpp"
+#include "toppling.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
@@ -28,24 +28,6 @@
 namespace overturn {
 
 namespace {
-
-struct RestitutionAnswer {
-    double share; ///< r / r_max; NaN if there is no r_max
-    double ratio; ///< r
-    VerdictRanges ranges;
-};
-
-struct ToppleAnswer {
-    std::optional<Verdict> verdict; ///< nullopt if not requested
-    double peak = 0;                ///< |theta| / alpha
-    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
-    /// For each toppling range of the requested restitution: the largest friction from uplift to
-    /// its lower end, NaN if one is unknown; empty in the linear theory.
-    std::vector<double> friction_to_topple;
-    double pga = 0; ///< of the requested point
-    double lifting_pga = 0;
-    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
-};
 
 /// The name of a file or component, or another text, as a string of TOML and JSON. Throws Error if
 /// it is not UTF-8.
@@ -112,111 +94,27 @@ void expect_consistent(const ToppleOptions& options)
               "--history is that of one acceleration. Give --pga or --scale.");
 }
 
-/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
-std::vector<double> friction_to_topple(const Problem& of_one_point, const VerdictRanges& ranges,
-                                       double unit)
-{
-    const Scene& scene = of_one_point.scene;
-    const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || scene.theory != Theory::nonlinear) {
-        return {};
-    }
-    // At the end itself, whether the block topples, and with it the friction, may be unknown.
-    const std::vector<double> ends = mapped(toppling, [](const VerdictRange& range) {
-        return range.first + std::min(1e-6 * range.first, (range.last - range.first) / 2);
-    });
-    std::vector<double> accelerations = ends;
-    if (const double highest = accelerations.back(); ranges.lifting < highest) {
-        const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
-        accelerations.insert(accelerations.end(), scan.begin(), scan.end());
-    }
-    std::ranges::sort(accelerations);
-    const auto [begin, end] = std::ranges::unique(accelerations);
-    accelerations.erase(begin, end);
-    const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
-        return scene.is_recorded() ? acceleration / unit : acceleration;
-    });
-    Problem problem = of_one_point;
-    std::erase_if(problem.grid.numbers,
-                  [](const Column& number) { return number.quantity->role == Role::strength; });
-    const std::string strength = scene.is_recorded() ? "scale" : "pga";
-    problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
-    const std::vector<double> friction = accurate_values(problem, Field::friction);
-    std::vector<double> needed;
-    double largest = 0; // NaN as soon as one is unknown
-    for (std::size_t i = 0; i < accelerations.size(); ++i) {
-        const bool is_covered = std::isnan(largest) || std::islessequal(friction[i], largest);
-        largest = is_covered ? largest : friction[i];
-        if (needed.size() < ends.size() && accelerations[i] == ends[needed.size()]) {
-            needed.push_back(largest);
-        }
-    }
-    return needed;
-}
-
 /// In the order of the enumerators of Verdict.
 constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
 
-ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
+ToppleAnswer answer_for(const Job& job, const ToppleOptions& options)
 {
-    ToppleAnswer answer;
-    const Scene& scene = job.problem.scene;
-    const Point point = only_point_of(job);
-    const double unit = pga_of_unit(scene, point);
-    if (!(unit > 0)) {
-        throw Error(
-            exit_code::job,
-            "the record has no motion in the direction of {} degrees: its components cancel. "
-            "Choose another --direction.",
-            options.direction.value_or(0));
-    }
-    const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
-    answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;
-    if (options.pga || options.scale) {
-        answer.peak = accurate_values(job.problem, Field::peak).front();
-        answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
-                         : std::isinf(answer.peak) ? Verdict::topples
-                                                   : Verdict::safe;
-        if (scene.theory == Theory::nonlinear) {
-            answer.friction = accurate_values(job.problem, Field::friction).front();
+    std::optional<Progress> progress;
+    ToppleQuestion question{options.pga || options.scale, options.pga, options.pga_max};
+    question.progress = [&](std::size_t done, std::size_t all) {
+        if (!progress) {
+            progress.emplace(0, std::int64_t(all), "restitutions");
         }
-    }
-    answer.lifting_pga = lifting_pga(scene, point);
-    const double requested = point.block.restitution;
-    const auto r_max = r_max_of_only_block(job);
-    std::vector<double> ratios{requested};
-    if (r_max) {
-        for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
-            ratios.push_back(share * *r_max);
-        }
-    }
-    Progress progress(0, std::int64_t(ratios.size()), "restitutions");
-    const auto show_progress = [&] {
-        progress.update(std::int64_t(answer.by_restitution.size()));
-        return false;
+        progress->update(std::int64_t(done));
     };
-    const double end = std::max(options.pga_max, answer.pga);
-    for (const double ratio : ratios) {
-        if (!answer.by_restitution.empty() && ratio == requested) {
-            answer.by_restitution.push_back(answer.by_restitution.front());
-            continue;
-        }
-        BoundaryLine line{.point = point, .unit = of_direction * unit};
-        line.point.block.restitution = ratio;
-        answer.by_restitution.push_back(
-            {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
-             verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
-    }
-    answer.friction_to_topple =
-        friction_to_topple(job.problem, answer.by_restitution.front().ranges, unit);
-    return answer;
+    return answer_of(job.problem, question);
 }
 
 /// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
 std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
 {
     constexpr std::size_t most = 3;
-    const auto toppling = answer.by_restitution.front().ranges.with(Verdict::topples);
+    const auto toppling = answer.requested().ranges.with(Verdict::topples);
     std::vector<std::string> list;
     for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
         const double friction = answer.friction_to_topple[i];
@@ -281,7 +179,7 @@ void print_question(const Job& job, const ToppleOptions& options)
         direction = fmt::format("; direction {} degrees", *options.direction);
     }
     if (scene.has_two_components()) {
-        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job)));
+        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job.problem)));
     }
     print_row("motion", motion + direction);
     print_motion_of("", scene.motion_of);
@@ -293,7 +191,7 @@ void print_question(const Job& job, const ToppleOptions& options)
 void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
 {
     const auto alpha = slenderness_of_only_block(job);
-    const RestitutionAnswer& requested = answer.by_restitution.front();
+    const RestitutionAnswer& requested = answer.requested();
     const Scene& scene = job.problem.scene;
     const bool is_recorded = scene.is_recorded();
     const int decimals = requested.ranges.decimals(answer.pga);
@@ -317,7 +215,7 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
         }
     }
     print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
-    print_row("topples", requested.ranges.text(decimals, 20) +
+    print_row("topples", requested.ranges.text(decimals) +
                              (requested.ranges.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
                                                 requested.ranges.end_of_search())
@@ -333,13 +231,10 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
-                   other.ranges.text(other.ranges.decimals(answer.pga), 6));
+                   other.ranges.text(other.ranges.decimals(answer.pga)));
     }
     if (is_recorded) {
-        const double undecided = std::ranges::max(
-            answer.by_restitution | std::views::transform([](const RestitutionAnswer& each) {
-                return each.ranges.undecided_share();
-            }));
+        const double undecided = undecided_share(answer);
         fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
                    "of the searched accelerations {} undecided.\n",
                    100 * toppling_step,
@@ -445,7 +340,7 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     member("pga_max", options.pga_max);
     member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
     member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
-    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
+    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.requested()));
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
     }
@@ -481,7 +376,7 @@ int topple(const ToppleOptions& options)
     if (!options.history.empty()) {
         write_history(job, options.history);
     }
-    const ToppleAnswer answer = answer_of(job, options);
+    const ToppleAnswer answer = answer_for(job, options);
     (options.json ? print_json : print_answer)(job, options, answer);
     if (!options.history.empty() && !options.json) {
         fmt::print("\n{0}: written; draw it with tools/plot_history {0} --units physical\n",
