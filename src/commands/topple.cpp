@@ -7,6 +7,7 @@
 #include "output_lines.hpp"
 #include "progress.hpp"
 #include "toppling.hpp"
+#include "verdict_text.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
@@ -20,7 +21,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <ranges>
@@ -93,9 +93,6 @@ void expect_consistent(const ToppleOptions& options)
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
 }
-
-/// In the order of the enumerators of Verdict.
-constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
 
 ToppleAnswer answer_for(const Job& job, const ToppleOptions& options)
 {
@@ -204,11 +201,7 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
             ? fmt::format("r = r_max = {:.4g}", requested.ratio)
             : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
     if (answer.verdict) {
-        const std::string_view verdict = verdict_texts[std::size_t(*answer.verdict)];
-        print_row("verdict", options.pga
-                                 ? fmt::format("{} at {} g", verdict, *options.pga)
-                                 : fmt::format("{} at {} times the record, {:.{}f} g", verdict,
-                                               *options.scale, answer.pga, decimals));
+        print_row("verdict", verdict_sentence(answer, options.scale));
         print_row("peak tilt", peak_text(answer.peak, alpha));
         if (answer.friction) {
             print_row("friction", scene.worded(friction_text(*answer.friction)));
@@ -258,9 +251,13 @@ std::string json_of(const std::vector<VerdictRange>& ranges)
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
-std::string json_of(const RestitutionAnswer& answer)
+/// pga: the asked acceleration, if any.
+std::string json_of(const RestitutionAnswer& answer, const std::optional<double>& pga)
 {
     const VerdictRanges& ranges = answer.ranges;
+    const auto if_found = [](const std::optional<double>& found) {
+        return found ? json_of(*found) : "null";
+    };
     const double end = ranges.end_of_search();
     auto toppling = ranges.with(Verdict::topples);
     if (!toppling.empty() && toppling.back().last == end) {
@@ -270,12 +267,16 @@ std::string json_of(const RestitutionAnswer& answer)
         ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",
                                     ranges.coarse->first, ranges.coarse->last, ranges.coarse->step)
                       : "null";
-    return fmt::format(
-        "\"restitution\": {}, \"restitution_of_maximum\": {}, "
-        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
-        "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
-        answer.ratio, json_of(answer.share), json_of(toppling), json_of(ranges.with(Verdict::safe)),
-        json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
+    return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
+                       "\"toppling_pga_below\": {}, \"toppling_pga_above\": {}, "
+                       "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
+                       "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
+                       answer.ratio, json_of(answer.share),
+                       if_found(pga ? ranges.nearest_below(Verdict::topples, *pga) : std::nullopt),
+                       if_found(pga ? ranges.nearest_above(Verdict::topples, *pga) : std::nullopt),
+                       json_of(toppling), json_of(ranges.with(Verdict::safe)),
+                       json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end,
+                       coarse);
 }
 
 std::string json_of_motion(const Job& job, const ToppleOptions& options)
@@ -313,6 +314,8 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     member("motion_of", quoted_utf8(std::string(name_of(job.problem.scene.motion_of))));
     member("direction", options.direction.value_or(0));
     member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
+    const auto pga = answer.verdict ? std::optional(answer.pga) : std::nullopt;
+    member("verdict", pga ? in_quotes(verdict_sentence(answer, options.scale)) : "null");
     member("topples", answer.verdict == Verdict::topples ? "true"
                       : answer.verdict == Verdict::safe  ? "false"
                                                          : "null");
@@ -340,9 +343,9 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     member("pga_max", options.pga_max);
     member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
     member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
-    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.requested()));
+    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.requested(), pga));
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
-        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
+        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i], pga));
     }
     fmt::print("\n  ]\n}}\n");
 }

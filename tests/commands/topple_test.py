@@ -29,13 +29,28 @@ class Toppling(Scratch):
 
     def test_of_a_statue_is_answered_in_a_few_lines(self):
         text = self.topple(*PULSE, "--pga", "0.4")
-        for words in ("does not topple at 0.4 g", "0.8868 degrees, 4.81 % of alpha",
+        for words in ("does not topple at 0.4 g; topples at 0.9034 g (126 % more)\n", "0.8868 degrees, 4.81 % of alpha",
                       "lifts from   0.3333 g",
                       "1.1113 to 1.6445 g, above 2.1296 g, searched up to 5 g"):
             self.assertIn(words, text)
         self.assertLess(len(text.splitlines()), 17)
         self.assertIn("verdict      topples at 1.2 g",
                       self.topple(*PULSE, "--pga", "1.2", "--restitution-of-maximum", "0.9"))
+
+    def test_of_a_near_miss_says_how_near_it_is(self):
+        for wanted, *words in (("does not topple at 1.975 times the record, 0.7900 g; topples at 1.979 times the record "
+                                "(0.2 % more) and at 1.843 times the record (6.7 % less)\n", *RECORD, "--scale", "1.975"),
+                               ("does not topple at 0.9016 g; topples at 0.9034 g (0.2 % more)\n", *PULSE, "--pga", "0.9016"),
+                               ("does not topple at 0.9016 g; topples at 1.1113 g (23 % more); with r = r_max, it topples "
+                                "at 0.9034 g (0.2 % more)\n", *PULSE, "--pga", "0.9016", "--restitution-of-maximum", "0.9")):
+            self.assertIn(f"verdict      {wanted}", self.topple(*words, "--pga-max", "1.2"))
+        answer = self.answer(*PULSE, "--pga", "0.9016", "--restitution-of-maximum", "0.9", "--pga-max", "1.2")
+        self.assertIn("; with r = r_max, it topples at 0.9034 g", answer["verdict"])
+        self.assertIsNone(answer["toppling_pga_below"])
+        self.assertEqual(answer["toppling_pga_above"], answer["toppling_pga"][0][0])
+        self.assertEqual([each["toppling_pga_above"] for each in answer["by_restitution"]],
+                         [None if not each["toppling_pga"] else each["toppling_pga"][0][0]
+                          for each in answer["by_restitution"]])
 
     def test_states_the_friction_that_it_needs(self):
         self.assertIn("friction     the verdict holds if the coefficient is at least 0.46", self.topple(*PULSE, "--pga", "0.9"))
