@@ -94,17 +94,56 @@ void expect_consistent(const ToppleOptions& options)
               "--history is that of one acceleration. Give --pga or --scale.");
 }
 
-ToppleAnswer answer_for(const Job& job, const ToppleOptions& options)
+/// The job of each direction that is computed.
+std::vector<Job> jobs_of(ToppleOptions options)
+{
+    const auto job = [&] {
+        return read_job_text(job_text(options), command_line, options.overrides);
+    };
+    std::vector<Job> jobs{job()};
+    const std::vector<double> directions = directions_of(jobs.front().problem);
+    if (directions.size() > 1) {
+        jobs.clear();
+        for (const double direction : directions) {
+            options.direction = direction;
+            jobs.push_back(job());
+        }
+    }
+    return jobs;
+}
+
+/// A direction that is computed, and the answer for it.
+struct DirectedAnswer {
+    Job job;
+    std::optional<History> history; ///< if the options ask for it
+    ToppleAnswer answer;
+};
+
+/// The answers for all directions, the worst one first. Histories, which may be refused, are
+/// computed before the answers, which may take minutes.
+std::vector<DirectedAnswer> answers_for(std::vector<Job> jobs, const ToppleOptions& options)
 {
     std::optional<Progress> progress;
+    std::vector<DirectedAnswer> all;
+    for (Job& job : jobs) {
+        auto history =
+            options.history.empty() ? std::nullopt : std::optional(history_of_only_point(job));
+        all.push_back({std::move(job), std::move(history), {}});
+    }
+    std::size_t answered = 0;
     ToppleQuestion question{options.pga || options.scale, options.pga, options.pga_max};
-    question.progress = [&](std::size_t done, std::size_t all) {
+    question.progress = [&](std::size_t done, std::size_t restitutions) {
         if (!progress) {
-            progress.emplace(0, std::int64_t(all), "restitutions");
+            progress.emplace(0, std::int64_t(all.size() * restitutions), "restitutions");
         }
-        progress->update(std::int64_t(done));
+        progress->update(std::int64_t(answered * restitutions + done));
     };
-    return answer_of(job.problem, question);
+    for (DirectedAnswer& each : all) {
+        each.answer = answer_of(each.job.problem, question);
+        ++answered;
+    }
+    std::ranges::stable_sort(all, is_worse, &DirectedAnswer::answer);
+    return all;
 }
 
 /// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
@@ -163,8 +202,9 @@ std::string dimensions_text(const std::map<std::string, double>& given)
     return text;
 }
 
-void print_question(const Job& job, const ToppleOptions& options)
+void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
+    const Job& job = all.front().job;
     const Scene& scene = job.problem.scene;
     print_row("block", dimensions_text(options.block) + block_line(job));
     const std::string motion = scene.is_recorded()
@@ -172,27 +212,20 @@ void print_question(const Job& job, const ToppleOptions& options)
                                    : fmt::format("{}, period {} s{}", name_of(scene.pulse),
                                                  *options.period, shape_text(scene, ", {} {}"));
     std::string direction;
-    if (options.direction) {
+    if (all.size() > 1) {
+        direction = "; directions 0 and 180 degrees, its mirror image";
+    } else if (options.direction) {
         direction = fmt::format("; direction {} degrees", *options.direction);
     }
     if (scene.has_two_components()) {
-        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job.problem)));
+        direction += fmt::format(", {:.3g} g", all.front().answer.unit);
     }
     print_row("motion", motion + direction);
     print_motion_of("", scene.motion_of);
     if (scene.theory != Theory::nonlinear) {
         print_row("theory", name_of(scene.theory));
     }
-}
-
-void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
-{
-    const auto alpha = slenderness_of_only_block(job);
-    const RestitutionAnswer& requested = answer.requested();
-    const Scene& scene = job.problem.scene;
-    const bool is_recorded = scene.is_recorded();
-    const int decimals = requested.ranges.decimals(answer.pga);
-    print_question(job, options);
+    const RestitutionAnswer& requested = all.front().answer.requested();
     print_row(
         "restitution",
         std::isnan(requested.share)
@@ -200,18 +233,36 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
         : requested.share == 1
             ? fmt::format("r = r_max = {:.4g}", requested.ratio)
             : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
-    if (answer.verdict) {
-        print_row("verdict", verdict_sentence(answer, options.scale));
-        print_row("peak tilt", peak_text(answer.peak, alpha));
-        if (answer.friction) {
-            print_row("friction", scene.worded(friction_text(*answer.friction)));
+}
+
+/// The sentences of the verdict for every direction.
+std::vector<std::string> verdicts_of(const std::vector<DirectedAnswer>& all,
+                                     const ToppleOptions& options)
+{
+    std::vector<std::string> sentences;
+    for (const auto& [job, history, answer] : all) {
+        std::string place;
+        if (all.size() > 1) {
+            place = fmt::format(" in direction {}", answer.direction);
+            place += sentences.empty() ? fmt::format(", worse than {}", all.back().answer.direction)
+                                       : "";
+        }
+        if (answer.verdict) {
+            sentences.push_back(verdict_sentence(answer, options.scale, place));
         }
     }
+    return sentences;
+}
+
+void print_ranges(const Scene& scene, const ToppleAnswer& answer)
+{
+    const VerdictRanges& requested = answer.requested().ranges;
+    const int decimals = requested.decimals(answer.pga);
     print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
-    print_row("topples", requested.ranges.text(decimals) +
-                             (requested.ranges.ends_in_free_fall
+    print_row("topples", requested.text(decimals) +
+                             (requested.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
-                                                requested.ranges.end_of_search())
+                                                requested.end_of_search())
                                   : ""));
     if (!answer.friction_to_topple.empty()) {
         print_row("",
@@ -226,8 +277,34 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
                    other.ranges.text(other.ranges.decimals(answer.pga)));
     }
-    if (is_recorded) {
-        const double undecided = undecided_share(answer);
+}
+
+void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
+{
+    print_question(all, options);
+    std::string_view name = "verdict";
+    for (const std::string& sentence : verdicts_of(all, options)) {
+        print_row(name, sentence);
+        name = "";
+    }
+    for (const auto& [job, history, answer] : all) {
+        if (all.size() > 1) {
+            fmt::print("\n");
+            print_row("direction", fmt::format("{} degrees", answer.direction));
+        }
+        if (answer.verdict) {
+            print_row("peak tilt", peak_text(answer.peak, slenderness_of_only_block(job)));
+        }
+        if (answer.friction) {
+            print_row("friction", job.problem.scene.worded(friction_text(*answer.friction)));
+        }
+        print_ranges(job.problem.scene, answer);
+    }
+    if (all.front().job.problem.scene.is_recorded()) {
+        double undecided = 0;
+        for (const auto& [job, history, answer] : all) {
+            undecided = std::max(undecided, undecided_share(answer));
+        }
         fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
                    "of the searched accelerations {} undecided.\n",
                    100 * toppling_step,
@@ -295,69 +372,91 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
                        motion.is_uncorrected);
 }
 
-void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
+using JsonMembers = std::vector<std::string>;
+
+void add(JsonMembers& members, std::string_view name, const auto& value)
 {
+    members.push_back(fmt::format("\"{}\": {}", name, value));
+}
+
+/// What depends on the direction. verdict: the sentence; empty if no strength is asked for.
+JsonMembers json_members_of(const DirectedAnswer& directed, const std::string& verdict)
+{
+    const auto& [job, history, answer] = directed;
     const auto alpha = slenderness_of_only_block(job);
-    const auto if_requested = [&](double value) {
-        return answer.verdict ? json_of(value) : "null";
-    };
-    const auto member = [](std::string_view name, const auto& value) {
-        fmt::print("  \"{}\": {},\n", name, value);
-    };
-    const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
-    fmt::print("{{\n");
+    const auto pga = answer.verdict ? std::optional(answer.pga) : std::nullopt;
+    const auto if_requested = [&](double value) { return pga ? json_of(value) : "null"; };
+    JsonMembers members;
+    add(members, "direction", answer.direction);
+    add(members, "verdict", pga ? in_quotes(verdict) : "null");
+    add(members, "topples",
+        answer.verdict == Verdict::topples ? "true"
+        : answer.verdict == Verdict::safe  ? "false"
+                                           : "null");
+    add(members, "pga", if_requested(answer.pga));
+    add(members, "peak_of_alpha", if_requested(answer.peak));
+    add(members, "peak_degrees",
+        alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
+    add(members, "friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
+    add(members, "lifts_off", answer.friction && std::isinf(*answer.friction));
+    const auto friction =
+        mapped(answer.friction_to_topple, [](double each) { return json_of(each); });
+    add(members, "friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
+    add(members, "lifting_pga", json_of(answer.lifting_pga));
+    members.push_back(json_of(answer.requested(), pga));
+    std::vector<std::string> others;
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        others.push_back(fmt::format("\n    {{{}}}", json_of(answer.by_restitution[i], pga)));
+    }
+    add(members, "by_restitution", fmt::format("[{}]", fmt::join(others, ",")));
+    return members;
+}
+
+/// The block and its motion, whatever the direction.
+JsonMembers json_members_of(const Job& job, const ToppleOptions& options)
+{
+    const Scene& scene = job.problem.scene;
+    const auto number = [&](const char* name) { return extent_of(job, name)->first; };
+    JsonMembers members;
     const auto block = options.block | std::views::transform([](const auto& given) {
                            return fmt::format("\"{}\": {}", given.first, given.second);
                        });
-    member("block", fmt::format("{{{}}}", fmt::join(block, ", ")));
-    member("motion", json_of_motion(job, options));
-    member("motion_of", quoted_utf8(std::string(name_of(job.problem.scene.motion_of))));
-    member("direction", options.direction.value_or(0));
-    member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
-    const auto pga = answer.verdict ? std::optional(answer.pga) : std::nullopt;
-    member("verdict", pga ? in_quotes(verdict_sentence(answer, options.scale)) : "null");
-    member("topples", answer.verdict == Verdict::topples ? "true"
-                      : answer.verdict == Verdict::safe  ? "false"
-                                                         : "null");
-    member("pga", if_requested(answer.pga));
-    member("peak_of_alpha", if_requested(answer.peak));
-    member("peak_degrees",
-           alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
-    member("friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
-    member("lifts_off", answer.friction && std::isinf(*answer.friction) ? "true" : "false");
-    if (alpha) {
-        member("slenderness", *alpha);
-    } else {
-        member("slenderness_plus", extent_of(job, "slenderness_plus")->first);
-        member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
+    add(members, "block", fmt::format("{{{}}}", fmt::join(block, ", ")));
+    add(members, "motion", json_of_motion(job, options));
+    add(members, "motion_of", quoted_utf8(std::string(name_of(scene.motion_of))));
+    add(members, "theory", quoted_utf8(std::string(name_of(scene.theory))));
+    add(members, "gravity", scene.gravity);
+    std::vector<const char*> names{"slenderness", "frequency_parameter"};
+    if (!slenderness_of_only_block(job)) {
+        names = {"slenderness_plus", "slenderness_minus", "frequency_parameter",
+                 "frequency_parameter_minus", "incline"};
     }
-    member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
-    if (!alpha) {
-        member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
+    for (const char* name : names) {
+        add(members, name, number(name));
     }
-    const auto friction = answer.friction_to_topple |
-                          std::views::transform([](double each) { return json_of(each); });
-    member("friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
-    member("gravity", job.problem.scene.gravity);
-    member("lifting_pga", json_of(answer.lifting_pga));
-    member("pga_max", options.pga_max);
-    member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
-    member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
-    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.requested(), pga));
-    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
-        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i], pga));
-    }
-    fmt::print("\n  ]\n}}\n");
+    add(members, "pga_max", options.pga_max);
+    add(members, "narrower_ranges_exist", scene.is_recorded() ? "true" : "null");
+    const std::string warning = implausible_values(scene, job.problem.grid);
+    add(members, "warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
+    return members;
 }
 
-void write_history(const Job& job, const std::string& path)
+/// The answer for the worst direction, and the answers for all.
+void print_json(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
-    const SoleWriter sole_writer(path);
-    {
-        const GuardedReading guarded(path, sole_writer.lock());
-        expect_room_for(path, FileKind::history);
+    const std::vector<std::string> verdicts = verdicts_of(all, options);
+    std::vector<std::string> directions;
+    JsonMembers members = json_members_of(all.front().job, options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const JsonMembers its_members =
+            json_members_of(all[i], verdicts.empty() ? "" : verdicts[i]);
+        directions.push_back(fmt::format("\n  {{{}}}", fmt::join(its_members, ", ")));
+        if (i == 0) {
+            members.insert(members.end(), its_members.begin(), its_members.end());
+        }
     }
-    write_history_file(path, job, history_of_only_point(job));
+    add(members, "by_direction", fmt::format("[{}]", fmt::join(directions, ",")));
+    fmt::print("{{\n  {}\n}}\n", fmt::join(members, ",\n  "));
 }
 
 } // namespace
@@ -366,7 +465,8 @@ int topple(const ToppleOptions& options)
 {
     widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
-    const Job job = read_job_text(job_text(options), command_line, options.overrides);
+    std::vector<Job> jobs = jobs_of(options);
+    const Job& job = jobs.front();
     if (job.motions.size() > 1) {
         throw Error(exit_code::usage,
                     "--record matches {} files, but topple answers for one motion. "
@@ -376,14 +476,23 @@ int topple(const ToppleOptions& options)
     if (!options.json) {
         warn_of_probable_mistakes(job);
     }
+    std::optional<SoleWriter> sole_writer;
     if (!options.history.empty()) {
-        write_history(job, options.history);
+        sole_writer.emplace(options.history);
+        const GuardedReading guarded(options.history, sole_writer->lock());
+        expect_room_for(options.history, FileKind::history);
     }
-    const ToppleAnswer answer = answer_for(job, options);
-    (options.json ? print_json : print_answer)(job, options, answer);
+    const std::vector<DirectedAnswer> answers = answers_for(std::move(jobs), options);
+    if (!options.history.empty()) {
+        write_history_file(options.history, answers.front().job, *answers.front().history);
+    }
+    (options.json ? print_json : print_answer)(answers, options);
     if (!options.history.empty() && !options.json) {
-        fmt::print("\n{0}: written; draw it with tools/plot_history {0} --units physical\n",
-                   options.history);
+        fmt::print("\n{0}: written{1}; draw it with tools/plot_history {0} --units physical\n",
+                   options.history,
+                   answers.size() > 1 ? fmt::format(", the motion in direction {}",
+                                                    answers.front().answer.direction)
+                                      : "");
     }
     return exit_code::complete;
 }

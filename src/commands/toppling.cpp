@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace overturn {
 
@@ -108,20 +109,50 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
     return answers;
 }
 
+/// Smaller if the answer is worse: the verdict, the distance to the nearest toppling acceleration
+/// as a ratio, the least toppling one, and that which lifts the block.
+std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const VerdictRanges& ranges = answer.requested().ranges;
+    const int of_verdict = answer.verdict == Verdict::topples     ? 0
+                           : answer.verdict == Verdict::undecided ? 1
+                                                                  : 2;
+    double distance = infinity;
+    if (answer.verdict) {
+        const auto above = ranges.nearest_above(Verdict::topples, answer.pga);
+        const auto below = ranges.nearest_below(Verdict::topples, answer.pga);
+        distance = std::min(above ? *above / answer.pga : infinity,
+                            below ? answer.pga / *below : infinity);
+    }
+    const double least = ranges.nearest_above(Verdict::topples, 0).value_or(infinity);
+    return {of_verdict, distance, least, answer.lifting_pga};
+}
+
 } // namespace
+
+std::vector<double> directions_of(const Problem& problem)
+{
+    if (const Column* given = problem.grid.find("direction")) {
+        return {given->values.first()};
+    }
+    return only_point_of(problem).block.is_symmetric() ? std::vector<double>{0}
+                                                       : std::vector<double>{0, 180};
+}
 
 ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
 {
     ToppleAnswer answer;
     const Scene& scene = problem.scene;
     const Point point = only_point_of(problem);
+    answer.direction = directions_of(problem).front();
     answer.unit = pga_of_unit(scene, point);
     if (!(answer.unit > 0)) {
         throw Error(
             exit_code::job,
             "the record has no motion in the direction of {} degrees: its components cancel. "
             "Choose another --direction.",
-            point.direction);
+            answer.direction);
     }
     answer.pga = question.pga.value_or(std::abs(point.amplitude) * answer.unit);
     if (question.has_strength) {
@@ -137,6 +168,11 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
     answer.by_restitution = answers_by_restitution(problem, point, answer, question);
     answer.friction_to_topple = friction_to_topple(problem, answer.requested().ranges, answer.unit);
     return answer;
+}
+
+bool is_worse(const ToppleAnswer& one, const ToppleAnswer& other)
+{
+    return rank_of(one) < rank_of(other);
 }
 
 double undecided_share(const ToppleAnswer& answer)

@@ -28,6 +28,7 @@ struct ToppleQuestion {
 };
 
 struct ToppleAnswer {
+    double direction = 0;           ///< of the motion [degree]
     std::optional<Verdict> verdict; ///< nullopt if no strength is asked for
     double peak = 0;                ///< |theta| / alpha
     std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
@@ -42,8 +43,16 @@ struct ToppleAnswer {
     const RestitutionAnswer& requested() const { return by_restitution.front(); }
 };
 
+/// The directions of the motion that are computed [degree]: the given one. Without it the motion as
+/// it stands and, of a block whose sides differ, its mirror image, because either may be worse.
+std::vector<double> directions_of(const Problem& problem);
+
 /// Throws Error if the record has no motion in this direction.
 ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question);
+
+/// Whether the answer for one direction of a motion is worse than that for another one: the block
+/// topples, or may topple; or it topples closer to the asked strength; without one, at less.
+bool is_worse(const ToppleAnswer& one, const ToppleAnswer& other);
 
 /// The share of the restitutions' searches in which verdicts are undecided, the largest one [1].
 double undecided_share(const ToppleAnswer& answer);

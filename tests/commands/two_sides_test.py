@@ -68,6 +68,36 @@ class TwoSides(Scratch):
             np.testing.assert_allclose(ends, flips, rtol=0, atol=2e-8)
             self.assertEqual(answer["undecided_pga"], [])
 
+    def test_are_computed_in_both_directions_unless_one_is_asked_for(self):
+        for name, strengths in (("leaning", (0.45, 0.7)), ("eccentric", (0.4, 0.5))):
+            options = [f"--{key.replace('_', '-')}={value}" for key, value in BLOCKS[name][0].items()]
+            for pga in strengths:
+                toppling = {direction for direction in (0, 180)
+                            if sum(flip < pga for flip in FLIPS[name, direction]) % 2 == 1}
+                result = self.overturn("topple", *options, "--period=0.5", f"--pga={pga}", "--pga-max=1.2", "--json")
+                answer = json.loads(result.stdout)
+                self.assertEqual(answer["warnings"], [])
+                self.assertEqual({each["direction"] for each in answer["by_direction"] if each["topples"]}, toppling)
+                self.assertEqual(sorted(each["direction"] for each in answer["by_direction"]), [0, 180])
+                self.assertEqual(answer["topples"], bool(toppling))
+                self.assertTrue(answer["direction"] in toppling or not toppling)
+                self.assertEqual(answer | answer["by_direction"][0], answer)  # the worse one is first
+                self.assertIn(f" at {pga} g in direction {answer['direction']}, worse than "
+                              f"{180 - answer['direction']}", answer["verdict"])
+
+    def test_say_which_direction_is_worse_and_write_its_history(self):
+        options = [f"--{key.replace('_', '-')}={value}" for key, value in BLOCKS["eccentric"][0].items()]
+        options += ["--period=0.5", "--pga=0.5", "--pga-max=1.2"]
+        result = self.overturn("topple", *options, "--history", "both.h5")
+        self.assert_exit(result, 0, "directions 0 and 180 degrees",
+                         "verdict topples at 0.5 g in direction 180, worse than 0 "
+                         "does not topple at 0.5 g in direction 0; topples at 0.6863 g (37 % more)",
+                         "both.h5: written, the motion in direction 180; draw it with")
+        self.assertEqual(result.stderr, "")
+        self.assert_exit(self.overturn("topple", *options, "--direction=180", "--history", "one.h5"), 0)
+        with h5py.File(self.folder / "both.h5") as both, h5py.File(self.folder / "one.h5") as one:
+            np.testing.assert_array_equal(both["angle"][:], one["angle"][:])
+
     def test_are_resolved_beside_their_flips_in_spectra_and_tables(self):
         for number, (block, direction, flips, _) in enumerate(cases()):
             pga = sorted(flip + step for flip in flips for step in (-1e-11, 1e-11))

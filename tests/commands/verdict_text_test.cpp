@@ -1,5 +1,7 @@
-// The sentence that gives a verdict.
+// The sentence that gives a verdict, and which of two directions is worse.
 #include "commands/verdict_text.hpp"
+#include "support/given_values.hpp"
+#include "support/two_sides.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -138,6 +140,56 @@ TEST(Sentence, NeverOverstatesTheDistanceToTheNearestTopplingStrength)
         EXPECT_GT((named - asked / unit) / (flip - asked), 0) << text;
         EXPECT_THAT(text, HasSubstr(is_above ? " % more)" : " % less)"));
     }
+}
+
+TEST(Directions, OfABlockWhoseSidesDifferAreBothUnlessOneIsGiven)
+{
+    std::mt19937_64 generator(2);
+    for (int i = 0; i < 30; ++i) {
+        const Body body = random_body(generator);
+        const auto directions = [&](Given width, std::vector<Given> more) {
+            more.insert(more.end(), {width, number("height", 2), number("restitution", 0.5),
+                                     number("pga", 0.3), number("pulse_period", 0.5)});
+            Problem problem;
+            problem.grid = grid_of(problem.scene, std::move(more));
+            return directions_of(problem);
+        };
+        const Given width = number("width", body.plus + body.minus);
+        const Given offset = number("center_offset", (body.minus - body.plus) / 2);
+        using Directions = std::vector<double>;
+        EXPECT_EQ(directions(width, {offset}), (Directions{0, 180}));
+        EXPECT_EQ(directions(width, {number("incline", 0.01)}), (Directions{0, 180}));
+        EXPECT_EQ(directions(width, {offset, number("direction", 0)}), (Directions{0}));
+        EXPECT_EQ(directions(width, {offset, number("direction", 180)}), (Directions{180}));
+        EXPECT_EQ(directions(width, {number("center_height", body.height)}), (Directions{0}));
+        EXPECT_EQ(directions(width, {}), (Directions{0}));
+    }
+}
+
+TEST(Directions, AreWorseIfTheBlockTopplesOrTopplesCloserToTheAskedStrength)
+{
+    // From the worst to the best.
+    const std::vector<ToppleAnswer> answers{
+        answer_at(1, topples, {{0.5, 5, topples}}),
+        answer_at(1, topples, {{0.9, 1.1, topples}}),
+        answer_at(1, undecided, {{0.95, 1.05, undecided}, {1.1, 5, topples}}),
+        answer_at(1, safe, {{1.001, 1.002, topples}}),
+        answer_at(1, safe, {{0.9, 0.998, topples}}),
+        answer_at(1, safe, {{0.5, 0.6, topples}, {1.1, 5, topples}}),
+        answer_at(1, safe, {{1.1, 5, topples}}),
+        answer_at(1, safe, {})};
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        for (std::size_t j = 0; j < answers.size(); ++j) {
+            EXPECT_EQ(is_worse(answers[i], answers[j]), i < j) << i << " " << j;
+        }
+    }
+    const auto without_strength = [](double first) {
+        ToppleAnswer answer = answer_at(0, safe, {{first, 5, topples}});
+        answer.verdict.reset();
+        return answer;
+    };
+    EXPECT_TRUE(is_worse(without_strength(0.4), without_strength(0.6)));
+    EXPECT_FALSE(is_worse(without_strength(0.6), without_strength(0.4)));
 }
 
 } // namespace
