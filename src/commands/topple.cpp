@@ -328,6 +328,19 @@ std::string json_of(const std::vector<VerdictRange>& ranges)
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
+/// The toppling ranges as in the text, not rounded.
+std::string json_of_intervals(const VerdictRanges& ranges)
+{
+    const auto list = mapped(
+        ranges.intervals(Verdict::topples, VerdictRanges::most_shown),
+        [&](const VerdictInterval& interval) {
+            const bool may_go_on = interval.last == ranges.end_of_search();
+            return fmt::format("{{\"first\": {}, \"last\": {}, \"share\": {}}}", interval.first,
+                               may_go_on ? "null" : json_of(interval.last), interval.share);
+        });
+    return fmt::format("[{}]", fmt::join(list, ", "));
+}
+
 /// pga: the asked acceleration, if any.
 std::string json_of(const RestitutionAnswer& answer, const std::optional<double>& pga)
 {
@@ -347,13 +360,14 @@ std::string json_of(const RestitutionAnswer& answer, const std::optional<double>
     return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
                        "\"toppling_pga_below\": {}, \"toppling_pga_above\": {}, "
                        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
-                       "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
+                       "\"toppling_intervals\": {}, \"undecided_share\": {}, \"end_of_search\": "
+                       "{}, \"coarse_search\": {}",
                        answer.ratio, json_of(answer.share),
                        if_found(pga ? ranges.nearest_below(Verdict::topples, *pga) : std::nullopt),
                        if_found(pga ? ranges.nearest_above(Verdict::topples, *pga) : std::nullopt),
                        json_of(toppling), json_of(ranges.with(Verdict::safe)),
-                       json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end,
-                       coarse);
+                       json_of(ranges.with(Verdict::undecided)), json_of_intervals(ranges),
+                       ranges.undecided_share(), end, coarse);
 }
 
 std::string json_of_motion(const Job& job, const ToppleOptions& options)
