@@ -15,6 +15,16 @@ namespace overturn {
 
 namespace {
 
+/// Without the end that fills a block of a tape or a disk, or that ends files of DOS: 0x1a or NUL,
+/// and then only these, blanks and line ends.
+std::string_view without_padding(std::string_view text)
+{
+    constexpr std::string_view fill("\x1a\0", 2);
+    constexpr std::string_view padding("\x1a\0 \t\r\n", 6);
+    const std::size_t end = text.find_last_not_of(padding) + 1; // 0 if there is nothing else
+    return text.substr(0, text.find_first_of(fill, end));
+}
+
 /// Whether a line is like `2 CORRECTED ACCELEROGRAM`: the digit and the name of a kind of data.
 bool is_smc_title(std::string_view text)
 {
@@ -176,11 +186,7 @@ std::vector<double> over_gravity(const RecordComponent& component, double gravit
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options)
 {
-    text = without_byte_order_mark(text);
-    if (text.ends_with('\x1a')) { // of DOS files
-        text.remove_suffix(1);
-    }
-    const Lines lines(text, name);
+    const Lines lines(without_padding(without_byte_order_mark(text)), name);
     if (options.time_step && !(*options.time_step > 0 && std::isfinite(*options.time_step))) {
         lines.refuse_file("time_step = {} was given, but must be above 0 and finite. Give the "
                           "seconds between two samples.",

@@ -97,13 +97,13 @@ TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
 
 TEST(RecordText, IsRefusedIfItIsBinary)
 {
-    EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)),
+    EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0\1", 11)),
               "a.txt:2: the character 0x1a is not text. Give a file of text: a published record, "
               "or columns.");
-    EXPECT_EQ(refusal_of(std::string("1\0", 2)),
+    EXPECT_EQ(refusal_of(std::string("1\0\n2", 4)),
               "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
               "or columns.");
-    EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0", 6)), // UTF-16
+    EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0\x32\0", 8)), // UTF-16
               "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
               "or columns.");
 }

@@ -96,6 +96,13 @@ TEST(Smc, MayHaveTheLineEndsOfAnySystem)
     }
 }
 
+TEST(Smc, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_EQ(component_of(sound + padding).acceleration, component_of(sound).acceleration);
+    }
+}
+
 // clang-format off
 TEST(Smc, IsRefusedWithFileLineAndReason)
 {

@@ -103,6 +103,21 @@ TEST(Text, MayHaveTheLineEndsOfAnySystem)
     }
 }
 
+TEST(Text, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_EQ(component_of("0.0 1\n0.1 2\n" + padding, in_g).acceleration, (Values{1, 2}));
+    }
+}
+
+TEST(Text, MayNotContainPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_THAT(refusal_of("0.0 1\n" + padding + "0.1 2\n", in_g),
+                    testing::HasSubstr("is not text"));
+    }
+}
+
 TEST(Text, SeparatesColumnsByBlanksOrCommas)
 {
     for (const char* separator : {" ", "\t", ",", ", ", " ,", "  \t "}) {
