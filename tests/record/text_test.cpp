@@ -182,7 +182,66 @@ TEST(TimeStep, AcceptsTimesThatAreHalfAUnitOff)
 
 TEST(TimeStep, OfTimesWithFewDigitsIsAnyThatRoundsToThem)
 {
-    EXPECT_EQ(component_of("0.00 0\n0.01 0\n0.02 0\n0.04 0\n", in_g).time_step, 0.012);
+    EXPECT_EQ(component_of(printed("%.2f", 0, 0.012, 9), in_g).time_step, 0.012);
+}
+
+TEST(TimeStep, OfRoundedTimesMayMakeStepsOfOneAndTwoUnits)
+{
+    for (const auto& [format, step, count] :
+         std::vector<std::tuple<const char*, double, int>>{{"%.2f", 0.0125, 1000},
+                                                           {"%.2f", 0.0104, 200},
+                                                           {"%.2f", 0.0102, 200},
+                                                           {"%.2f", 0.016, 50},
+                                                           {"%.1f", 0.125, 50},
+                                                           {"%.0f", 1.25, 50},
+                                                           {"%.0f", 1.9, 50}}) {
+        EXPECT_EQ(component_of(printed(format, 0, step, count), in_g).time_step, step) << step;
+    }
+}
+
+TEST(TimeStep, MayBeRoundedToFewerDigitsAfterSomeTime)
+{
+    // One step of 0.02 s, after 1 s; those before are 0.011 s.
+    EXPECT_EQ(component_of(printed("%.3g", 0, 1 / 90.0, 100), in_g).time_step, 0.011111);
+}
+
+TEST(TimeStep, IsNotStretchedOverAMissingSample)
+{
+    // Times with a step of one unit of their last digit, the first three and the last, agree with a
+    // longer one if the gap is in their last two thirds.
+    for (const auto& [format, step] :
+         std::vector<std::pair<const char*, double>>{{"%.2f", 0.01},
+                                                     {"%.1f", 0.1},
+                                                     {"%.0f", 1},
+                                                     {"%.3f", 0.001},
+                                                     {"%.2f", 0.02},
+                                                     {"%.3f", 0.005},
+                                                     {"%.3f", 0.0078125},
+                                                     {"%.5f", 0.0078125},
+                                                     {"%.2e", 0.01}}) {
+        for (const double first : {0.0, 2.0, -1.0}) {
+            for (const int missing : {2, 9, 20, 30, 38}) {
+                const std::string text =
+                    printed(format, first, step, missing) +
+                    printed(format, first + (missing + 1) * step, step, 40 - missing);
+                EXPECT_THAT(
+                    refusal_of(text, in_g),
+                    testing::AllOf(testing::StartsWith(fmt::format("a.txt:{}: ", missing + 1)),
+                                   testing::HasSubstr("missing")))
+                    << format << " " << step << " " << first;
+            }
+        }
+    }
+}
+
+TEST(TimeStep, IsNotStretchedOverAGapBehindTheFirstSample)
+{
+    EXPECT_EQ(refusal_of("0.00 1\n0.02 1\n0.03 1\n0.04 1\n0.05 1\n", in_g),
+              "a.txt:2: the time is 0.02 s after the previous one, but all other steps are at most "
+              "0.01 s: a sample is missing. Give the complete record; if none is missing, give "
+              "times with more digits.");
+    EXPECT_THAT(refusal_of("0.000 1\n0.007 1\n0.010 1\n0.013 1\n0.017 1\n", in_g),
+                testing::StartsWith("a.txt:2: the time is 0.007 s after the previous one"));
 }
 
 TEST(TimeStep, IsPositiveEvenIfTheTimesHaveFewDigits)
@@ -270,10 +329,16 @@ TEST(Text, IsRefusedWithFileLineAndReason)
             "file."},
         {"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
             "a.txt:4: the time is 0.040 s, but must be 0.03 s to within half a unit of its last digit: times must be "
+            "evenly spaced, and those before have the step 0.01 s. 1 sample is missing. Give the complete record."},
+        {"UnevenSteps", "0.000 0\n0.010 0\n0.020 0\n0.034 0\n", in_g,
+            "a.txt:4: the time is 0.034 s, but must be 0.03 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
+        {"TwoMissingTimes", "0.00 0\n0.02 0\n0.04 0\n0.10 0\n", in_g,
+            "a.txt:4: the time is 0.10 s, but must be 0.06 s to within half a unit of its last digit: times must be "
+            "evenly spaced, and those before have the step 0.02 s. 2 samples are missing. Give the complete record."},
         {"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
             "a.txt:101: the time is 0.505 s, but must be 0.5 s to within half a unit of its last digit: times must be "
-            "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
+            "evenly spaced, and those before have the step 0.005 s. 1 sample is missing. Give the complete record."},
         {"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s is not after the previous time, 0 s. Give ascending times with enough digits, "
             "or one column and time_step."},
