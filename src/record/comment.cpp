@@ -183,6 +183,12 @@ std::optional<std::string_view> value_of(std::string_view comment, std::string_v
     return is_quoted ? value.substr(1, value.size() - 2) : value;
 }
 
+bool next_content(Lines& lines)
+{
+    return next_line(
+        lines, [](std::string_view line) { return !trimmed(line).empty() && !is_comment(line); });
+}
+
 void expect_unit(const Lines& comment, AccelerationUnit unit)
 {
     const std::string text = text_of_comment(comment.line());

@@ -16,6 +16,9 @@ bool is_comment(std::string_view line);
 /// The value of a comment `KEY = VALUE`, without quotes; nullopt if it is another comment.
 std::optional<std::string_view> value_of(std::string_view comment, std::string_view key);
 
+/// Proceeds to the next line that is neither blank nor a comment; false if there is none.
+bool next_content(Lines& lines);
+
 /// Refuses a comment that contains another unit than this one, in brackets, in the name of a column
 /// (acc_g) or anywhere else, a multiple (g/10, 0.01 g, % of g), or a unit of time other than the
 /// second. Values (PGA 0.35 g) and definitions (g = 9.81) are skipped.

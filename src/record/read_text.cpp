@@ -193,15 +193,20 @@ std::vector<std::string_view> columns_of(std::string_view line)
     return columns;
 }
 
-/// The first row decides how many columns there are, and thus whether the times are known.
-void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
-                    const std::optional<double>& time_step)
+void expect_one_or_two_columns(const Lines& lines, std::size_t found)
 {
     if (found > 2) {
         lines.refuse("the line has {} columns. Give one column of accelerations, or two of times "
                      "and accelerations; the decimal mark is a point.",
                      found);
     }
+}
+
+/// The first row decides how many columns there are, and thus whether the times are known.
+void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
+                    const std::optional<double>& time_step)
+{
+    expect_one_or_two_columns(lines, found);
     if (found != expected) {
         lines.refuse("the line has {} {}, but the previous lines have {}. Correct it.", found,
                      noun_of(found, "columns"), expected);
@@ -283,18 +288,22 @@ bool read_statement(const Lines& comment, RecordComponent& component)
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
 {
+    Lines ahead = lines;
+    const bool has_points = next_line(ahead, [](std::string_view line) {
+        return !is_comment(line) && line.find('.') != line.npos;
+    });
+    ahead = lines;
+    if (has_points && next_content(ahead)) { // before a unit is asked for, which would not help
+        expect_one_or_two_columns(ahead, columns_of(ahead.line()).size());
+    }
     if (!options.unit) {
         lines.refuse_file(
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(names_of<AccelerationUnit>, ", "), how_to_state("units"));
     }
-    Lines ahead = lines;
+    ahead = lines;
     const bool speaks_of_accelerations = next_line(
         ahead, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
-    ahead = lines;
-    const bool has_points = next_line(ahead, [](std::string_view line) {
-        return !is_comment(line) && line.find('.') != line.npos;
-    });
     RecordComponent component;
     component.unit = *options.unit;
     component.header = kept_lines(lines, std::string_view::npos, is_comment);

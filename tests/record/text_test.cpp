@@ -446,6 +446,13 @@ TEST(OneColumn, IsRefusedIfItBeginsWithTheNumberOfItsSamples)
     }
 }
 
+TEST(Text, OfMoreColumnsIsRefusedBeforeItsUnitIsAskedFor)
+{
+    EXPECT_EQ(refusal_of("# three components\n0.0 1 2 3\n"),
+              "a.txt:2: the line has 4 columns. Give one column of accelerations, or two of times "
+              "and accelerations; the decimal mark is a point.");
+}
+
 TEST(TwoColumns, StateTheTimeOfTheFirstSample)
 {
     EXPECT_EQ(component_of("3.00 1\n3.01 2\n", in_g).start, 3);
