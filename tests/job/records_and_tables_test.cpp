@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 
 namespace overturn {
@@ -118,6 +119,85 @@ TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)
     write_components("a.V2A", {"N", "E", "Up"});
     EXPECT_EQ(names_of(plane("record = ['a.V2A', 'a.V2A']\nvertical = ['E', 'Up']")),
               (std::vector<std::string>{"a.V2A:N:E", "a.V2A:N:Up"}));
+}
+
+using Patterns = JobWithFiles;
+
+/// Names of folders that are also patterns, of which most do not match themselves.
+const Names folders_like_patterns{"d [1]",
+                                  "[ab]",
+                                  "[!a]",
+                                  "[a-z] 1",
+                                  "x[",
+                                  "]x[",
+                                  "[]",
+                                  "[[]",
+                                  "[[:alpha:]]",
+                                  "*",
+                                  "a*b",
+                                  "?",
+                                  "a?",
+                                  "**",
+                                  "Kobe [NS] (1995)",
+                                  "[1] [2]",
+                                  "a\\b [1]",
+                                  "\\*",
+                                  "\\[1]",
+                                  "{a,b} [1]",
+                                  "[1]/[2]",
+                                  "a [1]/b/c [2]"};
+
+TEST_F(Patterns, MayContainFoldersWhoseNamesArePatterns)
+{
+    for (const std::string& name : folders_like_patterns) {
+        std::filesystem::create_directories(folder_ / name);
+        write_record(name + "/b.AT2", "0 1 0");
+        write_record(name + "/a.AT2", "0 2 0");
+        const Names both{name + "/a.AT2", name + "/b.AT2"};
+        EXPECT_EQ(names_of(plane("record = '" + name + "/*.AT2'")), both);
+        EXPECT_EQ(names_of(plane("record = '" + name + "/[ab].AT2'")), both);
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.AT2'")), Names{both[0]});
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.A*'")), Names{both[0]});
+        const std::string absolute = folder_ / name;
+        EXPECT_EQ(names_of(plane("record = '" + absolute + "/*.AT2'")),
+                  (Names{absolute + "/a.AT2", absolute + "/b.AT2"}));
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.AT2'\nvertical = '" + name + "/b.AT2'")),
+                  Names{both[0]});
+    }
+}
+
+TEST_F(Patterns, MayBeInTheFolderOfAJobWhoseNameIsAPattern)
+{
+    for (const std::string& name : folders_like_patterns) {
+        std::filesystem::create_directories(folder_ / name);
+        write_record(name + "/a.AT2", "0 1 0");
+        const Job job = read_job_text("[scene]\nrecord = '*.AT2'\n[plane]\nscale = 1\nsize = 1\n"
+                                      "slenderness = 0.2\nrestitution = 0.9\n",
+                                      folder_ / name + "/job.toml");
+        EXPECT_EQ(names_of(job), Names{"a.AT2"}) << name;
+    }
+}
+
+TEST_F(Patterns, MatchOtherFoldersIfTheOneOfTheirNameHasNoSuchFile)
+{
+    for (const char* name : {"d [1]", "d 1"}) {
+        std::filesystem::create_directories(folder_ / name);
+    }
+    write_record("d 1/a.AT2", "0 1 0");
+    EXPECT_EQ(names_of(plane("record = 'd [1]/*.AT2'")), Names{"d 1/a.AT2"});
+    write_record("d [1]/b.AT2", "0 1 0");
+    EXPECT_EQ(names_of(plane("record = 'd [1]/*.AT2'")), Names{"d [1]/b.AT2"});
+}
+
+TEST_F(Patterns, WithoutFilesAreRefusedWithTheWayToWriteACharacterItself)
+{
+    std::filesystem::create_directories(folder_ / "e/d [1]");
+    write_record("e/d [1]/a.AT2", "0 1 0");
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = '*/d [1]/*.AT2'"); }),
+                HasSubstr("scene.record = \"*/d [1]/*.AT2\" matches no file. It is relative to the "
+                          "job file, and a pattern: write [*], [?] and [[] for *, ? and [ "
+                          "themselves."));
+    EXPECT_EQ(names_of(plane("record = '*/d [[]1]/*.AT2'")), Names{"e/d [1]/a.AT2"});
 }
 
 TEST_F(Motions, HaveASecondComponentOfTheSameFileOrOfAnother)
