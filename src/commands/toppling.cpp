@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace overturn {
 
@@ -41,6 +43,10 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
         return scene.is_recorded() ? acceleration / unit : acceleration;
     });
     Problem problem = of_one_point;
+    // A pattern that matches one file is a dimension, of one motion.
+    for (Dimension& dimension : std::exchange(problem.grid.dimensions, {})) {
+        std::ranges::move(dimension.columns, std::back_inserter(problem.grid.numbers));
+    }
     std::erase_if(problem.grid.numbers,
                   [](const Column& number) { return number.quantity->role == Role::strength; });
     const std::string strength = scene.is_recorded() ? "scale" : "pga";

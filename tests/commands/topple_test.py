@@ -327,6 +327,13 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--pga", "0.4",
                                        shell_setup="exec > /dev/full"), 74, "cannot write to stdout")
 
+    def test_of_a_pattern_that_matches_one_file_is_that_of_the_file(self):
+        (self.folder / "d [1]").mkdir()
+        (self.folder / "d [1]" / "a.AT2").write_text("PEER\nA, 1\nIN UNITS OF G\nNPTS= 4, DT= .1\n0 1 1 0\n")
+        texts = [self.topple(*STATUE, "--record", f"d [1]/{name}") for name in ("a.AT2", "*.AT2")]
+        self.assertIn("topples", texts[0])
+        self.assertEqual(texts[0], texts[1])
+
     def test_writes_a_history_with_the_settled_verdict_of_a_motion_too_sensitive_for_doubles(self):
         # The search ends at the requested acceleration.
         for size, scale, verdict in (("1.28607", "1.268662", "topples"),  # although the curve stays upright
