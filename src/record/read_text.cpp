@@ -237,18 +237,6 @@ void expect_no_decimal_comma(const Lines& lines)
     }
 }
 
-/// Refuses a comment about velocities or displacements, of a file none of whose comments speaks of
-/// accelerations.
-void expect_acceleration(const Lines& comment)
-{
-    if (contains(comment.line(), "velocit") || contains(comment.line(), "displacement")) {
-        comment.refuse(
-            "{} does not contain accelerations. Give the file with the accelerations, or "
-            "remove the comment.",
-            comment.quoted());
-    }
-}
-
 /// Refuses a column that begins with the number of its samples, with or without the time step.
 void expect_no_count(const Lines& lines, const std::vector<double>& column)
 {
@@ -316,7 +304,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             }
             expect_unit(lines, *options.unit);
             if (!speaks_of_accelerations) {
-                expect_acceleration(lines);
+                expect_no_other_motion(lines);
             }
             if (options.time_step) { // the file has one column
                 expect_time_step(lines, *options.time_step);

@@ -461,13 +461,16 @@ TEST(TwoColumns, StateTheTimeOfTheFirstSample)
 
 TEST(Text, IsRefusedIfItsCommentsSpeakOfOtherMotions)
 {
-    for (const char* comment :
-         {"# Velocity time series", "# displacement record", "% VELOCITIES"}) {
+    for (const char* comment : {"# Velocity time series", "# displacement record", "% VELOCITIES",
+                                "# velocity 230", "# ground velocity"}) {
         EXPECT_THAT(refusal_of(fmt::format("{}\n0 1\n1 2\n", comment), in_g),
                     ::testing::HasSubstr("does not contain accelerations"));
     }
-    for (const char* comments : {"# acceleration, before velocity was corrected",
-                                 "# Peak velocity: 0.3 m/s\n# ACC", "# station"}) {
+    for (const char* comments :
+         {"# acceleration, before velocity was corrected", "# Peak velocity: 0.3 m/s\n# ACC",
+          "# station", "# Peak velocity: 0.3 m/s", "# Peak displacement (cm): 1.4",
+          "# Shear-wave velocity (m/s): 360", "# S-wave velocity 360 m/s",
+          "# Fault displacement 1.2 m", "# velocity (m/s): 360", "# initial velocity"}) {
         EXPECT_EQ(component_of(fmt::format("{}\n0 1\n1 2\n", comments), in_g).acceleration,
                   (Values{1, 2}));
     }
