@@ -3,12 +3,16 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
+import argparse
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 from matplotlib import colors
-from tool import InAFolder  # first: adds the package to the path
+from tool import JOBS, InAFolder  # first: adds the package to the path
+from overturn.choice import sheet_of
+from overturn.plot import spectra
 from overturn.regions import REGIONS
 from overturn.spectrum_file import Axis, Plane, open_spectrum
 from overturn.ticks import log_ticks
@@ -94,14 +98,15 @@ class TestTheMap(Picture):
                                    atol=2 * self.TOLERANCE)
 
     def test_nothing_is_coloured_far_from_computed_values(self):
-        self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1.0, 2.0, 10.0])
-        # At most 9/16 from a value: from 0.5 to 1.5, on to 2.5625, and from 9.4375 to 10.5625.
+        frequency = np.append(np.arange(1.0, 14), 17)
+        self.spectrum([[S] * 13 + [F_MINUS]], frequency=frequency)
+        # At most 1 from a value: from 0.5 to 14, and from 16 to 18.
         picture = self.picture()
-        widths = np.array([np.count_nonzero(where(picture, code)) for code in (S, F_MINUS, U0_MINUS)]) / 1e6
-        np.testing.assert_allclose(widths, np.array([1, 1.0625, 1.125]) / 10.0625, atol=self.TOLERANCE)
+        widths = np.array([np.count_nonzero(where(picture, code)) for code in (S, F_MINUS)]) / 1e6
+        np.testing.assert_allclose(widths, np.array([13.5, 2]) / 17.5, atol=self.TOLERANCE)
         self.assertIn("between computed values", self.words())
-        for values in ([1.0, 2.0, 10.0], [10.0, 2.0, 1.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0], [0.0, 3.0]):
-            axis = Axis(np.array(values))
+        for values in ([1.0, 2.0, 10.0], [10.0, 2.0, 1.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0], [0.0, 3.0], frequency):
+            axis = Axis(np.array(values), is_to_scale=True)
             shown = axis.shown(np.sort(values))
             places = axis.middles(1000)
             distance = np.abs(places[:, None] - shown).min(axis=1)
@@ -120,8 +125,33 @@ class TestTheMap(Picture):
                                    atol=self.TOLERANCE)
 
     def test_a_short_axis_of_equal_steps_is_not_geometric(self):
-        self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0])).scale, "linear")
-        self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0])).scale, "log")
+        self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0]), is_to_scale=True).scale, "linear")
+        self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0]), is_to_scale=True).scale, "log")
+
+    def test_few_values_have_a_band_of_equal_width_and_a_tick_each(self):
+        generator = np.random.default_rng(63)
+        lists = [[7.0], [0.0, 180.0], [1.0, 3.0], [1.0, 1.5, 10.0], [1.0, 2, 5, 10, 20, 50, 100, 200, 500, 1000],
+                 [1000.0, 1000.5, 1001.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0]]
+        lists += [first + np.cumsum(generator.uniform(0.01, 3, generator.integers(2, 9)))
+                  for first in generator.uniform(-1, 5, 20)]
+        for values in [*lists, *(each[::-1] for each in lists)]:
+            axis = Axis(np.array(values))
+            places = axis.cells(2000)[~axis.is_between(2000)]
+            widths = np.bincount(places, minlength=len(values)) / 2000
+            # Blanks take up to a tenth of the axis; it ends with a band on both sides, and a pixel is half per mille.
+            np.testing.assert_allclose(widths, np.full(len(values), widths[0]), atol=1e-3, err_msg=str(values))
+            self.assertGreater(widths.sum(), 0.9 - 1e-3, values)
+            np.testing.assert_array_equal(axis.ticks()[0], np.sort(values))
+            np.testing.assert_allclose(np.array(axis.ticks()[1], float), np.sort(values), rtol=1e-3)
+            np.testing.assert_allclose(axis.value_at(axis.shown(axis.limits())), axis.limits(), atol=1e-9)
+
+    def test_two_values_on_both_axes_are_drawn_as_four_cells(self):
+        self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]], frequency=[1.0, 100.0], amplitude=[0.3, 2.0])
+        picture, words = self.picture(), self.words()
+        areas = [np.count_nonzero(where(picture, code)) / 1e6 for code in (S, F_MINUS, U0_PLUS, U0_MINUS)]
+        np.testing.assert_allclose(areas, (0.9 / 1.9)**2, atol=0.01)
+        self.assertNotIn("between computed values", words)
+        self.assertEqual([word for word in words if word.replace(".", "").isdigit()], ["1", "100", "0.3", "2"])
 
     def test_amplitude_grows_upward_and_frequency_to_the_right(self):
         self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]])
@@ -305,9 +335,29 @@ class TestSeveralSpectra(Picture):
         self.refuses(2, "has frequency only. Give more axes in the job, or use tools/to_csv", "spectrum.h5",
                      *(f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "amplitude")))
 
-    def test_too_many_are_refused_with_the_choices(self):
-        self.spectrum(np.zeros((1, 13, 2, 2)))
-        self.refuses(2, "--restitution (0 to 12)", "spectrum.h5")
+    def test_too_many_for_a_sheet_are_chosen_in_even_steps_which_it_states(self):
+        self.spectrum(np.zeros((2, 5, 2, 2)))
+        statement = "4 of 10 spectra, in even steps; choose others with --slenderness (0 to 1) or --restitution (0 to 4)"
+        with unittest.mock.patch.object(spectra, "MOST_PANELS", 4):
+            output, words = self.output_of("spectrum.h5", "-o", "picture.png"), self.words()
+        self.assertIn(statement, output)
+        self.assertIn(statement, " ".join(words))
+        self.assertEqual([word for word in words if word.startswith("α = ")], [
+            f"α = {alpha} rad,  r = {share}r_max = 0.625"
+            for alpha, share in ((0.1, "0.7 "), (0.1, "0.925 "), (0.2, "0.775 "), (0.2, ""))])
+
+    def test_of_a_table_of_twenty_blocks_are_all_drawn_and_named(self):
+        self.overturn("run", "spectrum.h5", "plane.pulse_period.count=3", "plane.pga.count=3",
+                      job=JOBS / "statues.toml")
+        words = self.words()
+        self.assertEqual([word for word in words if word.startswith("A-")], [f"A-{i:02}" for i in range(1, 21)])
+
+    def test_are_in_as_many_columns_as_the_last_axis_has_values(self):
+        for outer, inner, columns in ((2, 6, 6), (3, 4, 4), (10, 10, 10), (1, 20, 5), (20, 1, 5), (2, 11, 5), (11, 2, 5)):
+            self.spectrum(np.zeros((outer, inner, 2, 2)))
+            with open_spectrum(self.folder / "spectrum.h5") as file:
+                planes, found, left_out = sheet_of(file, argparse.Namespace(index=[]), 100)
+                self.assertEqual((len(planes), found, left_out), (outer * inner, columns, ""))
 
 
 class TestAComputedFile(Picture):

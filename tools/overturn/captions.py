@@ -7,7 +7,7 @@ import pathlib
 import numpy as np
 from overturn.fields import count_tiles
 from overturn.motion_words import is_of_floor, worded
-from overturn.result_file import escaped, title_of
+from overturn.result_file import escaped, shortened, title_of
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -54,6 +54,23 @@ def motion_names(file):
     return short if len(set(short.values())) == len(names) else names
 
 
+@functools.cache
+def block_names(file):
+    """Returns the name of each block by its number: the first text in its table that no two blocks share. None if there
+    is no such column."""
+    for name in file.coordinates if "block" in file else ():
+        if file[name].dtype == object and name != "motion_name" and file[name].dimensions == file["block"].dimensions:
+            texts = [shortened(text, MOST_LETTERS) for text in np.atleast_1d(file[name][:])]
+            if len({*texts}) == len(texts) and all(texts):
+                return dict(zip(np.atleast_1d(file["block"][:]).tolist(), texts))
+    return None
+
+
+def names_of(file, name):
+    """Returns the names of the values of a dimension by their numbers, or None."""
+    return {"motion": motion_names, "block": block_names}.get(name, lambda _: None)(file)
+
+
 def value_text(file, name, place):
     """Returns the value of a dimension at an index."""
     return motion_names(file)[file[name][place].item()] if name == "motion" else f"{file[name][place]:g}"
@@ -65,7 +82,9 @@ def slenderness_text(alpha, units):
 
 
 def quantity_text(file, name, value):
-    """Returns a quantity and its value."""
+    """Returns a quantity and its value; of a block, its name, if it has one."""
+    if name == "block" and block_names(file):
+        return block_names(file)[value]
     units = file[name].attrs.get("units", "1")
     units = UNITS.get(name, UNITS.get(units, units))
     return f"{worded(file.attrs, SYMBOLS.get(name, name))} = {value:.4g} {units}".rstrip()

@@ -31,7 +31,7 @@ def expect_equal(file, spectrum, name, here, there):
 
 def expect_overlap(boundary, plane, across):
     values = boundary.values(across, boundary.across)
-    first, last = axis_of(plane, across, plane.across).limits()
+    first, last = axis_of(plane, across, plane.across, is_to_scale=True).limits()
     if not ((values >= first) & (values <= last)).any():
         raise ToolError(f"\"{boundary.file.filename}\" covers {across} from {values.min():g} to "
                         f"{values.max():g}, the spectrum only from {first:g} to {last:g}.")

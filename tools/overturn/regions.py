@@ -9,7 +9,8 @@ from matplotlib.patches import Patch
 # readers. The minus of a pair is the darker one. Of F, the main structure under records, the minus is the paper's grey,
 # and the plus differs in hue, too. U2, of blocks with two different sides, differs by its hue.
 UNDECIDED, NOT_COMPUTED = 254, 255
-BETWEEN = 253  # in pictures alone: between computed values that are far from each other
+# In pictures alone: between computed values that are far from each other, and between bands.
+BETWEEN, APART = 253, 252
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
     1: ("S+", "safe after one more impact", "#0b5530"),
@@ -49,6 +50,7 @@ def coloured(codes):
     table = np.zeros((256, 4), np.uint8)
     for code, (_, _, colour) in REGIONS.items():
         table[code] = [round(255 * part) for part in matplotlib.colors.to_rgba(colour)]
+    table[APART] = 255
     return table[codes]
 
 
