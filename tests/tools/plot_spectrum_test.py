@@ -45,7 +45,7 @@ class Picture(InAFolder):
             change(file)
 
 
-def write_result(file, axes, codes, computed):
+def write_result(file, axes, codes, computed, has_restitution=True):
     """Writes a spectrum over these axes, in which each point is a tile."""
     file.attrs.update({"kind": "overturning spectrum", "format_version": 4})
     for name, values in axes.items():
@@ -54,7 +54,8 @@ def write_result(file, axes, codes, computed):
     file["run/checksum"] = np.broadcast_to(computed, codes.shape).astype(np.uint64).ravel()
     file["run/checksum"].attrs.update({"tile_shape": [1] * codes.ndim, "dimensions": " ".join(axes)})
     add_field(file, "region", codes, NOT_COMPUTED)
-    add_coordinate(file, "restitution", np.full(codes.shape[-4:-2], 0.625), "slenderness", "restitution_of_maximum")
+    if has_restitution:
+        add_coordinate(file, "restitution", np.full(codes.shape[-4:-2], 0.625), "slenderness", "restitution_of_maximum")
 
 
 def attach(data, *dimensions):

@@ -191,14 +191,17 @@ class TestOtherTools(Recorded):
         self.output_of("spectrum.h5", *self.CHOICE, tool="to_csv")
         with open(self.folder / "spectrum.csv", newline="", encoding="ascii") as text:
             header, *rows = csv.reader(text)
+        fields = ["angle", "impacts", "margin", "peak", "region", "status", "velocity"]
         self.assertEqual(header, ["size", "pga", "restitution_of_maximum", "slenderness", "motion",
-                                  "angle", "impacts", "margin", "peak", "region", "status", "velocity"])
+                                  "frequency_parameter", "restitution", "scale", "record_pga", "pgv", "arias_intensity",
+                                  "significant_duration", "motion_name", *fields])
+        self.assertEqual({(row[4], row[12]) for row in rows}, {("2", "synthetic_vertical.AT2")})
         with h5py.File(self.folder / "spectrum.h5") as file:
             np.testing.assert_array_equal([float(row[0]) for row in rows],
                                           np.tile(file["size"][:], 30))
             np.testing.assert_array_equal([float(row[1]) for row in rows],
                                           np.repeat(file["pga"][:], 20))
-            for column, name in enumerate(header[5:], 5):
+            for column, name in enumerate(fields, 13):
                 np.testing.assert_array_equal([float(row[column]) for row in rows],
                                               file[name][1, 0, 1].ravel(), name)
 

@@ -11,7 +11,8 @@ OF_FLOOR = {"ground": "floor", "PGA": "PFA", "PGV": "PFV", "u_g": "u_f"}
 FLOOR_MEASURES = {"pfa": "pga", "pfv": "pgv", "floor_arias_intensity": "arias_intensity",
                   "floor_significant_duration": "significant_duration"}
 # Names of variables in texts that have no attributes, such as tables of comma-separated values.
-COLUMNS = {"pga": "pfa", "record_pga": "record_pfa", "pgv": "pfv", "flip_pga": "flip_pfa", "ground": "floor"}
+COLUMNS = {"pga": "pfa", "record_pga": "record_pfa", "pgv": "pfv", "flip_pga": "flip_pfa", "ground": "floor",
+           "ground_before": "floor_before", "ground_after": "floor_after"}
 VARIABLES = {column: variable for variable, column in COLUMNS.items()}
 _OF_GROUND = "ground_"  # begins the variables of the ground in a result under motions of a floor
 

@@ -46,8 +46,8 @@ def plain(title, width=MOST_LETTERS):
     return escaped(shortened(title, width))
 
 
-def open_result(path, kind, wanted):
-    """Opens a result file of the given kind; `wanted` describes the kind in error messages."""
+def open_result(path, kinds, wanted):
+    """Opens a result file of one of the given kinds; `wanted` describes them in error messages."""
     try:
         with open(path, "rb") as file:
             signature = file.read(len(HDF5_SIGNATURE))
@@ -56,7 +56,7 @@ def open_result(path, kind, wanted):
         file = h5py.File(path, "r")
     except OSError as error:
         raise ToolError(f"cannot read \"{path}\": {error.strerror or error}.") from error
-    if text_of(file, "kind") != kind:
+    if text_of(file, "kind") not in ((kinds,) if isinstance(kinds, str) else kinds):
         raise ToolError(f"\"{path}\" is not {wanted}.")
     version = file.attrs.get("format_version", 1)
     if version not in FORMATS:
