@@ -5,7 +5,7 @@ import math
 import pathlib
 
 import numpy as np
-from overturn.fields import count_tiles
+from overturn.fields import count_computed
 from overturn.motion_words import is_of_floor, worded
 from overturn.result_file import escaped, shortened, title_of
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
@@ -122,6 +122,8 @@ def other_words(plane, units):
     file, shown = plane.file, {plane.across, plane.quantities()[1]}
     elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum")
     names = [name for name in plane.index if name not in elsewhere]
+    if "block" in file and not file["block"].dimensions:  # selected in a data set
+        names.append("block")
     for kind in (STRENGTHS, SIZES if is_recorded(file) else RATES):
         if not {*shown, *names} & {*kind}:
             known = [name for name in file.coordinates if name in kind and plane.value(name) is not None]
@@ -160,8 +162,8 @@ def subtitle(planes, units=JOB):
 
 def unfinished_words(file):
     """Returns the note on missing tiles, if there are any."""
-    done, tiles = count_tiles(file)
-    return [f"unfinished: {done} of {tiles} tiles computed"] * (done < tiles)
+    done, number, what = count_computed(file)
+    return [f"unfinished: {done} of {number} {what} computed"] * (done < number)
 
 
 def heading(planes):

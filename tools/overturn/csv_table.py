@@ -12,7 +12,7 @@ from overturn.fields import read_field
 from overturn.file_variables import text_of
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
-from overturn.result_file import damage_reported, open_result
+from overturn.result_file import SPECTRUM, damage_reported, open_result
 from overturn.spectrum_file import COUNTED
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import LABELS
@@ -35,8 +35,7 @@ accuracy study has a row for each setting; what it gives for several quantiles, 
 has a column for each:
   tools/to_csv history.h5 --events -o events.csv"""
 
-SPECTRUM, BOUNDARY, HISTORY, STUDY = ("overturning spectrum", "overturning boundary", "rocking history",
-                                      "accuracy study")
+BOUNDARY, HISTORY, STUDY = "overturning boundary", "rocking history", "accuracy study"
 REGION = "region"  # a column of every table of a spectrum
 # The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
 FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "friction",

@@ -14,6 +14,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.arguments import expect_dataset
 from overturn.block_groups import blocks_at_one_site, counted
 from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
 from overturn.joint_blocks import combined
@@ -160,8 +161,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
 
 
 def expect_records(dataset):
-    if isinstance(dataset, (str, os.PathLike)):
-        raise ValueError(f"{os.fspath(dataset)!r} is a path. Give the data set that overturn.open() returns for it.")
+    expect_dataset(dataset)
     for name, of in (("region", "field"), ("scale", "scale of a record"), ("motion", "record")):
         if name not in dataset:
             raise ValueError(f"this result has no {of}: {name} is missing. A fragility curve needs the field region of a "

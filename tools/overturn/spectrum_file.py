@@ -5,7 +5,7 @@ import numpy as np
 from overturn.fields import read_field
 from overturn.block_groups import texts_of
 from overturn.regions import APART, BETWEEN, ranks, worst
-from overturn.result_file import open_result
+from overturn.result_file import SPECTRUM, open_result
 from overturn.tool import USAGE, ToolError
 
 STRENGTHS = ("amplitude", "scale", "pga")
@@ -23,10 +23,10 @@ RECIPROCALS = {"pulse_period": "pulse_frequency", "pulse_frequency": "pulse_peri
 
 def open_spectrum(path, fields=("region",)):
     """Opens a spectrum that has the given fields."""
-    file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
+    file = open_result(path, SPECTRUM, "a spectrum written by overturn run")
     for field in fields:
         if field not in file:
-            raise ToolError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
+            raise ToolError(f"\"{file.filename}\": this file has no field {field}; add it to output.fields.")
     return file
 
 

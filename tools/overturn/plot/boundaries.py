@@ -21,7 +21,7 @@ from overturn.output_file import save
 from overturn.plot.bands import set_axes
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
-from overturn.result_file import damage_reported, open_result, path_of, plain
+from overturn.result_file import damage_reported, open_result, plain
 from overturn.spectrum_file import BANDS, Axis
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
@@ -224,7 +224,7 @@ def draw_figure(plane, units):
 def draw(path, arguments, ax=None):
     """Draws into the given axes, or without them a figure. Returns the axes; a list of them for several boundaries."""
     with open_result(path, "overturning boundary",
-                     "a boundary written by overturn boundary") as file, damage_reported(path):
+                     "a boundary written by overturn boundary") as file, damage_reported(file.filename):
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         if ax is not None:
@@ -241,14 +241,14 @@ def boundary(result, *, motion: int | None = None, slenderness: int | None = Non
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
-    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
+    result: the path of a file, or the whole data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. ax: axes of Matplotlib to draw into, without a legend.
 
     Returns the axes; a list of them for several boundaries. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units)
-    return draw(path_of(result), arguments, ax)
+    return draw(result, arguments, ax)
 
 
 def read_arguments(argv):

@@ -49,6 +49,8 @@ def fragility(curve, ax=None):
     """Draws a fragility curve (overturn.fragility) and returns the axes: the fraction of each bin, the fitted
     curve and its confidence band. Bins with points without a verdict have a bar over the fractions that these
     points could give. Notes are written below the axes."""
+    if not isinstance(curve, overturn.Fragility):
+        raise ValueError(f"{curve!r:.60} is no fragility curve. Give what overturn.fragility() returns.")
     if ax is None:
         ax = pyplot.figure(figsize=(5.5, 4.8), layout="constrained").add_subplot()
         return make_room([draw_panel(ax, [curve])])[0]

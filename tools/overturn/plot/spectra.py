@@ -18,7 +18,7 @@ from overturn.plot.bands import set_axes
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
-from overturn.result_file import damage_reported, path_of, plain
+from overturn.result_file import damage_reported, plain
 from overturn.slipping import Slipping
 from overturn.spectrum_file import open_spectrum
 from overturn.tool import parse_with_picture, parser_of
@@ -131,7 +131,7 @@ def draw(path, arguments, dpi, ax=None):
     lines of a report: what is left out, and the counts of points that an option marks."""
     marked = {"peak": arguments.practice, "friction": arguments.friction is not None}
     fields = ("region", *(field for field, is_asked in marked.items() if is_asked))
-    with open_spectrum(path, fields) as file, damage_reported(path):
+    with open_spectrum(path, fields) as file, damage_reported(file.filename):
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         counts = {}
@@ -150,7 +150,8 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
              practice: bool = False, friction: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
-    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
+    result: the path of a file, or a data set of overturn.open(), of which parts may be selected and values changed.
+    What where() left out is hatched. motion, slenderness,
     restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
     practice: mark what published practice misjudges; needs the field peak. friction: hatch what needs a larger friction
@@ -161,7 +162,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units, boundary=boundary, practice=practice, friction=friction,
                                 label=[Label(words) for words in labels], title=title)
-    drawn = draw(path_of(result), arguments, 150, ax)
+    drawn = draw(result, arguments, 150, ax)
     if ax is not None:
         return ax
     sheet, count, _ = drawn
