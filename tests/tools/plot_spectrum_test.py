@@ -296,6 +296,14 @@ class TestTheWords(Picture):
         self.assertNotIn("A title", words)
 
 
+    def test_that_the_font_lacks_are_named_once(self):
+        self.spectrum([[S]])
+        run = self.run_tool("spectrum.h5", "--title", "石像石")
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(run.stderr, "plot_spectrum: the font of Matplotlib lacks 石 像: PNG and PDF pictures have boxes in "
+                                     "their place, SVG pictures have the text.\n")
+
+
 class TestSeveralSpectra(Picture):
     def test_each_has_its_own_panel(self):
         codes = np.array([[S, F_MINUS, U0_PLUS], [S, U0_PLUS, U0_PLUS]])

@@ -7,7 +7,7 @@ import pathlib
 import numpy as np
 from overturn.fields import count_computed
 from overturn.motion_words import is_of_floor, worded
-from overturn.result_file import escaped, shortened, title_of
+from overturn.result_file import escaped, title_of, told_apart
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -60,7 +60,7 @@ def block_names(file):
     is no such column."""
     for name in file.coordinates if "block" in file else ():
         if file[name].dtype == object and name != "motion_name" and file[name].dimensions == file["block"].dimensions:
-            texts = [shortened(text, MOST_LETTERS) for text in np.atleast_1d(file[name][:])]
+            texts = told_apart(np.atleast_1d(file[name][:]).tolist(), MOST_LETTERS)
             if len({*texts}) == len(texts) and all(texts):
                 return dict(zip(np.atleast_1d(file["block"][:]).tolist(), texts))
     return None

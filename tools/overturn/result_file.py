@@ -24,6 +24,14 @@ def shortened(text, width):
     return line if len(line) <= width else line[:width - 1].rstrip() + "…"
 
 
+def told_apart(texts, width):
+    """Returns texts shortened at their ends, or at their beginnings if they differ in the ends only; in full if neither
+    tells them apart."""
+    beginnings = [shortened(text, width) for text in texts]
+    ends = [text if len(text) <= width else "…" + text[1 - width:] for text in texts]
+    return next((short for short in (beginnings, ends) if len({*short}) == len({*texts})), texts)
+
+
 def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
     title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows

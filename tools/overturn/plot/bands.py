@@ -2,7 +2,7 @@
 
 import numpy as np
 from overturn.plot.headings import LINE, POINTS, width_of
-from overturn.result_file import escaped, shortened
+from overturn.result_file import escaped, told_apart
 from overturn.ticks import ROOM, length_of, name_ticks
 
 NUMBERS, SMALLEST = 10, 5  # font sizes [points]
@@ -15,8 +15,7 @@ class BandTicks:
     axis, whether they are turned by a right angle because they are too long."""
 
     def __init__(self, texts, length, name):
-        self.name, short = name, [shortened(str(text), MOST_LETTERS) for text in texts]
-        self.texts = [escaped(text) for text in (short if len(set(short)) == len(set(texts)) else texts)]
+        self.name, self.texts = name, [escaped(text) for text in told_apart(texts, MOST_LETTERS)]
         room = length / len(texts)
         self.widest = max(width_of(text, NUMBERS) for text in self.texts)
         self.turned = name == "x" and 1.15 * self.widest > room
