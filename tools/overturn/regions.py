@@ -75,5 +75,5 @@ def legend_entries(codes, ground="pulse"):
             entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
     words = [word for code, word in NOTHING.items() if code in codes]
     if words:
-        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5, label=", or ".join(words)))
+        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5, label=",\nor ".join(words)))
     return entries

@@ -3,7 +3,8 @@
 import numpy as np
 from overturn.plot.headings import LINE, POINTS, width_of
 from overturn.result_file import escaped, told_apart
-from overturn.ticks import ROOM, length_of, name_ticks
+from overturn.spectrum_file import BANDS
+from overturn.ticks import length_of, name_ticks
 
 NUMBERS, SMALLEST = 10, 5  # font sizes [points]
 BESIDE = {"x": 0.2, "y": 0.35}  # room of texts between an axis and its label [inches]
@@ -40,7 +41,13 @@ def set_axes(panel, across, up):
     """Sets scales, limits and ticks of a panel from two Axis of spectrum_file. Bands have a tick each: the distances of
     their values have no meaning."""
     for set_scale, axis in ((panel.set_xscale, across), (panel.set_yscale, up)):
-        set_scale(axis.scale) if axis.ticks() is None else set_scale("function", functions=(axis.shown, axis.value_at))
+        if axis.scale == BANDS:
+            set_scale("function", functions=(axis.shown, axis.value_at))
+        else:
+            set_scale(axis.scale)
     panel.set(xlim=across.limits(), ylim=up.limits())
     for drawn, axis in ((panel.xaxis, across), (panel.yaxis, up)):
-        name_ticks(drawn) if axis.ticks() is None else name_bands(drawn, axis.ticks())
+        if axis.scale == BANDS:
+            name_bands(drawn, axis.ticks())
+        else:
+            name_ticks(drawn)

@@ -25,9 +25,9 @@ class Sheet:
         self.pixels = round(side * dpi)
         shares = [all(np.array_equal(axis.edges, of_kind[0].edges) and np.array_equal(axis.values, of_kind[0].values)
                       for axis in of_kind) for of_kind in zip(*axes)]
-        self.below, beside = (max((BandTicks(axis.ticks()[1], side, name).extent() for axis in of_kind if axis.ticks()),
+        below, beside = (max((BandTicks(axis.ticks()[1], side, name).extent() for axis in of_kind if axis.ticks()),
                                   default=0.0) for of_kind, name in zip(zip(*axes), "xy"))
-        self.left, self.bottom = self.LEFT + beside, self.BOTTOM + self.below
+        self.left, self.bottom = self.LEFT + beside, self.BOTTOM + below
         across = self.GAP + (0 if shares[1] else beside)
         self.width = self.left + columns * (side + across) - across + self.RIGHT
         heading = Heading(*heading, self.width - self.left - self.EDGE, (14, 11))
@@ -36,7 +36,7 @@ class Sheet:
                             for line in wrapped(words, size, side + self.GAP / 2, ",")) for title in titles]
         further = max(title.count("\n") for title in titles)  # lines above a panel
         line = size * LINE * 1.3 / POINTS
-        gap = self.GAP + line * max(0, further - 1) + (0 if shares[0] else self.below + 0.2)
+        gap = self.GAP + line * max(0, further - 1) + (0 if shares[0] else below + 0.2)
         self.top = 1 + line * further + heading.extra
         self.height = self.top + rows * (side + gap) - gap + self.bottom
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
