@@ -120,7 +120,7 @@ class TestTheMap(Picture):
             self.assertFalse(axis.is_between(1000)[outside].any(), values)
             self.assertGreaterEqual(axis.limits()[0], 0 if min(values) >= 0 else -2)
         self.assertFalse(Axis(np.linspace(1, 3, 9)).is_between(1000).any())
-        self.assertFalse(Axis(np.array([1.0, 2, 3]), are_counted=True).is_between(1000).any())
+        self.assertFalse(Axis(np.append(np.arange(1.0, 30), 99), are_counted=True).is_between(1000).any())
 
     def test_geometric_values_are_equally_wide_on_a_logarithmic_axis(self):
         self.spectrum([[S], [F_MINUS], [U0_MINUS]], amplitude=[0.1, 1.0, 10.0])
@@ -339,10 +339,22 @@ class TestSeveralSpectra(Picture):
         self.assertLess(middle[1], 600)
         self.assertIn("one-sine pulse,  ω_p/p = 1,  r = 0.7 r_max", words)
 
-    def test_a_single_dimension_is_no_map(self):
-        self.spectrum([[S]])
-        self.refuses(2, "has frequency only. Give more axes in the job, or use tools/to_csv", "spectrum.h5",
-                     *(f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "amplitude")))
+    def test_a_single_dimension_is_a_column(self):
+        self.spectrum([[S], [F_MINUS], [S]], amplitude=[1.0, 2.0, 4.0])
+        one = [f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "frequency")]
+        np.testing.assert_allclose(shares(self.picture(*one), [S, F_MINUS]), [2 / 3, 1 / 3], atol=0.01)
+        for name in ("angle", "velocity"):
+            self.change(lambda file: add_field(file, name, np.zeros(file["region"].shape), np.nan))
+        self.refuses(2, "a map needs two dimensions", "spectrum.h5", *one, tool="plot_landing")
+        self.refuses(2, "is a single point", "spectrum.h5", *one, "--index=amplitude=0")
+
+    def test_of_a_list_of_blocks_has_a_named_row_for_each(self):
+        (self.folder / "list.csv").write_text("name,width,height,restitution_of_maximum,pga,pulse_period\n"
+                                              "urn,0.5,1.5,0.9,0.1,0.4\nbust,0.5,1.6,0.9,0.1,0.4\n")
+        self.overturn("run", "spectrum.h5", job='scene.pulse="one_sine"\nblocks.table="list.csv"\n')
+        words = self.words()
+        for word in ("block", "urn", "bust"):
+            self.assertIn(word, words)
 
     def test_too_many_for_a_sheet_are_chosen_in_even_steps_which_it_states(self):
         self.spectrum(np.zeros((2, 5, 2, 2)))

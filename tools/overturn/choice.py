@@ -57,22 +57,26 @@ def chosen(file, arguments):
 
 def axes_of(file, choices):
     """Returns the dimensions along the horizontal and the vertical axis: the last two of several values without a
-    chosen index. If there are too few, they are of one value, or numbers of motions."""
+    chosen index. If there are too few, they are of one value, or numbers of motions; an only one is vertical."""
     free = [name for name in file.dimensions if name not in choices and name != "crossing"]
     axes = sorted(free, key=lambda name: (file.sizes[name] > 1 and name != "motion", free.index(name)))
     if "crossing" in file.dimensions:
         return axes[-1] if axes else None, "crossing"
-    if len(axes) < 2:
-        raise ToolError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has "
-                        f"{axes[0] if axes else 'none'}{' only' * bool(axes)}. Give more axes in the job, or use "
-                        "tools/to_csv or overturn.open() in Python.", USAGE)
+    if not axes:
+        raise ToolError(f"this choice of \"{file.filename}\" is a single point. Give axes in the job, or use tools/to_csv "
+                        "or overturn.open() in Python.", USAGE)
+    if len(axes) == 1:
+        return None, axes[0]
     up, across = sorted(axes[-2:], key=free.index)
     return (up, across) if across in STRENGTHS else (across, up)
 
 
-def planes_of(file, arguments):
-    """Returns the only chosen plane. Raises an error if there are several."""
+def plane_of(file, arguments):
+    """Returns the only chosen plane. Raises an error if there are several, or if it has one axis only."""
     planes, _, _ = sheet_of(file, arguments, 1)
+    if planes[0].across is None:
+        raise ToolError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has {planes[0].up} only. Give "
+                        "more axes in the job.", USAGE)
     return planes[0]
 
 

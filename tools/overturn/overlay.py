@@ -41,6 +41,8 @@ def open_boundary(path, plane, units):
     """Opens the boundary file if it has the same ground motion as the spectrum. Its axes may differ: its flips are
     converted to the quantities on the axes of the spectrum."""
     spectrum = plane.file
+    if plane.across is None:
+        raise ToolError(f"\"{spectrum.filename}\" has one axis, but a boundary is drawn over two. Omit --boundary.")
     file = open_result(path, "overturning boundary", "a boundary written by overturn boundary")
     expect_same_motion(file, spectrum)
     if NEEDING_A_SIZE.intersection(plane.quantities(units)):

@@ -32,7 +32,8 @@ def open_spectrum(path, fields=("region",)):
 
 class Plane:
     """What a picture shows of a spectrum or a boundary: the dimensions along the horizontal and the vertical axis, and
-    an index of each of the others. A boundary of one frequency or size has no horizontal dimension."""
+    an index of each of the others. A spectrum of one dimension has no horizontal one, nor has a boundary of one frequency or
+    size."""
 
     def __init__(self, file, index, across, up):
         self.file, self.index, self.across, self.up = file, index, across, up
@@ -164,7 +165,7 @@ class Axis:
             self.size <= MOST_BANDS and self._share_of_cells() < 0.5)
         if has_bands and (self.size == 1 or not is_to_scale):
             self.scale = BANDS
-            self._set_cells(self.size == 1 or are_counted)
+            self._set_cells(self.size == 1)
         self.names = names if names is None or not self.descends else names[::-1]
 
     def _set_cells(self, are_adjacent):

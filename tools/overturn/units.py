@@ -61,7 +61,10 @@ def name_axes(plane, units=JOB):
 
 def axis_of(plane, quantity, dimension, is_to_scale=False):
     """Returns the cells of an axis. Periods of evenly spaced frequencies are neither evenly spaced nor
-    geometric; a logarithmic axis leaves room for the short and the long ones."""
+    geometric; a logarithmic axis leaves room for the short and the long ones. A plane of one dimension has nothing
+    along its horizontal axis."""
+    if quantity is None:
+        return Axis(np.zeros(1), names=[""])
     is_converted = quantity == "pulse_period" and quantity != dimension
     names = names_of(plane.file, quantity)
     values = plane.values(quantity, dimension)

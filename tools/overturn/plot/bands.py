@@ -33,7 +33,10 @@ class BandTicks:
 def name_bands(axis, bands):
     values, texts = bands
     ticks = BandTicks(texts, length_of(axis), axis.axis_name)
-    axis.set_ticks(values, ticks.texts, fontsize=ticks.size, rotation=90 if ticks.turned else 0)
+    if any(texts):
+        axis.set_ticks(values, ticks.texts, fontsize=ticks.size, rotation=90 if ticks.turned else 0)
+    else:
+        axis.set_ticks([])
     axis.set_ticks([], minor=True)
 
 

@@ -59,7 +59,7 @@ class Lines:
     def __init__(self, plane, units):
         across, up = plane.quantities(units)
         self.frequency = np.zeros(1) if across is None else plane.values(across, plane.across)
-        self.across = Axis(self.frequency) if across is None else axis_of(plane, across, plane.across)
+        self.across = axis_of(plane, across, plane.across)
         self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
         scan = scan_of(plane, up)
         self.up, self.scan = Axis(scan, is_to_scale=True), (np.min(scan), np.max(scan))

@@ -4,7 +4,7 @@ coloured by the points of the plane."""
 import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_recorded, subtitle
-from overturn.choice import add_choice_arguments, planes_of
+from overturn.choice import add_choice_arguments, plane_of
 from overturn.output_file import save
 from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
 from overturn.plot.bands import set_axes
@@ -215,6 +215,6 @@ def main(argv=None):
     arguments = read_arguments(argv)
     with open_spectrum(arguments.file, ("region", "angle", "velocity")) as file, \
             damage_reported(arguments.file):
-        plane = planes_of(file, arguments)
+        plane = plane_of(file, arguments)
         figure = draw(plane, arguments.title, arguments.label)
     save(figure, arguments.output, dpi=150)
