@@ -20,6 +20,8 @@ def expect_same_motion(file, spectrum):
     if is_recorded(file) != is_recorded(spectrum):
         raise ToolError(f"\"{file.filename}\" is a boundary under a {ground_word(file)}, but the "
                         f"spectrum is one under a {ground_word(spectrum)}. Omit --boundary.")
+    if is_recorded(spectrum) and not spectrum.run:
+        raise ToolError("the data set does not tell which records it is of. Draw the boundary on the spectrum of the file.")
     if is_recorded(file) and checksums_of_records(file) != checksums_of_records(spectrum):
         raise ToolError(f"\"{file.filename}\" was computed under different records from the spectrum.")
 
