@@ -111,6 +111,50 @@ class TheSite(unittest.TestCase):
         self.assertEqual((found.undecided, found.not_computed), (counts["undecided"], counts["not_computed"]))
         self.assertEqual((found.blocks, found.motions), (3, 11))
 
+    def test_shares_the_direction_of_the_motion(self):
+        # Per motion, scale and direction of the axis: all combinations of one row of each name.
+        random = np.random.default_rng(10)
+        for directions, names in itertools.product((1, 2, 3, 5), ("ab", "aab", "abc", "aabb", "abcc")):
+            with self.subTest(directions=directions, names=names):
+                region = random.choice([S, F], (4, 3, len(names), directions), p=[0.8, 0.2])
+                pga = random.uniform(0.1, 1, (4, 3, directions))
+                data = result(region[..., 0], [1, 2, 4]).drop_vars("region").assign(
+                    region=(("motion", "scale", "block", "direction"), region.astype(np.uint8),
+                            result(region[..., 0], [1, 2, 4])["region"].attrs))
+                data = data.assign_coords(name=("block", np.array([*names], object)),
+                                          direction=np.arange(directions) * 10.0)
+                of_names = [np.flatnonzero(np.array([*names]) == name) for name in sorted(set(names))]
+                combinations = [*itertools.product(*of_names)]
+                fallen = np.array([(region[:, :, list(rows)] == F).any(axis=2) for rows in combinations]).sum()
+                for measure in (None, pga):  # the same in all directions, or that of each one
+                    if measure is not None:
+                        data = data.assign_coords(pga=(("motion", "scale", "direction"), measure))
+                    found = overturn.fragility(data, "pga", together="name", bins=2, samples=1)
+                    self.assertEqual(found.points.sum(), 12 * directions * len(combinations))
+                    self.assertEqual(found.exceeding.sum(), fallen)
+
+    def test_of_rows_in_several_directions_stands_if_all_stand_under_the_same_motion(self):
+        random = np.random.default_rng(11)
+        for azimuths, columns in itertools.product((2, 3, 5, 12), ("direction", "azimuth", "block", "name", "both")):
+            with self.subTest(azimuths=azimuths, column=columns):
+                region = random.choice([S, F], (4, 3, azimuths), p=[0.9, 0.1])
+                pga = random.uniform(0.1, 1, region.shape)  # of each direction
+                angles = np.arange(azimuths) * 10.0
+                data = result(region, [1, 2, 4]).assign_coords(
+                    pga=(("motion", "scale", "block"), pga), direction=("block", angles), azimuth=("block", angles),
+                    block=np.arange(1.0, azimuths + 1), name=("block", np.array(["rock"] * azimuths, object)),
+                    both=("block", angles // 20))
+                found = overturn.fragility(data, "pga", together=columns, bins=3, samples=1)
+                self.assertEqual(found.points.sum(), 12)
+                self.assertEqual(found.exceeding.sum(), (region == F).any(axis=2).sum())
+                self.assertEqual((found.edges[0], found.edges[-1]), (pga.max(axis=2).min(), pga.max()))
+                self.assertIn("pga is the largest of those in the directions of the blocks", found.notes)
+
+    def test_is_not_told_apart_by_the_unknown_direction_of_the_motion(self):
+        data = result(*graded()).expand_dims(direction=[0.0, 90.0])
+        with self.assertRaisesRegex(ValueError, "direction is an axis of this result: the unknown direction"):
+            overturn.fragility(data, together="direction")
+
     def test_has_one_motion_for_all_blocks_and_a_column_that_tells_them_apart(self):
         data = result(*graded()).assign_coords(block=np.arange(8.0))
         with self.assertRaisesRegex(ValueError, "'pgv' is not a property of the blocks"):

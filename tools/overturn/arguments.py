@@ -32,6 +32,14 @@ def number(name, value):
     return float(array)
 
 
+def count(name, value, least=1):
+    """Returns an integer as int. Raises ValueError if it is none, or below the least."""
+    found = number(name, value)
+    if not (np.isfinite(found) and found == np.floor(found) and found >= least):
+        raise ValueError(f"{name} = {value} is not an integer of {least} or more.")
+    return int(found)
+
+
 def numbers(name, value):
     """Returns numbers as an array of doubles. Raises ValueError if they are none, or masked."""
     if _has_masked_values(value):

@@ -26,10 +26,16 @@ def groups_of(dataset, column):
 
 
 def blocks_at_one_site(dataset, column):
-    """Returns the parts of a data set of overturn.open() with equal values of a column: one for each block of a site.
+    """Returns the number of blocks at one site, which are those with different values of a column; the parts of a data
+    set of overturn.open() that stand or overturn together; and the dimension along which they are. There is a part for
+    each block or, if the table has a column `direction`, for each of its directions: such rows are sides of one block.
 
     Raises ValueError if the column does not distinguish the blocks, has an empty value, or if the blocks have motions
     of their own."""
+    if column == "direction" and column in dataset.dims:
+        raise ValueError("direction is an axis of this result: the unknown direction of the motion, which all blocks "
+                         "of a site share, and over which the probability is a mean. Choose what distinguishes the "
+                         "blocks, or give their directions as a column of the table.")
     values, dimension = _property(dataset, column)
     if dimension in dataset["motion"].dims:
         raise ValueError("each block has a motion of its own. The blocks of one site need a result in which every "
@@ -37,7 +43,11 @@ def blocks_at_one_site(dataset, column):
     kinds = np.unique(values)
     if kinds.dtype.kind == "f" and np.isnan(kinds).any():
         raise ValueError(f"{column} has empty values. Give every block a value, or choose another column.")
-    return [dataset.isel({dimension: np.flatnonzero(values == kind)}) for kind in kinds]
+    parts = [np.flatnonzero(values == kind) for kind in kinds]
+    if "direction" in dataset and dataset["direction"].dims == (dimension,):
+        directions = dataset["direction"].values
+        parts = [part[directions[part] == each] for part in parts for each in np.unique(directions[part])]
+    return len(kinds), [dataset.isel({dimension: part}) for part in parts], dimension
 
 
 def counted(number, kind):

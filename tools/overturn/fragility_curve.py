@@ -14,7 +14,7 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
-from overturn.arguments import expect_dataset
+from overturn.arguments import count, expect_dataset, number
 from overturn.block_groups import blocks_at_one_site, counted
 from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
 from overturn.joint_blocks import combined
@@ -125,24 +125,32 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
         verdict.
     together: column or axis that distinguishes the blocks of one site, such as "block". A point is then one block of
-        each of its values, under one motion, and exceeds if one of them does: survival is multiplied within each
-        motion. Points that differ in other dimensions are equally likely variants of a block.
+        each of its values, under one motion in one direction, and exceeds if one of them does: survival is multiplied
+        within each motion. Rows of a table that differ in a column `direction` are sides of one block, and also
+        exceed together; a measure that depends on the direction is the largest of theirs. An axis `direction` is the
+        unknown direction of the motion, the same for all blocks. Points that differ in other dimensions are equally
+        likely variants of a block.
     bins: their number; they do not change the fit.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
     Points without a verdict are left out and counted; they are never safe. Raises ValueError if the
     dataset lacks what is needed.
     """
-    if bins < 1 or samples < 1:
-        raise ValueError(f"bins = {bins} and samples = {samples} must be 1 or above.")
-    if limit is not None and not 0 < limit <= 1:
+    bins, samples, seed = count("bins", bins), count("samples", samples), count("seed", seed, least=0)
+    if limit is not None and not 0 < number("limit", limit) <= 1:
         raise ValueError(f"limit = {limit} must be in (0, 1]: the peak |theta| / alpha that counts as exceeding, not "
                          "an angle or a percentage.")
     if friction is not None:
         expect_coefficient(friction)
     measure, im = measure_of(dataset, im), name_of_measure(dataset, im)
-    parts = [dataset] if together is None else blocks_at_one_site(dataset, together)
-    cells = combined([cells_of(part, measure, limit, friction) for part in parts])
+    of_blocks, parts, notes = _blocks(dataset["region"]), [dataset], ()
+    if together is not None:
+        blocks, parts, dimension = blocks_at_one_site(dataset, together)
+        of_blocks = {"blocks": blocks}
+        if dimension in measure.dims:
+            measure = measure.max(dimension, keep_attrs=True)
+            notes = f"{im} is the largest of those in the directions of the blocks",
+    cells = combined([cells_of(part, measure, limit, friction, together is not None) for part in parts])
     edges = edges_of(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
@@ -153,10 +161,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         reason = f"no fit: the probability that a point {verb} does not rise with {im}"
     return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
-                     motions=counts.points.shape[0], together=together or "",
-                     **(_blocks(dataset["region"]) if together is None else {"blocks": len(parts)}),
-                     **_fitted(fit, value),
-                     notes=(*_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
+                     motions=counts.points.shape[0], together=together or "", **of_blocks, **_fitted(fit, value),
+                     notes=(*notes, *_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
 
@@ -219,9 +225,9 @@ def units_of(measure, im):
     return "g" if im in ("pga", "pfa") and units == "1" else units
 
 
-def cells_of(dataset, measure, limit, friction):
-    """Returns arrays with an entry per motion and value of the measure: the motion, the value, and the numbers
-    of points of each kind."""
+def cells_of(dataset, measure, limit, friction, by_direction=False):
+    """Returns arrays with an entry per motion and value of the measure, and per direction if requested: the motion, the
+    value, and the numbers of points of each kind."""
     region = dataset["region"]
     decided, codes = decided_points(region), codes_of(region)
     not_computed = region == codes["not_computed"]
@@ -237,7 +243,7 @@ def cells_of(dataset, measure, limit, friction):
         slipping = slipping_points(dataset, decided, friction)
         decided, exceeding = decided & ~slipping, exceeding & ~slipping
     motion = _numbered(dataset)
-    kept = [name for name in region.dims if name in (*measure.dims, *motion.dims)]
+    kept = [name for name in region.dims if name in (*measure.dims, *motion.dims, *["direction"] * by_direction)]
     kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
              "undecided": ~decided & ~not_computed, "slipping": slipping}
     others = [name for name in region.dims if name not in kept]
