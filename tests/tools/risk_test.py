@@ -413,6 +413,36 @@ class TheHazard(unittest.TestCase):
         self.refuses("is not an output of hazard curves", self.read, text.replace("poe-", "PGV-"), site=0)
         self.refuses("txt:3: could not convert", self.read, text.replace("3.909152E-01", "-"), site=0)
 
+    def test_of_text_that_is_not_one_of_annual_rates_is_refused_with_the_conversion(self):
+        rows = "0.1 1e-2\n0.5 1e-3\n"
+        of_years = "rate = -ln(1 - probability) / {}"
+        comments = {
+            **{f"probability of exceedance {word} {years} {unit}": of_years.format(years)
+               for word, years, unit in (("in", 50, "years"), ("in", 475, "yr"), ("within", 10, "yrs"),
+                                         ("during", 100, "years"), ("over", 2.5, "years"), ("in", 1, "year"))},
+            "PoE in 50 years": of_years.format(50), "PE_in_50_years": of_years.format(50),
+            "exceedance in 50 years": of_years.format(50), "10 % in 50 y": of_years.format(50),
+            "50-year exceedance": of_years.format(50), "POE": of_years.format("years"),
+            "probability of exceedance": of_years.format("years"), "exceedance probabilities": of_years.format("years"),
+            "AEP": of_years.format("years"), "annual probability of exceedance": of_years.format("years"),
+            **{name: "rate = 1 / return period" for name in (
+                "return period [years]", "Return Periods", "return_period", "RP", "mean recurrence interval",
+                "recurrence interval (yr)", "MRI [years]", "return-time", "MRP")}}
+        self.assertGreaterEqual(len(comments), 20)
+        for words, conversion in comments.items():
+            for comment in (f"# pga [g], {words}\n", f"# pga [g]\n% {words.upper()}\n"):
+                with self.subTest(comment=comment), self.assertRaises(ValueError) as raised:
+                    self.read(comment + rows)
+                self.assertIn(conversion, str(raised.exception))
+                self.assertIn(f":{comment.count(chr(10))}: the comment", str(raised.exception))
+
+    def test_of_text_may_say_that_it_is_one_of_annual_rates(self):
+        for comment in ("annual rate of exceedance", "annual frequency of exceedance", "rate [1/year]", "AFE",
+                        "exceedances per year", "per 1 year", "catalogue of 1900 to 2000, updated every 5 years",
+                        "events per annum", "site RP1, approved", "logic tree: 12 branches", "Vs30 = 800 m/s"):
+            with self.subTest(comment=comment):
+                self.assertEqual(list(self.read(f"# pga [g], {comment}\n0.1 1e-2\n0.5 1e-3\n").rate), [1e-2, 1e-3])
+
     def test_of_text_is_refused_if_it_is_not_understood(self):
         self.refuses('txt:2: "0.1" is not two numbers', self.read, "# pga [g]\n0.1\n")
         self.refuses('txt:1: "level rate" is not two numbers', self.read, "level rate\n0.1 1\n")

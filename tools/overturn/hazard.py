@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from overturn.arguments import number, numbers
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -23,6 +25,12 @@ MOST_SITES = 5  # named in a message
 _TIME = re.compile(r"(?<!\w)investigation_time=([^,\s\"']+)")
 _MEASURE = re.compile(r"(?<!\w)imt=[\"']+([^\"']+)")
 _COLUMN = re.compile(r"[#%]\s*(\w[\w().]*)\s*\[([^\]]+)\]")
+# What comments name if the numbers beside the levels are no annual rates; _ and - are blanks.
+_PROBABILITY = re.compile(r"\b(probabilit(y|ies)|probs?|a?poe|p ?o ?e|aep)\b", re.IGNORECASE)
+_PERIOD = re.compile(r"\b(return (period|interval|time)s?|recurrence (period|interval|time)s?|m?rp|mri|ari)\b",
+                     re.IGNORECASE)
+_YEARS = re.compile(r"\b(?:in|within|over|during|per|of) (?:any )?(\d+(?:\.\d+)?) ?(?:years?|yrs?|y|a)\b"
+                    r"|\b(\d+(?:\.\d+)?) ?(?:years?|yrs?|y) (?:exceedance|hazard)", re.IGNORECASE)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -39,8 +47,8 @@ class Hazard:
 
     def __post_init__(self):
         units, factor = UNITS.get(self.units, (self.units, 1))
-        for name, value in (("level", np.asarray(self.level, float) * factor), ("units", units),
-                            ("rate", np.asarray(self.rate, float))):
+        for name, value in (("level", numbers("level", self.level) * factor), ("units", units),
+                            ("rate", numbers("rate", self.rate))):
             object.__setattr__(self, name, value)
         where = f"{self.source}: " * bool(self.source)
         if self.level.ndim != 1 or self.level.shape != self.rate.shape or self.level.size < 2:
@@ -64,11 +72,14 @@ class Hazard:
 
     def at(self, x: ArrayLike) -> NDArray[np.float64]:
         """Returns the rate [1/year] at which x is exceeded, between the first and the last level; NaN elsewhere."""
-        return np.exp(np.interp(np.log(x), np.log(self.level), np.log(self.rate), np.nan, np.nan))
+        x = numbers("x", x)
+        log_x = np.log(x, out=np.full(x.shape, -np.inf), where=x > 0)
+        return np.exp(np.interp(log_x, np.log(self.level), np.log(self.rate), np.nan, np.nan))
 
     def scaled(self, *, rate: float = 1.0, level: float = 1.0) -> Hazard:
         """Returns the curve with its rates, its levels, or both multiplied by a factor."""
-        return dataclasses.replace(self, rate=self.rate * rate, level=self.level * level)
+        return dataclasses.replace(self, rate=self.rate * number("rate", rate),
+                                   level=self.level * number("level", level))
 
 
 def read_hazard(path: str | os.PathLike[str], *, im: str | None = None, units: str | None = None,
@@ -77,7 +88,8 @@ def read_hazard(path: str | os.PathLike[str], *, im: str | None = None, units: s
 
     Text of two columns: levels of the intensity measure and annual rates of exceedance, separated by blanks or a
     comma. Lines that begin with # or % are comments; the first with a bracket, such as "# pga [g]", names the measure
-    and its unit. Without it, im and units are required.
+    and its unit. Without it, im and units are required. A comment that names probabilities, return periods or a number
+    of years is refused, with the conversion to annual rates.
 
     The CSV output of OpenQuake's hazard curves (hazard_curve-mean-PGA_1.csv). Probabilities p of exceedance in the
     investigation time t become rates, -ln(1 - p) / t. Levels at the end that are never exceeded are left out.
@@ -100,7 +112,10 @@ def read_hazard(path: str | os.PathLike[str], *, im: str | None = None, units: s
 def _from_text(path, lines, im, units):
     rows = []
     for number, line in enumerate(lines, 1):
-        if not line.strip() or line.lstrip()[0] in "#%":
+        if not line.strip():
+            continue
+        if line.lstrip()[0] in "#%":
+            _expect_rates(f"{path}:{number}", line.strip())
             continue
         try:
             level, rate = map(float, line.replace(",", " ").split())
@@ -111,6 +126,23 @@ def _from_text(path, lines, im, units):
     stated = next(filter(None, map(_COLUMN.match, map(str.strip, lines))), None)
     im, units = _agreed(path, "measure", im, stated and stated[1]), _agreed(path, "unit", units, stated and stated[2])
     return Hazard(*np.array(rows).reshape(-1, 2).T, im, units, path)
+
+
+def _expect_rates(where, comment):
+    """Raises ValueError if a comment names other numbers than annual rates, such as "probability in 50 years"."""
+    words = re.sub(r"[\s_-]+", " ", comment)
+    years = _YEARS.search(words)
+    span = years and (years[1] or years[2])
+    if _PERIOD.search(words):
+        what, conversion = "return periods", "rate = 1 / return period"
+    elif _PROBABILITY.search(words) or span and float(span) != 1:
+        what = "probabilities" + f" in {span} years" * bool(span)
+        conversion = f"rate = -ln(1 - probability) / {span or 'years'}"
+    else:
+        return
+    raise ValueError(f"{where}: the comment \"{comment[:60]}\" names {what}, but the second column must contain annual "
+                     f"rates of exceedance [1/year]. Convert it, {conversion}; if it contains annual rates, remove the "
+                     "comment.")
 
 
 def _agreed(path, what, given, stated):
