@@ -1,6 +1,7 @@
 """Messages of overturn.evaluate() if its arguments are wrong. Requires the package on PYTHONPATH."""
 
 import unittest
+import warnings
 
 import numpy as np
 import overturn
@@ -16,6 +17,48 @@ class Refused(unittest.TestCase):
             overturn.evaluate(**arguments)
         self.assertIn(phrase, str(raised.exception))
         self.assertNotIn("column", str(raised.exception))
+
+
+class AFunction(unittest.TestCase):
+    HAZARD = overturn.risk.Hazard([0.1, 0.5, 1], [1e-2, 1e-3, 1e-4], "pga", "g")
+    CURVE = overturn.risk.lognormal(0.5, 0.4, im="pga", units="g")
+    RISK = overturn.risk.annual_rate(HAZARD, CURVE)
+    # Functions of one argument; one that is a count, a positive number, or an array.
+    COUNTS = {"ranks": lambda value: overturn.run({}, ranks=value)}
+    NUMBERS = {"years": lambda value: overturn.risk.largest_factor(AFunction.HAZARD, AFunction.CURVE, value, 0.5),
+               "survival": lambda value: overturn.risk.largest_factor(AFunction.HAZARD, AFunction.CURVE, 100, value),
+               "median": lambda value: overturn.risk.lognormal(value, 0.4, im="pga", units="g"),
+               "beta": lambda value: overturn.risk.lognormal(0.5, value, im="pga", units="g"),
+               "rate": lambda value: AFunction.HAZARD.scaled(rate=value),
+               "level": lambda value: AFunction.HAZARD.scaled(level=value)}
+    ARRAYS = {"x": HAZARD.at, "years": RISK.survival,
+              "edges": lambda value: overturn.risk.annual_rate(AFunction.HAZARD, AFunction.CURVE, edges=value),
+              "low": lambda value: overturn.risk.binned([1, 2, 3], value, im="pga", units="g")}
+
+    def test_names_its_argument_if_it_is_of_another_kind(self):
+        for functions, values in ((self.COUNTS, (0, -1, 1.5, True, "2", [1, 2], None, np.nan, np.inf, 1j, {}, "two")),
+                                  (self.NUMBERS, (0, -1, True, "2", [1, 2], None, np.nan, 1j, {}, object(), "two")),
+                                  (self.ARRAYS, ("2", 1j, {}, object(), ["two"]))):
+            for name, function in functions.items():
+                for value in values:
+                    with self.subTest(name=name, value=value):
+                        with self.assertRaises(ValueError) as raised:
+                            function(value)
+                        self.assertIn(name, str(raised.exception))
+
+    def test_takes_a_list_where_it_takes_an_array(self):
+        np.testing.assert_allclose(self.HAZARD.at([0.1, 1, 0, -1]), [1e-2, 1e-4, np.nan, np.nan], rtol=1e-14)
+        for survival in (self.RISK.survival, self.RISK.survival_interval):
+            np.testing.assert_array_equal(survival([1, 10]), np.stack([survival(1), survival(10)], axis=1))
+
+    def test_leaks_no_warning_of_overflow(self):
+        for median in (1e-300, 1e-3, 1e3, 1e300):
+            for beta in (1e-6, 0.5, 1e3):
+                curve = overturn.risk.lognormal(median, beta, im="pga", units="g", samples=[[1e-300, 1e-3], [1e300, 1]])
+                for on in ("rate", "level"):
+                    with self.subTest(median=median, beta=beta, on=on), warnings.catch_warnings():
+                        warnings.simplefilter("error")
+                        overturn.risk.largest_factor(self.HAZARD, curve, 1e4, 0.5, on)
 
 
 class ARefusal(Refused):

@@ -58,7 +58,7 @@ def fit(counts, log_at, samples, seed):
     center = np.average(counts.log_measure, weights=total)
     width = math.sqrt(np.average((counts.log_measure - center) ** 2, weights=total)) or 1.0
     estimate, error = (rows[0] for rows in estimates(counts, np.ones((1, motions)), center, width))
-    if np.isnan(estimate[1]):
+    if not (abs(estimate) <= LARGEST_LOG).all():  # NaN, or a curve that hardly rises
         return None
     without_fit, interval, kept = 0, np.full((2, 2), np.nan), np.empty((0, 2))
     band = np.full((2, len(log_at)), np.nan)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import ndtr
 
+from overturn.arguments import count, number, numbers
 from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, name_of_measure, units_of
 from overturn.lognormal_fit import LEAST_MOTIONS
 
@@ -68,6 +69,7 @@ def lognormal(median: float, beta: float, *, im: str, units: str, samples: Array
     median: in `units`. beta: standard deviation of the logarithm [1]. samples (n, 2): of both.
     edges: of bins. unknown: share of the points without a verdict, outside the bins and in each of them [1].
     """
+    median, beta = number("median", median), number("beta", beta)
     medians, betas = np.array([(median, beta), *samples], float).T[:, :, None]
     if not (np.isfinite([median, beta]).all() and median > 0 and beta > 0):
         raise ValueError(f"median = {median} and beta = {beta} must be positive numbers.")
@@ -75,10 +77,13 @@ def lognormal(median: float, beta: float, *, im: str, units: str, samples: Array
 
     def at(x):
         share = unknown[np.searchsorted(edges, x) % max(len(edges), 1)]  # below and above the bins, 0
-        low = ndtr(np.log(x / medians) / betas) * (1 - share)
+        with np.errstate(over="ignore", divide="ignore"):  # 0 or infinity is right
+            low = ndtr(np.log(x / medians) / betas) * (1 - share)
         return np.stack([low, low + share], axis=1)
     # Beyond 8 beta, P is 0 or 1 within 1e-15.
-    return Probability(at, im, units, np.union1d(edges, median * np.exp(beta * np.arange(-8, 8.5, 0.5))),
+    with np.errstate(over="ignore"):  # beyond all levels
+        breaks = np.union1d(edges, median * np.exp(beta * np.arange(-8, 8.5, 0.5)))
+    return Probability(at, im, units, breaks,
                        (edges[0], edges[-1]) if len(edges) else (0, np.inf))
 
 
@@ -91,8 +96,12 @@ def binned(edges: ArrayLike, low: ArrayLike, high: ArrayLike | None = None, *, i
     low, high: of each bin, the share that overturns if points without a verdict are safe, and if they overturn [1];
         NaN if nothing is known. Without high, every point has a verdict.
     """
-    edges = np.asarray(edges, float)
-    shares = np.stack([low, low if high is None else high]).astype(float)
+    edges, low = numbers("edges", edges), numbers("low", low)
+    high = low if high is None else numbers("high", high)
+    if edges.ndim != 1 or low.ndim != 1 or low.shape != high.shape:
+        raise ValueError(f"edges, low and high have the shapes {edges.shape}, {low.shape} and {high.shape}, but must "
+                         "have one dimension, with a share for each bin.")
+    shares = np.stack([low, high])
     if shares.shape != (2, len(edges) - 1) or not (edges[0] > 0 and (np.diff(edges) > 0).all()):
         raise ValueError(f"{len(edges)} edges and shares of the shape {shares.shape[1:]}: edges must be positive, "
                          "ascend, and be one more than shares.")
@@ -173,6 +182,10 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     Raises ValueError if the dataset lacks what is needed.
     """
     import xarray
+    if not isinstance(bins, (list, tuple)) or len(bins) != 2:
+        raise ValueError(f"bins = {bins!r} are not two numbers of bins, of x and of y.")
+    bins = [count("bins", each) for each in bins]
+    samples, seed = count("samples", samples, least=0), count("seed", seed, least=0)
     of_x, of_y = xarray.broadcast(_measure(dataset, x), _measure(dataset, y))
     cells, second = (cells_of(dataset, measure, limit, friction) for measure in (of_x, of_y))
     edges = [edges_of(each, count) for each, count in zip((cells, second), bins)]
@@ -182,10 +195,10 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     motions, number = np.unique(cells["motion"][kept], return_inverse=True)
     places = number, cells["measure"][kept], second["measure"][kept]
 
-    def count(kind):
+    def total_of(kind):
         return np.histogramdd(places, [np.arange(len(motions) + 1) - 0.5, *edges], weights=kind[kept])[0]
-    exceeding, unknown = count(cells["exceeding"]), count(cells["undecided"] + cells["not_computed"])
-    total = unknown + count(cells["points"])
+    exceeding, unknown = total_of(cells["exceeding"]), total_of(cells["undecided"] + cells["not_computed"])
+    total = unknown + total_of(cells["points"])
     drawn = np.random.default_rng(seed).multinomial(
         len(motions), np.full(len(motions), 1 / len(motions)), samples * (len(motions) >= LEAST_MOTIONS))
     low, high, total = (np.tensordot(np.vstack([np.ones(len(motions)), drawn]), sums, 1)

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
 from overturn import datasets
+from overturn.arguments import count
 from overturn.checkout import IS_CHECKOUT, is_program, overturn_path
 
 if TYPE_CHECKING:
@@ -64,6 +65,7 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 
     Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
+    ranks = count("ranks", ranks)
     launcher = [os.environ.get("MPIEXEC", "mpirun"), "-n", str(ranks)] if ranks != 1 else []
     with contextlib.ExitStack() as stack:
         path = stack.enter_context(_job_file(job))

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from overturn.arguments import number, numbers
 from overturn.fragility_curve import Fragility
 from overturn.hazard import Hazard, read_hazard
 from overturn.lognormal_fit import LEVEL
@@ -61,18 +62,19 @@ class Risk:
         with np.errstate(invalid="ignore"):
             return self.contribution / self.rate[:, None]
 
-    def survival(self, years: float) -> NDArray[np.float64]:
-        """Bounds of the probability of no overturning in so many years, (2,) [1]."""
-        return np.exp(-self.rate[::-1] * _positive("years", years))
+    def survival(self, years: ArrayLike) -> NDArray[np.float64]:
+        """Bounds of the probability of no overturning in so many years, (2, *shape of years) [1]."""
+        return np.exp(-np.multiply.outer(self.rate[::-1], _positive("years", years)))
 
-    def survival_interval(self, years: float) -> NDArray[np.float64]:
-        """Interval of 95 % confidence of survival(), (2,) [1]."""
-        return np.exp(-self.interval[::-1] * _positive("years", years))
+    def survival_interval(self, years: ArrayLike) -> NDArray[np.float64]:
+        """Interval of 95 % confidence of survival(), (2, *shape of years) [1]."""
+        return np.exp(-np.multiply.outer(self.interval[::-1], _positive("years", years)))
 
     def summary(self, years: float | None = None) -> str:
         """Returns the numbers as a text of several lines."""
         lines = [f"rate {_text(self.rate)} a year{_confidence(self.interval)}"]
         if years is not None:
+            years = number("years", years)
             lines.append(f"survival of {years:g} years {_text(self.survival(years))}"
                          f"{_confidence(self.survival_interval(years))}")
         return "\n".join([*lines, *self.notes])
@@ -102,7 +104,7 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
     """
     p = _in_the_measure_of(hazard, fragility)
     first, last = hazard.level[[0, -1]]
-    inner = hazard.level[1:-1] if edges is None else np.unique(np.asarray(edges, float))
+    inner = hazard.level[1:-1] if edges is None else np.unique(numbers("edges", edges))
     inner = inner[(first < inner) & (inner < last)]
     points, within = _within(hazard, p, inner)
     below, above = _below(hazard, p)[..., None], _above(hazard, p)[..., None]
@@ -119,6 +121,8 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
 
 
 def _in_the_measure_of(hazard, fragility):
+    if not isinstance(hazard, Hazard):
+        raise TypeError(f"hazard is {type(hazard).__name__}. Give a Hazard, such as read_hazard() returns.")
     p = probability_of(fragility)
     if (hazard.im, hazard.units) != (p.im, p.units):
         if p.im in FLOOR_MEASURES:
@@ -212,13 +216,13 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
     on: "rate" multiplies the rates of the hazard: factor = -ln(survival) / (rate years). "level" multiplies its levels,
         the strength of every shaking: a root. It is 0 below 1e-6, infinite above 1e6.
     """
-    if not 0 < survival < 1:
+    if not 0 < (survival := number("survival", survival)) < 1:
         raise ValueError(f"survival = {survival} is not between 0 and 1. Give a probability such as 0.05.")
-    target = -np.log(survival) / _positive("years", years)
+    target = -np.log(survival) / _positive("years", number("years", years))
     p = _in_the_measure_of(hazard, fragility)
     if on == "rate":
         risk = annual_rate(hazard, p)
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", over="ignore"):
             return Factor(target / risk.rate[::-1], target / risk.interval[::-1])
     if on != "level":
         raise ValueError(f"on = {on!r} is neither \"rate\" nor \"level\".")
@@ -234,7 +238,7 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
 def _root(rate, target):
     """Returns the factor whose logarithm has the given rate; rate rises with it."""
     def excess(log_factor):
-        return np.log(np.clip(rate(log_factor), 1e-300, 1e300) / target)
+        return np.log(np.clip(rate(log_factor), 1e-300, 1e300)) - np.log(target)
     ends = -np.log(LARGEST_FACTOR), np.log(LARGEST_FACTOR)
     at_ends = excess(ends[0]), excess(ends[1])
     if np.isnan(at_ends).any():
@@ -242,10 +246,11 @@ def _root(rate, target):
     return 0.0 if at_ends[0] > 0 else np.inf if at_ends[1] < 0 else np.exp(brentq(excess, *ends, xtol=1e-12))
 
 
-def _positive(name, number):
-    if not 0 < number < np.inf:
-        raise ValueError(f"{name} = {number} is not a positive number.")
-    return number
+def _positive(name, value):
+    found = numbers(name, value)
+    if not ((0 < found) & (found < np.inf)).all():
+        raise ValueError(f"{name} = {value} is not a positive number.")
+    return found
 
 
 def _text(pair):
