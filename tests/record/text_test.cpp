@@ -2,6 +2,7 @@
 #include "reading.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdio>
