@@ -54,16 +54,37 @@ std::string channel_name(Lines header, std::size_t end)
     return "";
 }
 
-std::vector<double> take_announced(Lines& lines, std::string_view name,
-                                   const std::optional<Columns>& usual)
+namespace {
+
+Announcement announcement(const Lines& lines, std::string_view name)
 {
-    const std::size_t count = count_of(lines, first_word(lines.line()), "the number of values");
+    return {count_of(lines, first_word(lines.line()), "the number of values"), name,
+            lines.number()};
+}
+
+Columns announced_columns(const Lines& lines, const std::optional<Columns>& usual)
+{
     const auto stated = columns_of_format(lines.line());
     if (!stated && !usual) {
         lines.refuse("the line states no format of the values, such as Format=(8F10.5). Give the "
                      "file as it was published.");
     }
-    return take_columns(lines, stated ? *stated : *usual, {count, name, lines.number()});
+    return stated ? *stated : *usual;
+}
+
+} // namespace
+
+std::vector<double> take_announced(Lines& lines, std::string_view name,
+                                   const std::optional<Columns>& usual)
+{
+    const Announcement announced = announcement(lines, name);
+    return take_columns(lines, announced_columns(lines, usual), announced);
+}
+
+std::vector<Printed> take_announced_as_printed(Lines& lines, std::string_view name)
+{
+    const Announcement announced = announcement(lines, name);
+    return take_printed(lines, announced_columns(lines, {}), announced);
 }
 
 } // namespace overturn

@@ -23,4 +23,7 @@ std::string channel_name(Lines header, std::size_t end);
 std::vector<double> take_announced(Lines& lines, std::string_view name,
                                    const std::optional<Columns>& usual = {});
 
+/// The same as they are printed, in the format of the line.
+std::vector<Printed> take_announced_as_printed(Lines& lines, std::string_view name);
+
 } // namespace overturn

@@ -1,6 +1,8 @@
 #include "formats.hpp"
 #include "keyed_header.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
+#include "stated_unit.hpp"
 
 #include <array>
 #include <cmath>
@@ -60,6 +62,22 @@ ScaleFactor scale_factor(const KeyedHeader::Entry& entry)
     return factor;
 }
 
+/// `Max. Acc. (gal)   6.847`, if the header states it
+std::vector<StatedNumber> stated_peak(const KeyedHeader& header)
+{
+    const auto peak = header.find("Max. Acc.");
+    if (!peak) {
+        return {};
+    }
+    const std::size_t end = std::min(peak->value.find(')'), peak->value.size());
+    const std::string_view unit = peak->value.substr(0, end);
+    return {{.what = Stated::peak,
+             .lines = peak->lines,
+             .name = "Max. Acc.",
+             .word = word_after(peak->value, ")"),
+             .unit = unit_of_samples(peak->lines, trimmed(unit.substr(unit.find('(') + 1)))}};
+}
+
 } // namespace
 
 RecordFile read_knet(Lines lines, const RecordOptions&)
@@ -83,6 +101,10 @@ RecordFile read_knet(Lines lines, const RecordOptions&)
         .time_step = 1 / rate,
         .is_uncorrected = true,
         .header = header.kept()};
+    component.remarks = compare(stated_peak(header), {.values = component.acceleration,
+                                                      .unit = component.unit,
+                                                      .time_step = component.time_step,
+                                                      .rounding = 0});
     return {.format = of_kiknet ? "KiK-net" : "K-NET", .components = {std::move(component)}};
 }
 

@@ -207,13 +207,13 @@ TEST(Cosmos, IsRefusedWithFileLineAndReason)
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"ContradictoryTimeSteps", with_value({}, true, 62, "5.0"),
-            "a.txt:17: the duration 0.2 s is not that of 10 samples at 0.005 s, 0.05 s. Correct it, or give the file "
-            "as it was published."},
+            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 samples at 0.005 s are 0.05 s. Give the file "
+            "as it was published, or correct the wrong one."},
         {"AContradictoryDuration", with(channel({.reals = {{34, "1.0"}}}), "approx    0 secs", "approx   50 secs"),
-            "a.txt:38: the duration 50 s is not that of 10 samples at 1 s, 10 s. Correct it, or give the file as it "
-            "was published."},
+            "a.txt:38: the approximate duration is 50 s, but 10 samples at 1 s are 10 s. Give the file as it was "
+            "published, or correct the wrong one."},
         {"AnUnknownTimeStep", channel({.reals = {}}),
-            "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Correct it."},
+            "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Give a file that states it."},
         {"CountsOfUnknownSensitivity", with_value(counts, true, 42, "-999"),
             "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, -999 and 1. Give the file of volume 1 or 2, in cm/sec2."},

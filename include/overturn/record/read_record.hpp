@@ -31,6 +31,8 @@ struct RecordComponent {
     /// Whether the file states that it was neither filtered nor corrected for the instrument.
     bool is_uncorrected = false;
     double start = 0; ///< time of the first sample, if the file states times [s]
+    /// Numbers of the header that differ from the samples by little, with their line.
+    std::vector<std::string> remarks = {};
     /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
     std::vector<std::string> header;
 };
