@@ -138,7 +138,8 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         .header = kept_lines(before, header_lines)};
     component.remarks = compare({{Stated::duration, times, "DURATION", sampling.duration},
                                  peak_after(title, "peak", "the peak")},
-                                {.values = component.acceleration,
+                                {.lines = times,
+                                 .values = component.acceleration,
                                  .unit = component.unit,
                                  .time_step = sampling.time_step,
                                  .rounding = sampling.rounding});

@@ -199,7 +199,8 @@ std::optional<RecordComponent> take_channel(Lines& lines)
     const auto [time_step, rounding] = time_step_of(reals);
     const auto unit = unit_of(announcing, integers[3]);
     std::vector<std::string> remarks = compare(
-        stated_numbers({before, integers, reals, announcing, !unit}), {.values = samples,
+        stated_numbers({before, integers, reals, announcing, !unit}), {.lines = announcing,
+                                                                       .values = samples,
                                                                        .unit = unit,
                                                                        .time_step = time_step,
                                                                        .rounding = rounding,

@@ -102,7 +102,8 @@ RecordComponent take_channel(Lines& lines)
     std::vector<StatedNumber> stated;
     add_numbers_of_text(before, announcing, stated);
     add_numbers_of_columns(before, announcing, stated);
-    component.remarks = compare(stated, {.values = component.acceleration,
+    component.remarks = compare(stated, {.lines = announcing,
+                                         .values = component.acceleration,
                                          .unit = component.unit,
                                          .time_step = component.time_step,
                                          .rounding = rounding_of(step)});

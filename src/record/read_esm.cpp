@@ -65,7 +65,8 @@ RecordFile read_esm(Lines lines, const RecordOptions&)
                               .time_step = time_step,
                               .is_uncorrected = is_raw,
                               .header = header.kept()};
-    component.remarks = compare(stated_numbers(header), {.values = component.acceleration,
+    component.remarks = compare(stated_numbers(header), {.lines = lines,
+                                                         .values = component.acceleration,
                                                          .unit = unit,
                                                          .time_step = time_step,
                                                          .rounding = rounding_of(step.value),

@@ -101,7 +101,8 @@ RecordFile read_knet(Lines lines, const RecordOptions&)
         .time_step = 1 / rate,
         .is_uncorrected = true,
         .header = header.kept()};
-    component.remarks = compare(stated_peak(header), {.values = component.acceleration,
+    component.remarks = compare(stated_peak(header), {.lines = lines,
+                                                      .values = component.acceleration,
                                                       .unit = component.unit,
                                                       .time_step = component.time_step,
                                                       .rounding = 0});

@@ -97,7 +97,8 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
     expect_no_times(rates, component.acceleration);
     component.remarks =
         compare(stated_numbers(before),
-                {.values = component.acceleration,
+                {.lines = before,
+                 .values = component.acceleration,
                  .unit = component.unit,
                  .time_step = component.time_step,
                  .rounding = rounding_of(column_of(rates.line(), 15, 1)) / (rate * rate),

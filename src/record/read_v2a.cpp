@@ -86,7 +86,8 @@ RecordComponent take_component(Lines& lines)
     component.acceleration = take(3, "acceleration", 1);
     component.remarks =
         compare(stated_numbers(before),
-                {.values = component.acceleration,
+                {.lines = before,
+                 .values = component.acceleration,
                  .unit = component.unit,
                  .time_step = component.time_step,
                  .rounding = rounding_of(column_of(times.line(), columns.width, 5))});

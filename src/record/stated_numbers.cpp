@@ -194,10 +194,29 @@ std::string name_of_unit(const StatedNumber& stated, const Samples& samples)
     }
 }
 
+/// Refuses marks of missing values among the samples.
+void expect_no_marks(const Samples& samples)
+{
+    const auto mark = std::ranges::find_if(samples.values, is_mark_of_unknown);
+    if (mark == samples.values.end()) {
+        return;
+    }
+    double largest = 0; // of the others
+    for (const double value : samples.values) {
+        largest = std::max(largest, is_mark_of_unknown(value) ? 0 : std::abs(value));
+    }
+    if (std::abs(*mark) > 2 * largest) {
+        samples.lines.refuse_file("sample {} is {}, which stands for a missing value; the largest "
+                                  "other one is {}. Give a record without gaps.",
+                                  mark - samples.values.begin() + 1, *mark, largest);
+    }
+}
+
 } // namespace
 
 std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const Samples& samples)
 {
+    expect_no_marks(samples);
     std::vector<std::string> remarks;
     bool is_confirmed = false; // whether another number states the time step
     const auto judge = [&](const StatedNumber& number) {

@@ -41,6 +41,7 @@ struct StatedNumber {
 
 /// Samples as the file contains them.
 struct Samples {
+    const Lines& lines; ///< of the file
     const std::vector<double>& values;
     std::optional<AccelerationUnit> unit; ///< nullopt: counts
     double time_step;                     ///< [s]
@@ -48,7 +49,8 @@ struct Samples {
     bool may_have_offset = false;         ///< whether a stated peak may be that without the mean
 };
 
-/// Compares the numbers with the samples. Refuses another count; intervals, rates and durations
+/// Compares the numbers with the samples. Refuses samples that are marks of missing values and more
+/// than twice as large as all others; another count; intervals, rates and durations
 /// that differ by more than their digits allow; peaks that differ by more than 5 %; and times of
 /// peaks, unless another number confirms the time step. Returns a remark on each acceleration that
 /// differs by more than 1 %, and on each other difference that is not refused. Words that are not

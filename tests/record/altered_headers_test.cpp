@@ -415,5 +415,26 @@ TEST(AnAlteredHeader, OfAMadeFileIsNeverReadWithAWrongScaleOrLength)
     }
 }
 
+TEST(AMarkOfMissingValues, AmongTheSamplesIsRefused)
+{
+    const std::vector<std::pair<std::string (*)(Made), const char*>> files{
+        {[](Made motion) { return esm_file(motion); }, "-999"},
+        {[](Made motion) { return at2_file(motion); }, "-32768"},
+        {[](Made motion) { return v2a_file(motion); }, "-9999"},
+        {[](Made motion) { return smc_file(motion); }, "1.7e+38"},
+        {[](Made motion) { return cosmos_file(motion); }, "-999"},
+        {[](Made motion) { return csmip_file(motion); }, "-9999"}};
+    for (const auto& [text, mark] : files) {
+        for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+            Made motion = made(seed);
+            motion.values[5 + seed] = motion.values[20 + seed] = std::strtod(mark, nullptr);
+            EXPECT_EQ(refusal_of(text(motion)),
+                      fmt::format("a.txt: sample {} is {}, which stands for a missing value; the "
+                                  "largest other one is {}. Give a record without gaps.",
+                                  6 + seed, mark, std::abs(motion.peak)));
+        }
+    }
+}
+
 } // namespace
 } // namespace overturn
